@@ -1,16 +1,29 @@
-"""The board on the right: plots in frames with title, formula and legend, and their tabs."""
+"""The board on the right: plots in frames with title, formula and legend, and the list of other plots."""
 
+import re
 from functools import partial
+from html import escape
 from typing import Any
 
 import panel as pn
 
 from .draw import drawn, legend, picture_of
 from .extra import EXTRAS
-from .parts import Parts, button, text
+from .parts import Part, Parts, button, text
 from .plot import Plot, View
 from .plots import NAMED, PLOTS, visible
-from .ui import FULL, linked, show
+from .state import State
+from .ui import FULL, marked, show
+
+
+def opened(state: State, name: str) -> State:
+    """With an optional plot, or none, in the place of the one that is shown."""
+    return state.replace(tiles=(name,) if name else ())
+
+
+def _plain(html: str) -> str:
+    """The text of HTML, for an attribute."""
+    return re.sub(r"<[^>]*>", "", html).replace('"', "&quot;")
 
 
 class Card:
@@ -26,13 +39,18 @@ class Card:
         """Show the texts and buttons around the plot."""
         plot, page = self.plot, self._page
         # What is cut off by axes that stay leaves no gap: the plot would move while it is dragged.
-        kept = self._legend if "axes" in view.computed else {}
+        kept = self._legend if view.kept else {}
         self._legend = kept | drawn(view, plot)
-        formula = f"<h3>{plot.title}</h3>{linked(plot.formula_of(view.course))}"
+        law = plot.formula_of(view.course)
+        formula = f'<h3>{plot.title}</h3><span title="{escape(law)}">{marked(law)}</span>'
         buttons = (each.on_plots(page, plot, view) for each in EXTRAS.values())
         key = text("key", legend(plot, self._legend), "key")
-        choices, note = map(page.choice, plot.controls), text("note", plot.note_of(view), "note found")
-        self.head.show([text("formula", formula, "formula"), *filter(None, buttons), key, *choices, note])
+        close = [button("Close", partial(page.apply, partial(opened, name="")))] * bool(plot.tab)
+        choices, found = map(page.choice, plot.controls), plot.note_of(view)
+        # In one line, which shows the rest when it is pointed at, or large.
+        note = text("note", f'<span title="{_plain(found)}">{found}</span>', "note found")
+        first = text("formula", formula, "formula")
+        self.head.show([first, *choices, *filter(None, buttons), *close, key, note])
 
 
 class Board:
@@ -40,7 +58,6 @@ class Board:
 
     def __init__(self, page: Any):
         self._page, self.cards = page, {}
-        self.tabs = Parts("bar", "tabs")
         self.grid = pn.Column(css_classes=["plots"], **FULL)
         for name in NAMED:
             self._make(PLOTS[name])
@@ -64,24 +81,25 @@ class Board:
             show(card.view, visible=name in columns)
             if name in columns:
                 card.picture.show(columns[name], view)
-        count = len(columns) - len(NAMED)
-        show(self.grid, css_classes=["plots", f"with-{min(count, 2)}"])
+        show(self.grid, css_classes=["plots", f"with-{len(columns) - len(NAMED)}"])
 
     def show_parts(self, view: View) -> None:
-        """Show the texts and buttons around the plots that are seen, and the tabs that apply."""
+        """Show the texts and buttons around the plots that are seen."""
         for card in self.seen():
             card.show_parts(view)
-        tabs = [plot for plot in PLOTS.values() if plot.tab and plot.applies(view)]
-        self.tabs.show([self._tab(plot, plot.name in view.state.tiles) for plot in tabs])
 
-    def _tab(self, plot: Plot, shown: bool) -> Any:
-        """The button that shows an optional plot alone, or no longer."""
+    def others(self, view: View) -> Part:
+        """The list of plots of which one is shown beside the three; the next one takes its place."""
+        known = {plot.name: plot.tab for plot in PLOTS.values() if plot.tab and plot.applies(view)}
+        shown = next((plot.name for plot in visible(view) if plot.tab), "")
+        look = {"label": "Fourth plot", "about": "", "radio": False, "classes": "of-plots", "value": shown}
+        look["options"] = [["", "none"], *map(list, known.items())]
 
-        def change(state):
-            others = tuple(tile for tile in state.tiles if tile != plot.name)
-            return state.replace(tiles=others if plot.name in state.tiles else (plot.name,))
+        def choose(name):
+            if name in known or name == "":
+                self._page.apply(partial(opened, name=name))
 
-        return button(plot.tab, partial(self._page.apply, change), pressed=shown)
+        return Part("choice", "fourth plot", look, choose)
 
     def seen(self) -> list[Card]:
         """The cards that are seen."""

@@ -64,11 +64,11 @@ class Extra:
     drives: dict[str, Drive] = field(default_factory=dict)
     plots: tuple[Plot, ...] = ()
     overlays: tuple[Overlay, ...] = ()
-    #: Label of the button that opens its part of the page; where the part is: in the "side", or with a
-    #: button in the header "above" the side or "over" the plots; whether the button is there; and the part,
-    #: made of a page when it is first opened.
+    #: Label of the button in the header that opens its part of the page; where the part is: "above" the
+    #: form or "over" the plots, or without a button at the "top" of the form while it is offered; whether
+    #: it is offered; and the part, made of a page when it is first opened.
     tab: str = ""
-    place: str = "side"
+    place: str = "above"
     offered: Callable[[View], bool] = lambda view: True
     side: Callable[[Any], Side] | None = None
     #: A button in the header of a page for a view, and one above a plot; each may be None.

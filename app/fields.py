@@ -4,17 +4,19 @@ from functools import partial
 from typing import Any
 
 from mdr_core.files.text import decoded
-from mdr_core.results.units import UNITS, Unit, entry, fitting, read, written
+from mdr_core.show.units import UNITS, Unit, entry, fitting, read, written
 
 from . import changes
 from .extra import EXTRAS
 from .parts import Part, Parts, button, text, upload
 from .plot import View
 from .quantities import QUANTITIES, Quantity
-from .state import MEDIUM_CHOICES, PRESETS, State, altered, checked, regions
+from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, regions
 from .tip import Uploaded, read_tip
 from .ui import LAYOUT, linked, marked, symbol
 
+#: Option of the list of shapes that asks for a file.
+_FILE = "file"
 _FIRST = "Move a slider: orange springs have yielded. "
 
 
@@ -62,6 +64,7 @@ class Field:
         low, self._middle, high = slider_range(self._known, self._middle, value)
         look = {"text": entry(value, self._unit), "refused": self.refused, "value": value}
         look |= {"low": low, "middle": self._middle, "high": high}
+        look["ends"] = [written(end, self._known.kind, 3) for end in (low, high)]
         return Part("number", self._name, self._told | look, self._take)
 
     def _take(self, message: Any) -> None:
@@ -105,22 +108,19 @@ def _told(known: Quantity) -> dict[str, Any]:
     }
 
 
-def take_tip(page: Any) -> Part:
-    """The field for the file of a measured tip, as in the form."""
-    return page.frame.form.tip()
-
-
 def title(text_: str) -> Part:
     return text(text_, f"<h2>{text_}</h2>", "title")
 
 
 class Form:
-    """The form: drive, shape, E* and q_c; the rest of the medium folds."""
+    """The form: drive, shape, E*, the law of the hardness and its constant; all else folds."""
 
     def __init__(self, page: Any):
-        self._page, self._open = page, False
+        self._page, self._open = page, {"more": False, "tip": False}
         # Why the last file of a tip was refused.
         self._tip_refused = ""
+        #: Where the numbers of the preset come from, as HTML.
+        self.sources = ""
         self.view = Parts("form", stylesheets=LAYOUT)
 
     def show(self, view: View) -> None:
@@ -133,24 +133,47 @@ class Form:
         notes = [extra.notes(view) for extra in EXTRAS.values()]
 
         def note(place: str, before: str = "") -> Part:
-            return text(f"note {place}", before + "".join(each.get(place, "") for each in notes))
+            return text(f"note {place}", before + told(place))
+
+        def told(place: str) -> str:
+            return "".join(each.get(place, "") for each in notes)
+
+        self.sources = told("sources")
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
         # What differs from the preset is not folded.
-        in_use = not {*MEDIUM_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
-        opened = self._open or in_use
-        more = [*map(page.choice, MEDIUM_CHOICES), *numbers["more"], note("more")]
+        in_use = not {*FOLDED_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
+        opened = in_use or self._open["more"]
+        modulus, *constant = numbers["medium"]
+        more = [*map(page.choice, FOLDED_CHOICES), *numbers["more"], note("more")]
+        with_tip = self._open["tip"] or state.shape == "sampled" or self._tip_refused
         parts = [
             note("first", _FIRST),
             page.choice("drive"), *numbers["drive"], note("drive"),
             *map(page.choice, state.chosen("drive").form), *[again] * (state.drive == "impact"),
-            title("Indenter"), page.choice("shape"), note("shape"), *numbers["shape"],
-            title("Medium"), *numbers["medium"], note("medium"),
+            title("Indenter"), self._shape(state), *[self.tip()] * bool(with_tip), note("shape"),
+            *numbers["shape"],
+            title("Medium"), modulus, page.choice("plasticity"), *constant, *numbers["hardness"],
+            note("medium"),
             button("More about the medium", self._fold, pressed=opened, disabled=in_use),
             *(more if opened else []),
-            title("Tip and sources"), self.tip(), note("sources"),
         ]  # fmt: skip
         self.view.show(parts)
+
+    def _shape(self, state: State) -> Part:
+        """The list of shapes, of which one asks for the file of a measured tip while there is none."""
+        shapes = self._page.choice("shape")
+        if state.samples:
+            return shapes
+        pairs = [*shapes.look["options"], [_FILE, "Measured tip: a file"]]
+
+        def choose(option):
+            self._open["tip"] = option == _FILE
+            if option != _FILE:
+                shapes.act(option)
+            self._page.refresh()
+
+        return Part("choice", "shape", shapes.look | {"options": pairs}, choose)
 
     def tip(self) -> Part:
         """The field for the file of a measured tip, with what was refused in the last one."""
@@ -171,5 +194,5 @@ class Form:
 
     def _fold(self) -> None:
         """Open or close the rest of the medium."""
-        self._open = not self._open
+        self._open["more"] = not self._open["more"]
         self._page.refresh()

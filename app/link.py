@@ -1,5 +1,6 @@
 """States as links: defaults are left out, and links are read as hostile input."""
 
+import re
 from contextlib import suppress
 from math import isfinite
 from typing import Any
@@ -14,6 +15,12 @@ from .tip import MAX_SAMPLES
 
 #: Most characters of a link and of a text in it, and most names in a list.
 MAX_LENGTH, _MAX_TEXT, _MAX_NAMES = 8000, 300, 12
+#: Names that mail programs, search engines and other sites append to links.
+_APPENDED = re.compile(
+    r"utm_.*|\w*clk?id|gclsrc|[gw]braid|igsh(id)?|mc_[ce]id|_ga|_gl|_hs\w+|li_fat_id|srsltid|bokeh-.*"
+    r"|mkt_tok|mibextid|si|vero_id|ref",
+    re.IGNORECASE,
+)
 
 
 def write(state: State) -> str:
@@ -36,8 +43,9 @@ def _text(value: Any) -> str:
 
 
 def translated(query: str) -> Pairs:
-    """Names and values of a link, in the names of today."""
-    found = parse_qsl(query, keep_blank_values=True)
+    """Names and values of a link, without what others appended to it."""
+    given = parse_qsl(query, keep_blank_values=True)
+    found = [(name, text) for name, text in given if not _APPENDED.fullmatch(name)]
     for extra in EXTRAS.values():
         found = extra.translated(found)
     return found

@@ -22,6 +22,7 @@ from .parts import Part, choice
 from .player import frames
 from .plot import View
 from .quantities import in_words
+from .scales import Scales
 from .state import VIEW, State, as_shown, preset_state
 from .ui import JS, Messages
 
@@ -77,6 +78,7 @@ class Page:
         self._fields: dict[str, Field] = {}
         self.messages = Messages(name="messages")
         self.board = Board(self)
+        self.scales = Scales(self)
         self.frame = Frame(self)
         makers = dict.fromkeys(extra.service for extra in EXTRAS.values() if extra.service)
         self.services = [make(self) for make in makers]
@@ -197,7 +199,7 @@ class Page:
         computed = {name: each.compute(state, self.shown) for name, each in EXTRAS.items()}
         for service in self.services:
             computed |= service.compute(state, course)
-        view = View(state, course, computed)
+        view = View(state, course, computed, self.scales.kept(state))
         columns = self.board.columns(view)
         self.state, self.shown = state, view
         if now is None:

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.results.figures import NOTHING, Axis, Row
-from mdr_core.results.units import fitting
+from mdr_core.show.figures import NOTHING, Axis, Row
+from mdr_core.show.units import fitting
 
 from .courses import Course
 from .extra import EXTRAS
@@ -107,12 +107,20 @@ def axis(title: str, kind: str, largest: float, lowest: float = 0.0) -> Axis:
 
 
 class View:
-    """A state with its course and axes, and what extras have computed, by name."""
+    """A state with its course and axes, and what extras have computed, by name.
 
-    def __init__(self, state: State, course: Course, computed: dict[Any, Any] | None = None):
-        self.state, self.course, self.computed = state, course, computed or {}
-        #: Axes by what is along them, at first those that are kept.
-        self._axes: dict[Along, Axis] = dict(self.computed.get("axes", {}))
+    `kept` are axes of a view before, by what is along them, on which this one is drawn, too.
+    """
+
+    def __init__(
+        self,
+        state: State,
+        course: Course,
+        computed: dict[Any, Any] | None = None,
+        kept: dict[Along, Axis] | None = None,
+    ):
+        self.state, self.course, self.computed, self.kept = state, course, computed or {}, kept or {}
+        self._axes = dict(self.kept)
         self._places: dict[Any, dict[str, Any]] = {}
 
     def axis(self, along: Along) -> Axis:

@@ -1,12 +1,14 @@
 """The plots of the page: springs, pressure, and force over depth."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 
-from mdr_core.results import figures
-from mdr_core.results.figures import label, line, mark, split
-from mdr_core.results.quantities import QUANTITIES
+from mdr_core.show import figures
+from mdr_core.show.figures import label, line, mark, split
+from mdr_core.show.quantities import QUANTITIES
+from mdr_core.show.units import written
 
 from .courses import Course
 from .plot import Along, Plot, View
@@ -59,37 +61,82 @@ F = Along(QUANTITIES["force"].title, "force", _of_states("force"))
 P = Along("−σzz, pressure", "pressure", _pressures)
 
 
+# What is cut off by axes that are kept.
+
+CUT_OFF = label("cut off")
+
+
+def _cut_off(view: View, states: Any, axes: dict[Along, tuple[str, str]], up: Along, share: float) -> dict:
+    """A label that says what leaves kept axes: quantities of states and their symbols, by their axes.
+
+    It stands at a share of the upright axis.
+    """
+    if not view.kept:
+        return {}
+    said = ", ".join(dict.fromkeys(_beyond(view, states, axes)))
+    across = view.axis(next(iter(axes)))
+    left = across.start + 0.015 * (across.end - across.start)
+    return {"cut off": (left, share * view.end(up), f"cut off: {said}" if said else "")}
+
+
+def _beyond(view: View, states: Any, axes: dict[Along, tuple[str, str]]) -> Iterator[str]:
+    for along, (name, symbol) in axes.items():
+        axis, values = view.axis(along), getattr(states, name)
+        high = -axis.start if along is Z else axis.end
+        low = axis.start if along in (D, F) else -np.inf
+        for value in (float(np.min(values)), float(np.max(values))):
+            if not low - 1e-9 * high <= value <= (1 + 1e-9) * high:
+                yield f"{symbol} = {written(value, along.kind, 3)}"
+
+
 # Springs.
 
 
 def springs(view: View, i: int) -> dict:
     """Springs by their state."""
-    course, z = view.course, view.axis(Z)
-    return figures.springs(course.states[i], view.end(X), z.start, z.end, lambda g: course.relaxing(i, g))
+    course, z, state = view.course, view.axis(Z), view.course.states[i]
+    rows = figures.springs(state, view.end(X), z.start, z.end, lambda g: course.relaxing(i, g))
+    return rows | _cut_off(view, state, {X: ("contact_radius", "a"), Z: ("depth", "d")}, Z, 0.97)
 
 
 def _spring_formula(course: Course) -> str:
     if course.adhesive:
         return "q = E* (u − Δl),  Δl = √(2π a w/E*)  § 19"
     law = "(1) (17) (18)  q = E* u + 4η du/dt" if course.dashpots else "(17) (18)  q = E* u"
-    of_class_b = course.scene.medium.inverse_to_radius
-    cap = "d_c" if of_class_b else "u_c = π a σ_c/(2E*)  § 20"
-    return f"{law},  u ≤ {cap}{course.more_law}"
+    return f"{law},  u ≤ {_cap(course)}{course.more_law}"
 
 
-SPRINGS = Plot("springs", "1D foundation", _spring_formula, (X, Z), figures.SPRING_ROWS, springs)
+def _cap(course: Course) -> str:
+    """Largest elastic compression of a spring; where it depends on a, at the largest depth."""
+    medium = course.scene.medium
+    if medium.q_c == np.inf:
+        return "∞"
+    if medium.inverse_to_radius:
+        return f"d_c = π q_c/(2E*) = {written(float(medium.critical_depth), 'length')}"
+    a = float(course.turning_point.contact_radius)
+    if a == 0:
+        return "u_c = π a σ_c/(2E*)  § 20"
+    cap = np.pi * a * float(medium.hardness_at(a)) / (2 * medium.E_star)
+    return f"u_c = π a σ_c/(2E*) = {written(cap, 'length')}  § 20"
+
+
+SPRINGS = Plot(
+    "springs", "1D foundation", _spring_formula, (X, Z), (*figures.SPRING_ROWS, CUT_OFF), springs,
+)  # fmt: skip
 
 
 # Pressure.
 
 
 def pressure(view: View, i: int) -> dict:
-    return figures.pressure(view.course.states[i], view.end(R), view.end(P))
+    state = view.course.states[i]
+    rows = figures.pressure(state, view.end(R), view.end(P))
+    return rows | _cut_off(view, state, {R: ("contact_radius", "a")}, P, 0.86)
 
 
 PRESSURE = Plot(
     "pressure", "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
-    figures.PRESSURE_ROWS, pressure,
+    (*figures.PRESSURE_ROWS, CUT_OFF), pressure,
 )  # fmt: skip
 
 
@@ -103,6 +150,7 @@ def force(view: View, i: int) -> dict:
     depth = states.depth[past]
     rows = split(depth, states.force[past], depth, states.live_interval.lower[past])
     rows["now"] = states.depth[[i]], states.force[[i]]
+    rows |= _cut_off(view, states, {D: ("depth", "d"), F: ("force", "F")}, F, 0.97)
     if course.turns:
         rows["path ahead"] = states.depth, states.force
     if onset is not None and not course.dashpots:
@@ -131,6 +179,7 @@ FORCE = Plot(
         mark("onset of yield", "paper", "yielded", "diamond", 11),
         mark("now", size=13),
         label("dₚ"),
+        CUT_OFF,
     ),
     force,
 )  # fmt: skip
@@ -143,6 +192,6 @@ NAMED = tuple(PLOTS)
 
 
 def visible(view: View) -> list[Plot]:
-    """Plots that a view shows, in their order."""
-    plots = (plot for plot in PLOTS.values() if not plot.tab or plot.name in view.state.tiles)
-    return [plot for plot in plots if plot.applies(view)]
+    """Plots that a view shows: the three, and the first optional one that applies."""
+    optional = [PLOTS[name] for name in view.state.tiles if name not in NAMED]
+    return [*map(PLOTS.get, NAMED), *[plot for plot in optional if plot.applies(view)][:1]]

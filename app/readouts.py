@@ -1,13 +1,15 @@
 """Readouts: numbers of a course, with their units and explanations."""
 
+from collections.abc import Callable
+from html import escape
 from typing import Any
 
 import numpy as np
 
-from mdr_core.results.units import KINDS, written
+from mdr_core.show.units import KINDS, written
 
 from .courses import Course
-from .quantities import CHOICES, READOUTS, Readout
+from .quantities import CHOICES, READOUTS, Readout, lowered
 from .ui import linked, symbol
 
 #: Relative to the largest term of a sum: what is left of it by rounding, some units in the last place.
@@ -50,13 +52,20 @@ def values(numbers: dict[Readout, Any], i: int) -> str:
 
 
 def heads(numbers: dict[Readout, Any]) -> str:
-    """Heads of the line, with explanations, as HTML."""
+    """Heads of the line, as HTML; pointed at they say what they are, as the notes do."""
     return f'<div class="strip">{"".join(map(head, numbers))}</div>'
 
 
 def head(readout: Readout) -> str:
-    """Head of a readout with its explanation, as HTML."""
-    key, name = f"about-{readout.name}", f"{symbol(readout.symbol)} {readout.long_name}"
-    about = f"<p>{linked(readout.help)}</p><em>{linked(readout.equation)}</em>"
-    button = f'<button class="word" popovertarget="{key}">{name}</button>'
-    return f'{button}<div popover id="{key}">{about}</div>'
+    about = escape(f"{lowered(readout.help)} {lowered(readout.equation)}".strip())
+    return f'<span class="name" title="{about}">{symbol(readout.symbol)} {readout.long_name}</span>'
+
+
+def explained(numbers: dict[Readout, Any], link: Callable[[str], str] = linked) -> str:
+    """What each number is, with its equation, as HTML; `link` is what makes HTML of a text."""
+    rows = (
+        f"<dt>{symbol(each.symbol)} {each.long_name}</dt>"
+        f"<dd>{link(each.help)} <em>{link(each.equation)}</em></dd>"
+        for each in numbers
+    )
+    return f"<dl>{''.join(rows)}</dl>"

@@ -5,15 +5,16 @@ from math import isclose
 from typing import Any
 
 import mdr_core as mdr
-from mdr_core.results.units import entry, fitting, read, written
+from mdr_core.show.units import entry, fitting, read, written
 
 from .quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
 
 _PRESETS = read_data(ASSETS / "presets.json")
 #: The preset that the page opens with.
 OPENING = next(iter(_PRESETS["scenes"]))
-#: Choices about the medium.
+#: Choices about the medium; those that fold in the form.
 MEDIUM_CHOICES = ("elasticity", "plasticity", "damping", "adhesion")
+FOLDED_CHOICES = ("elasticity", "damping", "adhesion")
 #: What the view is like rather than the scene, with defaults: undo leaves it alone. Extras add theirs.
 VIEW: dict[str, Any] = {"at": 1.0, "tiles": (), "dark": False}
 #: Values of extras by their names, as in "sweep.swept", with their defaults.
@@ -158,11 +159,13 @@ def yield_constant(state: State) -> list[str]:
 def regions(state: State) -> dict[str, list[str]]:
     """Names of the numbers in the form, by its regions."""
     main = ["E_star", *yield_constant(state)]
+    measured = [name for name in used_by(state, "plasticity") if name not in main]
     return {
         "shape": used_by(state, "shape"),
         "drive": used_by(state, "drive"),
         "medium": main,
-        "more": [name for name in used_by(state, *MEDIUM_CHOICES) if name not in main],
+        "hardness": measured,
+        "more": [name for name in used_by(state, *MEDIUM_CHOICES) if name not in (*main, *measured)],
     }
 
 
@@ -214,7 +217,7 @@ def refuse_other_classes(state: State, what: str, instead: str) -> None:
 def medium(state: State) -> mdr.Medium:
     """Medium under the indenter."""
     if state.adhesion == "work":
-        refuse_other_classes(state, "adhesion", "yield none")
+        refuse_other_classes(state, "adhesion", "no yield")
     names = [*yield_constant(state), *used_by(state, "damping", "adhesion")]
     # The core calls the constant hardness `hardness`, which is another number of the page.
     given = {name.removeprefix("volume_"): state[name] for name in names}

@@ -5,7 +5,7 @@ from math import atan, degrees
 
 import numpy as np
 
-from mdr_core.results.units import digits, written
+from mdr_core.show.units import digits, written
 
 from ..courses import Course, onset_depth
 from ..extra import Extra
@@ -26,7 +26,7 @@ def notes(view: View) -> dict[str, str]:
     for name, source in preset.sources.items():
         value = marked(with_symbol(name, preset.values[name]))
         sources += f"<dt>{value}</dt><dd>{escape(source)}</dd>"
-    head = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from"
+    head = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from:"
     energy = written(state.mass * state.speed**2 / 2, "energy")
     height = written(state.speed**2 / (2 * _GRAVITY), "length")
     slope = getattr(course.scene.profile, "slope", None)
@@ -37,9 +37,9 @@ def notes(view: View) -> dict[str, str]:
         "drive": f"Energy {energy}; equivalent drop height {height}" * (state.drive == "impact"),
         "shape": f"<figcaption>{marked(shape.height)}<br>{marked(shape.reduced)}</figcaption>"
         + marked(state.tip_note if state.shape == "sampled" else angle),
-        "medium": linked(law_of_hardness(course)),
+        "medium": marked(law_of_hardness(course)),
         "more": linked(f"η = {eta}, τ = 4η/E* = {tau} (1){idle}") if made.eta > 0 else "",
-        "sources": f"<details><summary>{head}</summary><dl>{sources}</dl></details>",
+        "sources": f"<p>{head}</p><dl>{sources}</dl>",
     }
 
 

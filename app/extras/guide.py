@@ -1,4 +1,4 @@
-"""Guided scenes: steps with a state and a text."""
+"""Guided scenes, steps with a state and a text; and help: keys, and what the page is."""
 
 import json
 import re
@@ -20,6 +20,8 @@ from ..ui import WIDE, html, linked, show
 
 #: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
 TOURS = json.loads(Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))
+#: Keys, and what the page is.
+_HELP = Path(__file__).with_suffix(".html").read_text(encoding="utf-8")
 
 _INTRO = "Guided scenes, each of a few steps. Next starts the scene; Undo undoes a step."
 _LEFT = "The scene has been changed since this step. Back and Next continue."
@@ -35,13 +37,12 @@ def tours() -> dict[str, list[dict[str, Any]]]:
 
 
 def step_state(step: dict[str, Any], now: State) -> State:
-    """State of a step; theme, values of extras that it does not set, and other tiles stay."""
+    """State of a step, with its plots; theme, and values of extras that it does not set, stay."""
     state = link.read(urlencode(step["set"]))
     # Also a value that is set to its default is set.
     named = {name for name, _ in link.translated(urlencode(step["set"]))}
     kept = {name: value for name, value in now.extras.items() if name not in named}
-    tiles = state.tiles or now.tiles
-    return state.replace(tiles=tiles, dark=now.dark, **(kept | state.extras))
+    return state.replace(dark=now.dark, **(kept | state.extras))
 
 
 def step_text(step: dict[str, Any], course: Course) -> str:
@@ -67,7 +68,7 @@ class Guide:
         self.title.param.watch(lambda event: self.go(0), "value")
         self.back.on_click(lambda event: self.go(self.at - 1))
         self.next.on_click(lambda event: self.go(self.at + 1))
-        parts = self.title, tools(self.back, self.next), self.words
+        parts = self.title, tools(self.back, self.next), self.words, html(_HELP)
         self.view = pn.Column(*parts, css_classes=["guide"], **WIDE)
 
     def go(self, at: int) -> None:

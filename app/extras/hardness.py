@@ -4,15 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from mdr_core.results.figures import line, mark, parts, split
-from mdr_core.results.units import digits, written
+from mdr_core.show.figures import line, mark, parts, split
+from mdr_core.show.units import digits, written
 
 from ..courses import Course
 from ..extra import Extra
 from ..plot import View, axis
 from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
-from ..state import State
 from ..ui import marked
 
 #: Decades of logarithmic axes of radii and of pressures.
@@ -22,9 +21,9 @@ _RADII, _PRESSURES = 2, 3
 _MOST = 4
 
 
-def found(course: Course, asked: tuple[bool]) -> Found:
+def found(course: Course, asked: tuple[str]) -> Found:
     """Mean pressure along the path, the hardness at each contact radius, and axes, logarithmic if asked."""
-    (log,), states, made = asked, course.states, course.scene.medium
+    (scale,), states, made = asked, course.states, course.scene.medium
     # Without contact there is no pressure.
     a, p = states.contact_radius, np.where(states.contact_radius > 0, states.mean_pressure, np.nan)
     rows = split(a, p, states.depth, states.live_interval.lower)
@@ -41,7 +40,7 @@ def found(course: Course, asked: tuple[bool]) -> Found:
         axis("a, contact radius", "length", 1.2 * widest),
         axis("pₘ, pressure", "pressure", most),
     )
-    if log:
+    if scale == "log":
         x = replace(x, start=10.0**-_RADII * x.end, log=True)
         end = 10.0 ** np.ceil(np.log10(most / y.factor)) * y.factor
         y = replace(y, start=10.0**-_PRESSURES * end, end=end, log=True)
@@ -71,16 +70,11 @@ def now(view: View, i: int) -> dict:
     return {"now": (states.contact_radius[[i]], states.mean_pressure[[i]])}
 
 
-def asked(state: State) -> tuple[bool]:
-    """Whether logarithmic axes are asked for, of which another extra knows."""
-    return ("hardness" in state.extras.get("log.plots", ()),)
-
-
 HARDNESS = Searched(
     "hardness", "Mean pressure and hardness", "(11)  p_m = F/(π a²),  σ_c = H + q_c/a + f_c/a²  § 20", (),
     (line("hardness", "ink", 1.4, "dotted", "σ"), *parts("pₘ"), mark("now", size=13)),
-    places=now, find=found, asks=asked, quick=lambda asked: True, tab="Hardness", order=15,
-    picture=Logarithmic,
+    places=now, find=found, quick=lambda asked: True, tab="Hardness", order=15,
+    picture=Logarithmic, controls=("hardness.axes",),
 )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""Held scenes: up to four, kept as links, drawn beside the present one and listed with their numbers."""
+"""Compared scenes: up to four, kept as links, on common axes with the present one, and their numbers."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import panel as pn
 
-from mdr_core.results import figures
-from mdr_core.results.figures import NOTHING, both, line
+from mdr_core.show import figures
+from mdr_core.show.figures import NOTHING, both, line
 
 from .. import link
 from ..courses import Course
@@ -16,7 +16,7 @@ from ..drives import follow, scene_of
 from ..extra import Extra, Pairs
 from ..parts import Part, button
 from ..plot import Along, Overlay, View
-from ..plots import PLOTS, P, R
+from ..plots import PLOTS, P, R, X
 from ..readouts import line as readout_line
 from ..readouts import text
 from ..shared import widgets
@@ -27,6 +27,8 @@ from ..ui import WIDE, html, marked, show, symbol
 
 #: Scenes that are held have each its own dashes.
 DASHES = ("dotdash", "dashed", "dotted", "solid")
+#: And its own colour, by its role.
+ROLES = ("held", "held-2", "held-3", "held-4")
 #: Share of both axes below which a curve is a point.
 _SEEN = 0.01
 
@@ -53,7 +55,7 @@ def translated(pairs: Pairs) -> Pairs:
     """A link of which what is no scene is among its unknown names."""
     found = []
     for name, value in pairs:
-        if name not in ("held.scenes", "hold"):
+        if name != "held.scenes":
             found.append((name, value))
             continue
         scenes = value.split()
@@ -123,6 +125,19 @@ def scenes(view: View) -> list[Held]:
     return view.computed.get("held", [])
 
 
+def _reach(view: View, along: Along) -> tuple[float, float]:
+    """How far compared scenes go along an axis of a plot in which they are drawn."""
+    plots = [PLOTS[overlay.on] for overlay in OVERLAYS if along in PLOTS[overlay.on].axes]
+    courses = (each.course for each in scenes(view))
+    known = [c for c in courses if any(plot.applies(View(view.state, c)) for plot in plots)]
+    lowest, largest = zip((0.0, 0.0), *map(along.span, known), strict=True)
+    return min(lowest), max(largest)
+
+
+def _springs(view: View, course: Course) -> dict:
+    return {"": figures.spring_line(course.state, view.end(X), lambda g: course.relaxing(course.now, g))}
+
+
 def _force(view: View, course: Course) -> dict:
     return {"": (course.states.depth, course.states.force)}
 
@@ -131,12 +146,6 @@ def _pressure(view: View, course: Course) -> dict:
     half = max(view.end(R), 1.01 * float(course.state.contact_radius))
     r = figures.radii(course.state, half)
     return {"": (both(r, -1), both(figures.cut(course.state.pressure(r), view.end(P))))}
-
-
-def _radii(view: View, course: Course) -> dict:
-    rows = PLOTS["radii"].places(View(view.state, course), course.peak)
-    whole = tuple(map(np.append, rows["contact radius a"], rows["unloading"]))
-    return {" a": whole, " c": rows["plastic zone c"]}
 
 
 def _over_time(plot: str, row: str) -> Callable[[View, Course], dict]:
@@ -150,12 +159,12 @@ def _over_time(plot: str, row: str) -> Callable[[View, Course], dict]:
 
 
 def _rows(symbol: str, what: str = "", width: float = 1.6, axis: int = 1, legend: bool = True) -> list:
-    dashes = enumerate(DASHES, 1)
-    return [line(f"held {k}{what}", "held", width, dash, symbol, axis, legend) for k, dash in dashes]
+    looks = enumerate(zip(ROLES, DASHES, strict=True), 1)
+    return [line(f"held {k}{what}", role, width, dash, symbol, axis, legend) for k, (role, dash) in looks]
 
 
 def _beyond(view: View, axes: list[Along], rows: list[tuple]) -> str:
-    """What of a scene is not seen on the axes, which are those of the present one, in brackets."""
+    """What of a scene is not seen on the axes, in brackets: they stay while something is dragged."""
     small = True
     for k, along in enumerate(axes):
         axis, columns = view.axis(along), np.concatenate([row[k] for row in rows])
@@ -178,14 +187,23 @@ def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> 
             found |= {f"held {k}{what}": (*part, name) for what, part in parts.items()}
         return found
 
-    return Overlay(plot, tuple(rows), places)
+    return Overlay(plot, tuple(rows), places, _reach if plot == "springs" else Overlay.reach)
 
 
-# The panel and the button.
+OVERLAYS = (
+    _overlay("springs", _rows("z", width=2.2), _springs),
+    _overlay("force", _rows("F"), _force),
+    _overlay("pressure", _rows("−σzz"), _pressure),
+    _overlay("motion", _rows("F", axis=2), _over_time("motion", "force F")),
+    _overlay("forces", _rows("F"), _over_time("forces", "tangential force Fₓ")),
+)
+
+
+# The table and the button.
 
 
 def _dash(k: int) -> str:
-    return f'<span class="held"><i class="lines {DASHES[k]}"></i></span>'
+    return f'<span class="{ROLES[k]}"><i class="lines {DASHES[k]}"></i></span>'
 
 
 class Table:
@@ -197,8 +215,7 @@ class Table:
             remove = widgets.button(f"Remove {k + 1}", width=76)
             remove.on_click(lambda event, k=k: apply(lambda state: _without(state, k)))
             self._rows.append(pn.Row(html("", "key"), remove, css_classes=["head"], visible=False, **WIDE))
-        note = html("<i>Hold</i> keeps the present scene for comparison; axes are those of the later one.")
-        self.view = pn.Column(note, *self._rows, self._numbers, css_classes=["held"], **WIDE)
+        self.view = pn.Column(*self._rows, self._numbers, css_classes=["held"], **WIDE)
 
     def show(self, view: View) -> None:
         held = scenes(view)
@@ -206,16 +223,19 @@ class Table:
             show(row, visible=k < len(held))
             show(row[0], object=f"{_dash(k)}{marked(held[k].name)}" if k < len(held) else "")
         columns = [numbers(course) for course in (view.course, *(each.course for each in held))]
-        rows = [["", "now", *map(_dash, range(len(held)))]]
-        rows += [[symbol(name), *(each.get(name, "–") for each in columns)] for name in columns[0]]
+        rows = [["at d<sub>max</sub>", "now", *map(_dash, range(len(held)))]]
+        found = [[name, *(each.get(name, "–") for each in columns)] for name in columns[0]]
+        # Numbers that differ; what is the same need not be read twice.
+        rows += [[symbol(name), *texts] for name, *texts in found if len({*texts}) > 1]
+        same = "All numbers are the same." * (len(rows) == 1)
         cells = "".join(f"<tr><th>{head}</th><td>{'</td><td>'.join(row)}</td></tr>" for head, *row in rows)
-        show(self._numbers, object=f"<table>{cells}</table>" if held else "")
+        show(self._numbers, object=same or f"<table>{cells}</table>")
 
 
-def hold(page: Any, view: View) -> Part:
-    """The button *Hold*."""
+def compare(page: Any, view: View) -> Part:
+    """The button *Compare*: it keeps the present scene beside later ones."""
     pressed = bool(view.state["held.scenes"]) and is_held(view.state)
-    return button("Hold", lambda: page.apply(toggle_hold), pressed=pressed)
+    return button("Compare", lambda: page.apply(toggle_hold), pressed=pressed)
 
 
 def compute(state: State, before: View | None) -> list[Held]:
@@ -240,20 +260,14 @@ EXTRA = Extra(
     order=10,
     values={"held.scenes": ()},
     of_view=("held.scenes",),
-    tab="Held",
-    overlays=(
-        _overlay("force", _rows("F"), _force),
-        _overlay("pressure", _rows("−σzz"), _pressure),
-        _overlay("radii", [*_rows("a", " a"), *_rows("c", " c", 0.9, legend=False)], _radii),
-        _overlay("motion", _rows("F", axis=2), _over_time("motion", "force F")),
-        _overlay("forces", _rows("F"), _over_time("forces", "tangential force Fₓ")),
-    ),
+    overlays=OVERLAYS,
+    place="top",
     translated=translated,
     check=check,
     compute=compute,
     courses=lambda view: [each.course for each in scenes(view)],
     offered=lambda view: bool(view.state["held.scenes"]),
-    header=hold,
+    header=compare,
     side=lambda page: Table(page.apply),
     told=told,
 )

@@ -1,16 +1,20 @@
-"""Assumptions of the model, and notes on the course, below the player."""
+"""Assumptions of the model, notes on the course, and what the numbers are, below the player."""
 
 from collections.abc import Iterator
 from typing import Any
 
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
+from .. import readouts
 from ..courses import Course
 from ..extra import Extra
 from ..plot import View
+from ..plots import visible
 from ..quantities import CHOICES
 from ..state import State
 from ..ui import linked, marked
+
+_HEAD = "Numbers, equations, assumptions"
 
 
 def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
@@ -45,20 +49,24 @@ def _own_words(limit: Any, state: State) -> str:
 
 
 def below(view: View) -> str:
-    """Exceeded assumptions as HTML; the others fold."""
+    """Exceeded assumptions as HTML; the others fold, with what the numbers and the plots are."""
     exceeded, others = "", ""
     for level, sentence in limits(view.course, view.state):
         html = f'<span class="{level}">{linked(sentence)}</span>'
         exceeded += html * (level == "beyond")
         others += html * (level != "beyond")
-    return exceeded + f"<details><summary>Assumptions and notes</summary>{others}</details>" * bool(others)
+    others += readouts.explained(readouts.line(view.course))
+    laws = [(plot.title, linked(plot.formula_of(view.course))) for plot in visible(view)]
+    plots = (f"<dt>{title}</dt><dd><em>{law}</em></dd>" for title, law in laws)
+    return f"{exceeded}<details><summary>{_HEAD}</summary>{others}<dl>{''.join(plots)}</dl></details>"
 
 
 def told(view: View) -> list[tuple[str, str]]:
     """All of them as HTML, without links to pages of the server."""
     sentences = limits(view.course, view.state)
     html = (f'<span class="{level}">{marked(sentence)}</span>' for level, sentence in sentences)
-    return [("Assumptions and notes", "".join(html))]
+    numbers = readouts.explained(readouts.line(view.course), marked)
+    return [("Assumptions and notes", "".join(html)), ("What the numbers are", numbers)]
 
 
 EXTRA = Extra("notes", order=30, below=below, told=told)

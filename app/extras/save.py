@@ -7,7 +7,7 @@ from ..draw import drawn
 from ..extra import Extra, Service
 from ..parts import Part
 from ..plot import Plot, View, rows_of
-from ..plots import NAMED, visible
+from ..plots import visible
 from ..quantities import lowered
 from ..shared.summary import summary
 from ..state import State
@@ -16,6 +16,9 @@ from ..state import State
 _SIZE, _WHOLE = (840, 624), (0, 0, 840, 600)
 _SCREEN = (1280, 720)
 _PLACES = {"springs": (0, 0, 640, 348), "pressure": (0, 348, 640, 348), "force": (640, 0, 640, 696)}
+#: With a fourth plot, which is below the force.
+_WITH_FOURTH = _PLACES | {"force": (640, 0, 640, 348)}
+_FOURTH = (640, 348, 640, 348)
 
 
 class Legends(Service):
@@ -50,8 +53,10 @@ def of_plot(page: Any, plot: Plot, view: View) -> Part:
 
 
 def of_all(page: Any, view: View) -> Part:
-    """The button that saves the three plots as one picture."""
-    return save("Save plots", "plots", {name: _PLACES[name] for name in NAMED}, _SCREEN, view)
+    """The button that saves the plots that are seen as one picture."""
+    names = [plot.name for plot in visible(view)]
+    known = _PLACES if len(names) == len(_PLACES) else _WITH_FOURTH
+    return save("Save plots", "plots", {name: known.get(name, _FOURTH) for name in names}, _SCREEN, view)
 
 
 EXTRA = Extra("save", order=32, on_plots=of_plot, header=of_all, service=Legends)

@@ -18,7 +18,7 @@ from bokeh.models import CustomJS
 from bokeh.resources import Resources
 
 import mdr_core as mdr
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 from .. import link, readouts
 from ..draw import PLACES, Picture, drawn, legend, picture_of
@@ -127,7 +127,7 @@ def _inputs(state: State) -> Iterator[tuple[str, str, str, str]]:
     note = state.tip_note if state.shape == "sampled" else f"{shape.height},  {shape.reduced}"
     yield "", "indenter", escape(shape.label), marked(note)
     for choice in (*MEDIUM_CHOICES, "drive"):
-        yield "", CHOICES[choice].label.lower(), state.chosen(choice).label, ""
+        yield "", CHOICES[choice].label.lower(), marked(state.chosen(choice).label), ""
     given = used(state)
     for name in dict.fromkeys([*given, "E_star", *yield_constant(state)]):
         known, value = QUANTITIES[name], state[name]

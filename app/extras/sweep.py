@@ -3,18 +3,20 @@
 from dataclasses import dataclass, replace
 from operator import attrgetter
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.results.figures import NOTHING, line, mark
-from mdr_core.results.quantities import QUANTITIES as RESULTS
-from mdr_core.results.units import KINDS, digits, in_full
+from mdr_core.show.figures import NOTHING, line, mark
+from mdr_core.show.quantities import QUANTITIES as RESULTS
+from mdr_core.show.units import KINDS, digits, in_full
 
 from ..changes import CONSTANTS, option, shown
 from ..extra import Extra
 from ..fields import slider_range
-from ..plot import axis
+from ..parts import Part, button
+from ..plot import Plot, View, axis
 from ..quantities import CHOICES, QUANTITIES, Option, in_words, lowered, quantity, read_data
 from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
@@ -282,9 +284,18 @@ SWEEP = Searched(
 )  # fmt: skip
 
 
+def e_over_v(page: Any, plot: Plot, view: View) -> Part | None:
+    """The button above the force of an impact that shows the restitution over the speed."""
+    if plot.name != "force" or view.state.drive != "impact":
+        return None
+    shown = {"tiles": ("sweep",), "sweep.swept": "speed", "sweep.against": "restitution"}
+    return button("e over v", lambda: page.apply(lambda state: state.replace(**shown)))
+
+
 EXTRA = Extra(
     "sweep",
     offers={"sweep.swept": swept, "sweep.against": against},
     plots=(SWEEP,),
+    on_plots=e_over_v,
     service=Resting,
 )

@@ -31,10 +31,10 @@ const KINDS = {
   // Radio buttons or a list, with an explanation in a popover.
   choice({ classes, label, about, radio, id }, send) {
     const popover = `<div popover id="about-${id}">${about}</div>`
+    const help = about && `<button class="help" aria-label="What is ${label}?" popovertarget="about-${id}">?</button>${popover}`
     const el = made("div", `choice ${classes}`, radio
       ? `<div class="radio"><button class="word" popovertarget="about-${id}">${label}</button>${popover}<div class="options"></div></div>`
-      : `<div class="list"><label for="list-${id}">${label}</label><select id="list-${id}"></select>
-        <button class="help" aria-label="What is ${label}?" popovertarget="about-${id}">?</button>${popover}</div>`)
+      : `<div class="list"><label for="list-${id}">${label}</label><select id="list-${id}"></select>${help}</div>`)
     const list = el.querySelector(radio ? ".options" : "select")
     let [asked, offered] = [0, ""]
     const choose = (option) => { asked = send(option) }
@@ -46,7 +46,10 @@ const KINDS = {
       return label
     }))
     if (!radio) list.onchange = () => choose(list.value)
-    return [el, ({ options, value }, answered) => {
+    const told = el.querySelector("[popover]")
+    let said = about
+    return [el, ({ options, value, about }, answered) => {
+      if (about !== said) told.innerHTML = said = about
       if (offered !== JSON.stringify(options)) filled(options)
       offered = JSON.stringify(options)
       // Also what was refused is answered: the present option stands again. Earlier answers do not touch what is asked now.
@@ -62,11 +65,13 @@ const KINDS = {
       <button class="help" aria-expanded="false" aria-label="What is ${spoken}?">?</button>
       <input id="text-${id}" type="text" spellcheck="false" autocomplete="off" aria-describedby="said-${id}" aria-label="${spoken}"></div>
       <input type="range" max="400" title="Arrow keys step, double-click resets" aria-label="${spoken}, slider">
+      <div class="ends" aria-hidden="true"><span></span><span>${span > 0 ? "logarithmic" : "linear"}</span><span></span></div>
       <p class="said" id="said-${id}" aria-live="polite"></p><div class="about" hidden>${about}</div>`)
     const [text, range] = el.querySelectorAll("input")
     const [said, about_it, help] = [".said", ".about", ".help"].map((name) => el.querySelector(name))
     let [now, answered, asked, wish, typing] = [null, 0, 0, null, false]
-    range.hidden = span < 0
+    const ends = el.querySelector(".ends")
+    range.hidden = ends.hidden = span < 0
     const busy = () => answered < asked
     const ask = (what) => { [asked, wish, typing] = [send(what), null, false] }
     // The value of each step has three digits, but at the ends.
@@ -89,6 +94,7 @@ const KINDS = {
       text.setAttribute("aria-invalid", String(now.refused !== ""))
       said.textContent = now.refused
       if (wish === null) range.value = step(now)
+      for (const [k, place] of [0, 2].entries()) if (ends.children[place].textContent !== now.ends[k]) ends.children[place].textContent = now.ends[k]
       range.style.setProperty("--share", range.value / range.max)
       range.setAttribute("aria-valuetext", now.text)
     }

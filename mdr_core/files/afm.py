@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _check
 from ..measured_curve import MODALITIES, MeasuredCurves
-from ..results.report import imported
+from ..show.report import imported
 from .curve import curve_of
 from .text import Table
 

@@ -5,9 +5,11 @@ import unicodedata
 from dataclasses import dataclass
 from functools import lru_cache
 
+from ..profiles.samples import LENGTHS
+
 #: Sizes of units (SI) by their kind.
 UNITS = {
-    "length": {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "Å": 1e-10, "cm": 1e-2},
+    "length": LENGTHS,
     "force": {"kN": 1e3, "N": 1.0, "mN": 1e-3, "µN": 1e-6, "nN": 1e-9, "pN": 1e-12, "MN": 1e6},
     "time": {"min": 60.0, "s": 1.0, "ms": 1e-3, "µs": 1e-6, "h": 3600.0},
     "voltage": {"V": 1.0, "mV": 1e-3},

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import partial
 
-from ..results.report import imported
+from ..show.report import imported
 from .columns import NoCurve, UnknownColumns
 from .curve import curves_of
 from .text import read_tables

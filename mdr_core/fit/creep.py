@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..results.quantities import engineering
+from ..show.quantities import engineering
 from .errors import roughness
 from .unloading import last_at_top
 

@@ -113,7 +113,7 @@ def _exponents(profile, largest):
     """Least and largest exponent of a loading to a depth (m): those of elastic contacts, and beyond."""
     depth = min(largest, profile.known_depth) * np.array([0.05, 0.2, 1.0])
     force = integrals(profile).radius_integral(LiveInterval.elastic(depth))
-    exponents = depth * profile._radius(depth) / force
+    exponents = depth * profile.radius_at(depth) / force
     return float(exponents.min()) - _SOFTER, float(exponents.max()) + _STIFFER
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..results.quantities import engineering
+from ..show.quantities import engineering
 
 #: Moduli E* (Pa) of materials, from the softest gels to diamond (1.15 TPa), with a margin.
 MODULI = 1.0, 2e12

@@ -8,10 +8,11 @@ import numpy as np
 from .. import _check
 from .._check import ArrayLike
 from ..medium import Medium, check_pair
+from ..numerics.results import Record
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
-from ..results.quantities import QUANTITIES, Quantity, described, engineering
-from ..results.report import Report
+from ..show.quantities import QUANTITIES, Quantity, described, engineering
+from ..show.report import rows
 from . import creep as creeping
 from .errors import roughness
 from .first_contact import FirstContact, first_contact
@@ -99,10 +100,11 @@ def oliver_pharr(
 
     **Creep** at the start of an unloading makes S too large. With `time`, and a hold of the force before
     the unloading, the depth of the unloading is reduced by creep at the rate ḣ of the end of the hold: at
-    the start of the unloading 1/S = 1/S_measured + ḣ/|Ṗ| (Feng and Ngan, J. Mater. Res. 17, 2002, 660).
-    `uncorrected` has the results without it. Of made records with ḣ/|Ṗ| of 20 % of 1/S, E* is then within
-    1 % instead of 14 or 15 % too large, where the unloading takes no longer than the hold; where it takes
-    four times as long, and the rate falls meanwhile, it is up to 3 % too small.
+    the start of the unloading 1/S = 1/S_measured − ḣ/Ṗ, where Ṗ < 0 is the rate of the force (Feng and
+    Ngan, J. Mater. Res. 17, 2002, 660). `uncorrected` has the results without it. For made records with
+    −ḣ/Ṗ of 20 % of 1/S, E* is then within 1 % instead of 14 or 15 % too large, where the unloading takes
+    no longer than the hold; where it takes four times as long, and the rate falls meanwhile, E* is up to
+    3 % too small.
 
     Examples
     --------
@@ -347,12 +349,12 @@ def _radius_at_height(profile, height):
     """Radius (m) of the profile at heights (m): 0 below its tip, infinite where it is not known."""
     known = np.minimum(profile.wall, profile.known_radius)
     # Without a slope the search is by bisection.
-    radius = increasing_root(lambda r: (profile._height(r), np.inf), height, np.abs(height), known)
+    radius = increasing_root(lambda r: (profile.height_at(r), np.inf), height, np.abs(height), known)
     return np.maximum(np.minimum(radius, profile.wall), profile.face_radius)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class OliverPharr(Report):
+class OliverPharr(Record):
     """Results for one unloading, or for each of a curve, returned by `oliver_pharr`.
 
     The standard errors, by name, are those of the scatter about the power law, and not less than half the
@@ -453,3 +455,8 @@ class OverDepth(OliverPharr):
             text = engineering(values[np.isfinite(values)], quantity.unit)
             yield f"{quantity.long_name} {quantity.symbol}", text
         yield from (("remark", remark) for remark in self.remarks)
+
+
+@rows.register
+def _rows_of_unloading(result: OliverPharr):
+    return result._rows()

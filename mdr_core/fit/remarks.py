@@ -4,7 +4,7 @@ from itertools import chain
 
 import numpy as np
 
-from ..results.quantities import engineering
+from ..show.quantities import engineering
 from .errors import SIGNIFICANT
 from .materials import is_modulus
 from .nested import nested_tests
@@ -114,7 +114,7 @@ def _is_enormous(solved, i):
     """Whether depths are evidently in another unit than m."""
     profile, values = solved.curves.profile, solved.values_and_states[0]
     reached = float(np.ptp(solved.curves.depth[i]))
-    radius = profile._radius(np.minimum(reached, profile.known_depth))
+    radius = profile.radius_at(np.minimum(reached, profile.known_depth))
     soft = reached > _LARGE and values["E_star"][i, 0] < _SOFTEST
     return reached > _ENORMOUS or soft or bool(radius > _BEYOND_TIP * profile.body_radius)
 
@@ -275,7 +275,7 @@ def _hardest(solved, i):
     if solved.curves.constants == ("q_c",):
         stands = f"q_c = ∞ stands for a critical depth of more than about {engineering(depth, 'm')}"
         return f"{stands}; press deeper"
-    radius = solved.curves.profile._radius(np.minimum(depth, solved.curves.profile.known_depth))
+    radius = solved.curves.profile.radius_at(np.minimum(depth, solved.curves.profile.known_depth))
     least = engineering(2 * values["E_star"][i, 0] * depth / (np.pi * radius), "Pa")
     return f"the medium is elastic, and harder than about {least} in the largest contact"
 

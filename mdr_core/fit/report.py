@@ -8,10 +8,10 @@ import numpy as np
 
 from .._check import Array
 from ..medium import Medium
+from ..numerics.results import Model, Record
 from ..profiles.profile import Profile
-from ..results.base import Model
-from ..results.quantities import described, engineering, unit_of
-from ..results.report import Report
+from ..show.quantities import described, engineering, unit_of
+from ..show.report import limit_rows, rows
 from .parameters import CLASSES, MEDIUM, PARAMETERS
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def with_error(value, error, unit):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Fit(Report):
+class Fit(Record):
     """Base class of fits: values and standard errors of the parameters by name, and their report.
 
     Attributes
@@ -131,6 +131,13 @@ class Fit(Report):
         """Rows on how well the model fits."""
         yield from ()
 
-    def _limit_rows(self, most):
-        yield from (("remark", remark) for remark in self.remarks)
-        yield from super()._limit_rows(most)
+
+@rows.register
+def _rows_of_fit(fit: Fit):
+    return fit._rows()
+
+
+@limit_rows.register
+def _limit_rows_of_fit(fit: Fit, most):
+    yield from (("remark", remark) for remark in fit.remarks)
+    yield from limit_rows.dispatch(Record)(fit, most)

@@ -11,9 +11,11 @@ from .._check import Array, ArrayLike
 from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..medium import Medium
-from ..results.quantities import described, engineering
-from ..results.report import imported
+from ..show.quantities import described, engineering
+from ..show.report import attributes as attributes_of
+from ..show.report import dimensions, imported
 from .classes import ClassFit, fit_again, fits_of_classes, verdict
+from .figures import plot_fit
 from .measurement import Measurement
 from .oliver_pharr import OLIVER_PHARR
 from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
@@ -162,8 +164,6 @@ class IndentationFit(Fit):
         The band of the residuals is one standard deviation of their noise, √(σ_F² + (S σ_d)²), S the
         stiffness. Drawn are measured depths and forces, with offset and background.
         """
-        from .figures import plot_fit
-
         self._one("plot")
         self._refuse_invalid("plot")
         return plot_fit(self)
@@ -179,7 +179,7 @@ class IndentationFit(Fit):
         """
         xarray = imported("xarray", "to_xarray()")
         # Zarr has no specification of texts of fixed length.
-        dims, parameters = self._dims(), np.array(list(self.standard_errors), object)
+        dims, parameters = dimensions(self), np.array(list(self.standard_errors), object)
         variables = {}
         for name, value in self.to_dict().items():
             variables[name] = dims, value, PARAMETERS[name.removesuffix("_error")].quantity.attributes
@@ -193,7 +193,7 @@ class IndentationFit(Fit):
             units = {"depth": "m", "time": "s"}.get(name, "N")
             variables[name] = (*dims, "sample"), values, {"units": units}
         variables["covariance"] = (*dims, "parameter", "other_parameter"), self.covariance
-        attributes = self._attributes() | {"indenter": described(self.profile), "model": str(self.model)}
+        attributes = attributes_of(self) | {"indenter": described(self.profile), "model": str(self.model)}
         attributes["remarks"] = "\n".join(self.remarks)
         attributes["depth_noise"] = self.depth_noise
         if self.invalid:

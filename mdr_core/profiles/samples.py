@@ -1,13 +1,12 @@
-"""Samples of a profile: from a table of heights, nearest convex ones, and from an area function."""
+"""Samples of a profile: the convex ones nearest to heights, and those of an area function."""
 
 import numpy as np
 import scipy
 
 from .. import _check
-from ..files.text import read_table
-from ..files.units import UNITS, unit_named
-from ..results.quantities import engineering
 
+#: Sizes (m) of units of length.
+LENGTHS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "Å": 1e-10, "cm": 1e-2}
 #: Misfit of a convex profile, over the noise and over the height, above which samples have another shape.
 #: Noise that is averaged over five neighbours looks 2.9 times smaller.
 _MISFIT, _SHARE = 4.0, 0.005
@@ -23,33 +22,17 @@ _REPAIRED = 1e-6
 _BLUNT, _WIDEST = 0.05, 100.0
 
 
-def samples_of(text, name, unit, limit, remedy=""):
-    """Radii and heights (m) in a text, at most `limit` of them; `unit` if its header names none.
+def length_unit(unit):
+    """Size (m) of a unit of length that is given by its name."""
+    _check.one_of("unit", unit, (*LENGTHS, "um"))
+    return LENGTHS["µm" if unit == "um" else unit]
 
-    `remedy` is what else the caller can do where no unit is named.
-    """
-    if unit is not None:
-        _check.one_of("unit", unit, (*UNITS["length"], "um"))
-    table = read_table(text, name, limit)
-    count = len(table.heads)
-    if table.odd or count < 2:
-        number = min(table.odd, default=table.lines[0])
-        expected = "two numbers r, z" if count <= 2 else f"{count} numbers, r and z first"
-        line = f", found {table.odd[number].strip()!r:.60}" if table.odd else ""
-        raise ValueError(f"{name}, line {number}: expected {expected}{line}")
-    columns = list(table.heads)[:2]
-    named = [u if u in UNITS["length"] else None for u in map(table.unit, columns)]
-    if unit is None and None in named:
-        raise ValueError(
-            f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', out of "
-            f"{', '.join(UNITS['length'])}{remedy}"
-        )
-    units = named if unit is None else [unit_named(unit)] * 2
-    if any(named) and named != units:
-        given = ", ".join(filter(None, named))
-        raise ValueError(f"{name}: unit={unit!r} was given, but the header says {given}")
-    r, z = map(table.values.get, columns)
-    return r * UNITS["length"][units[0]], z * UNITS["length"][units[1]]
+
+def _in_words(length):
+    """A length (m) with two digits as text."""
+    length = float(f"{length:.2g}")
+    name = next((name for name in ("m", "mm", "µm", "nm") if length >= LENGTHS[name]), "pm")
+    return f"{length / LENGTHS[name]:.4g} {name}"
 
 
 def axis_of_symmetry(r, z):
@@ -114,8 +97,8 @@ def _refuse_misfit(r, residual, height):
         return
     noise = np.sqrt(np.mean(np.diff(residual, 3) ** 2) / 20)
     if miss > _MISFIT * noise or (residual.size >= _ENOUGH_FOR_WAVES and _correlation(residual) > _WAVY):
-        miss = engineering(float(f"{miss:.2g}"), "m")
-        worst = engineering(float(f"{r[order][np.argmax(np.abs(residual))]:.2g}"), "m")
+        miss = _in_words(miss)
+        worst = _in_words(r[order][np.argmax(np.abs(residual))])
         raise ValueError(
             f"the nearest convex profile misses the samples by {miss} (rms, most at r = "
             f"{worst}), which is not noise: the tip is wavy or concave, so that the contact would "
@@ -137,10 +120,9 @@ def area_samples(coefficients, height, samples, limit, unit):
     coefficients = _check.finite_array("area coefficients", coefficients).ravel()
     height = _check.positive_number("height", height, unit="m")
     samples = _check.positive_number("samples", samples)
-    _check.one_of("unit", unit, (*UNITS["length"], "um"))
+    size = length_unit(unit)
     if not 2 <= samples <= limit or samples % 1:
         raise ValueError(f"samples = {samples:g} must be a whole number from 2 to {limit}")
-    size = UNITS["length"][unit_named(unit)]
     h = height * np.geomspace(1e-4, 1.0, int(samples) - 1)
     powers = 2.0 / 2.0 ** np.arange(coefficients.size)
     area = size**2 * ((h[:, None] / size) ** powers @ coefficients)
@@ -167,7 +149,7 @@ def area_samples(coefficients, height, samples, limit, unit):
     _check.refuse("area function: height", h, far, bound, unit="m", remedy=remedy)
     remarks = [_repaired(z, h)] if np.any(np.abs(z - h) > _REPAIRED * h[-1]) else []
     if first:
-        below = engineering(float(f"{h[1]:.2g}"), "m")
+        below = _in_words(h[1])
         remarks.append(
             f"the area function does not grow below a height of {below}: the tip is a cone there"
         )
@@ -178,10 +160,7 @@ def _repaired(z, h):
     """By how much the heights of an area function were changed."""
     change = np.abs(z - h)
     share = change[1:] / h[1:]
-    most, place, worst = (
-        engineering(float(f"{x:.2g}"), "m")
-        for x in (change.max(), h[change.argmax()], h[1 + share.argmax()])
-    )
+    most, place, worst = (_in_words(x) for x in (change.max(), h[change.argmax()], h[1 + share.argmax()]))
     return (
         f"the area function is concave in parts: heights were changed by up to {most} (at {place}), or "
         f"{100 * share.max():.2g} % (at {worst}), to make the tip convex"

@@ -3,23 +3,27 @@
 from app import changes, link
 from app.drives import follow
 from app.extra import EXTRAS
-from app.extras.former import NAMES
 from app.extras.guide import TOURS, step_state
 from app.parts import Parts
 from app.plot import View
 from app.readouts import readings
 from app.shared.rest import exact
-from app.state import State, preset_state
+from app.state import OF_EXTRAS, State, preset_state
 
 from .conftest import DROP, GOLD
+
+
+def full_name(name: str) -> str:
+    """Name of a value of the state of which the part of its extra may be left out."""
+    return next((each for each in OF_EXTRAS if each.endswith(f".{name}")), name)
 
 
 def state_with(key=GOLD, drive=None, **choices) -> State:
     """A preset with a drive, and options of choices as a person takes them, one after the other."""
     state = changes.choose(preset_state(key), "drive", drive) if drive else preset_state(key)
     for name, option in choices.items():
-        # Choices of extras by their former names: "pattern" is "path.pattern".
-        state = changes.choose(state, NAMES.get(name, name), option)
+        # Of choices of extras the last word: "pattern" is "path.pattern".
+        state = changes.choose(state, full_name(name), option)
     return state
 
 

@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 import app
-from mdr_core.results.figures import ROLES
+from mdr_core.show.figures import ROLES
 
 CSS = (Path(app.__file__).parent / "static" / "style.css").read_text(encoding="utf-8")
 
@@ -92,7 +92,6 @@ def test_every_text_of_the_page_is_read_in_the_dark(explorer):
     plastic zone ends above the mark of the onset of yield.
     """
     page = explorer.page
-    explorer.press("Menu")
     explorer.press("Dark")
     explorer.wait("document.documentElement.classList.contains('dark')")
     for row, up in (("now", -100), ("onset of yield", 100)):
@@ -101,7 +100,7 @@ def test_every_text_of_the_page_is_read_in_the_dark(explorer):
         with Image.open(BytesIO(page.screenshot(clip=clip))) as seen:
             pixels = {hexadecimal(str(pixel)) for _, pixel in seen.convert("RGB").getcolors()}
         assert max(contrast(pixel, DARK["paper"]) for pixel in pixels) >= 3, (row, pixels)
-    for part in ("Menu", "Share", "All numbers", "Fit a measurement", "Explore"):
+    for part in ("Guide", "Share", "Explore"):
         explorer.press(part)
         for text, *pair in page.evaluate(TEXTS):
             colours = list(map(hexadecimal, pair))

@@ -329,13 +329,13 @@ def test_numbers_of_two_bodies_are_swept_on_the_page(page, name):
     assert (page.notices, page.shown.computed["sweep"] is FAULT) == ([], False)
 
 
-def test_plots_that_have_never_been_drawn_are_presented(page):
+def test_a_plot_is_large_while_others_have_never_been_drawn(page):
     page.choose("drive", "path")
     press(page, "Sweep")
     press(page, "Sweep")
-    press(page, "Present")
+    part(page, "Large").act(None)
     press(page, "Section")
-    assert page.state["present.on"]
+    assert page.state["large.plot"]
     assert page.notices == []
 
 

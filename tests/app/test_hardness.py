@@ -17,7 +17,7 @@ from app.plots import PLOTS
 from app.quantities import ASSETS
 from app.shared.rest import Searched
 from app.state import PRESETS, altered, medium, preset_state, profile
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 from .conftest import DROP, GOLD, PUNCH
 from .states import fields_of, linked_state, numbers, part, solved, state_with, stepped, view_of
@@ -288,11 +288,11 @@ def test_the_peak_of_the_mean_pressure_is_on_its_axis_or_is_told():
     """Of a round nose on class (c) it is many times that of the largest depth; with dashpots infinite."""
     *_, last = stepped("Which kind of medium is it?")
     p = np.where(last.states.contact_radius > 0, last.states.mean_pressure, 0.0)
-    for log in (False, True):
-        drawn = found(last, (log,))
+    for scale in ("linear", "log"):
+        drawn = found(last, (scale,))
         assert drawn.axes[1].end > p.max() > 4 * last.turning_point.mean_pressure
         assert "Beyond the axis" not in drawn.note
     viscous = follow(state_with(DROP, damping="eta"))
-    drawn = found(viscous, (False,))
+    drawn = found(viscous, ("linear",))
     p = viscous.states.mean_pressure[viscous.states.contact_radius > 0]
     assert ("Beyond the axis" in drawn.note) == bool(p.max() > drawn.axes[1].end)

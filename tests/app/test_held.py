@@ -14,7 +14,7 @@ from app.page import Page
 from app.plot import rows_of
 from app.plots import PLOTS, D, F, P, X, Z
 from app.state import preset_state as preset
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 from .conftest import DROP
 from .states import linked_state, view_of
@@ -72,9 +72,8 @@ def test_each_has_its_own_row_in_every_plot():
     rows = view.places(PLOTS["force"], 0)
     for k, held in enumerate(view.computed["held"], 1):
         np.testing.assert_array_equal(rows[f"held {k}"][1], held.course.states.force)
-        for name in ("pressure", "radii"):
-            row = f"held {k} a" if name == "radii" else f"held {k}"
-            assert np.isfinite(view.places(PLOTS[name], view.course.now)[row][1]).any()
+        pressures = view.places(PLOTS["pressure"], view.course.now)[f"held {k}"][1]
+        assert np.isfinite(pressures).any()
     looks = {row.look["line_dash"] for row in rows_of(PLOTS["force"]) if row.role == "held"}
     assert len(looks) == len(states)
     names = drawn(view, PLOTS["force"])
@@ -110,8 +109,8 @@ def test_a_scene_of_another_scale_leaves_the_axes():
     gold, drop = preset(), preset(DROP)
     for now, other, fits in ((drop, gold, True), (gold, drop, False)):
         view = view_of(now, 1.0, other)
-        for name in ("force", "pressure", "radii"):
-            text = view.places(PLOTS[name], view.course.now)["held 1 a" if name == "radii" else "held 1"][2]
+        for name in ("force", "pressure"):
+            text = view.places(PLOTS[name], view.course.now)["held 1"][2]
             # The pressure of gold, 5.6 GPa in the mean, is beyond that of a laminate in any case.
             small = fits and name != "pressure"
             assert text.endswith("(too small to be seen)" if small else "(partly beyond the axes)"), name

@@ -16,23 +16,20 @@ from app.draw import Picture, drawn, legend, picture_of
 from app.drives import follow, scene_of
 from app.extras import notes
 from app.extras.oblique import leaning
-from app.extras.radii import RADII
-from app.extras.relief import plane
 from app.extras.section import section
 from app.extras.surface import Z as FAR_Z
 from app.extras.surface import surface
-from app.page import Page
 from app.player import frames
 from app.plot import Plot, View, rows_of
 from app.plots import NAMED, PLOTS, D, F, P, R, X, force, pressure
 from app.quantities import CHOICES, lowered
 from app.shared.logarithmic import ticks
 from app.state import medium, preset_state, profile
-from mdr_core.results.figures import SPRINGS, line, mark, radii
-from mdr_core.results.units import written
+from mdr_core.show.figures import SPRINGS, line, mark, radii
+from mdr_core.show.units import written
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH
-from .states import numbers, part, press, solved, state_with, view_of, viscous
+from .states import numbers, solved, state_with, view_of, viscous
 from .test_drawn import amounts
 from .test_drives import oblique_state
 
@@ -84,16 +81,6 @@ def test_every_plot_of_every_state_can_be_drawn(damping):
                 assert rows.keys() == names | ({"image"} if getattr(plot, "image", None) else set())
                 for data in picture.columns(chosen, i).values():
                     assert len({len(column) for column in data.values()}) == 1
-
-
-def test_the_contact_radius_falls_by_a_step_where_the_load_is_gone():
-    for key in (GOLD, DROP, PUNCH):
-        view = view_of(preset_state(key))
-        depth, radius = view.places(RADII, 0)["unloading"]
-        step = int(np.flatnonzero(radius == 0)[0])
-        assert depth[step] == depth[step - 1]
-        last = view.course.states.plastic_radius[-1] or profile(preset_state(key)).face_radius
-        assert radius[step - 1] == pytest.approx(last)
 
 
 def test_a_peak_that_the_axis_does_not_reach_is_named():
@@ -206,20 +193,6 @@ def test_springs_lean_as_far_as_they_are_loaded_and_stick_where_the_core_says():
     made = course.scene.medium
     force = 2 * made.tangential_ratio * made.E_star * trapezoid(lean, r)
     assert force == pytest.approx(m.tangential_force[i], rel=0.01)
-
-
-def test_the_relief_has_the_pressure_of_the_core_at_every_place():
-    course = follow(preset_state(ELASTIC))
-    found = plane(course, ())
-    x, y, colours = found.axes
-    (left, right), _, image = found.rows["image"]
-    assert (left, right) == (x.start, x.end) == (-y.end, y.end)
-    down, along = (20 + 0.5) / len(image), (55 + 0.5) / len(image)
-    place = np.array([left + (right - left) * share for share in (along, down)])
-    exact = course.state.pressure(np.hypot(*place))
-    assert image[20, 55] == pytest.approx(min(exact, colours.end), rel=1e-12)
-    # The largest of the picture is that on the axis, to the half pixel beside it.
-    assert amounts(found.note)[0] == pytest.approx(float(course.state.pressure(0.0)), rel=0.02)
 
 
 def jkr_loss(E_star, w, R):
@@ -357,37 +330,6 @@ def test_legends_name_what_is_drawn_only():
     assert not drawn(view_of(elastic), PLOTS["force"]).keys() & {"yielding", "plastic work Wₚ"}
     elastic = changes.choose(elastic, "drive", "impact")
     assert set(drawn(view_of(elastic), PLOTS["energy"])) == {"stored", "kinetic", "time"}
-
-
-def test_on_logarithmic_axes_the_force_is_a_line_without_areas_and_back_again():
-    """F = 2 E* d²/(π tan θ) of an elastic cone: the slope is 2."""
-    page = Page("plasticity=none")
-    card = page.board.cards["force"]
-    figure = card.picture.figure
-
-    def columns(group):
-        return next(layer.source.data for layer in card.picture.layers if layer.name == group)
-
-    def areas():
-        return np.isfinite(np.hstack(columns("areas")["ys"])).any()
-
-    assert areas()
-    press(page, "Log")
-    assert part(page, "Log").look["pressed"]
-    assert isinstance(figure.x_scale, bk.LogScale)
-    assert 0 < figure.y_range.start < 1e-2 * figure.y_range.end
-    assert not areas()
-    row = columns("lines")["row"].index("elastic")
-    x, y = (np.array(columns("lines")[key][row]) for key in ("xs", "ys"))
-    # Bokeh leaves out what has no place on such an axis.
-    x, y = (part[(x > 0) & (y > 0)] for part in (x, y))
-    assert np.log(y[-1] / y[9]) / np.log(x[-1] / x[9]) == pytest.approx(2, rel=1e-3)
-    # The legend names nothing that is not drawn.
-    assert "stored" not in card.head.parts["key"].look["object"]
-    press(page, "Log")
-    assert not part(page, "Log").look["pressed"]
-    assert isinstance(figure.x_scale, bk.LinearScale)
-    assert areas()
 
 
 def test_numbers_along_a_logarithmic_axis_have_room():

@@ -1,4 +1,4 @@
-"""What a lecturer shows to a room: scales that stay, large letters, one picture of all plots."""
+"""What a lecturer shows to a room: scales that stay, a large plot, one picture of all plots."""
 
 import io
 
@@ -10,7 +10,6 @@ from app.page import Page
 from app.plots import PLOTS, D, F, R, X, Z
 
 from .conftest import Explorer
-from .states import press
 
 #: Sizes of the letters of a plot: of titles, ticks and labels.
 LETTERS = """(name) => {
@@ -29,10 +28,13 @@ BELOW = """() => Math.max(...["springs", "pressure", "force"].map((name) => {
 
 
 def test_twice_the_depth_is_twice_the_picture():
-    """On kept axes; what leaves them is not drawn, and said. Another drive has its own."""
+    """On axes kept while something is dragged; what leaves them is not drawn, and said.
+
+    Another drive has its own, and when it is released they fit again.
+    """
     page = Page()
     before = page.shown
-    press(page, "Keep scales")
+    page.scales.dragged.on = True
     page.apply(lambda state: changes.put(state, "max_depth", 2 * state.max_depth))
     view, i = page.shown, page.shown.course.now
     assert [view.axis(each) for each in (X, Z, R, D, F)] == [before.axis(each) for each in (X, Z, R, D, F)]
@@ -51,10 +53,16 @@ def test_twice_the_depth_is_twice_the_picture():
         renderers = page.board.cards[name].picture.figure.renderers
         assert {renderer.level for renderer in renderers} == {"glyph"}
     page.undo()
-    assert page.state["scales.keep"]
+    assert page.shown.kept
     assert page.shown.places(PLOTS["force"], i)["cut off"][2] == ""
     page.apply(lambda state: changes.choose(state, "drive", "impact"))
-    assert "axes" not in page.shown.computed
+    assert page.shown.kept == {}
+    page.undo()
+    page.apply(lambda state: changes.put(state, "max_depth", 2 * state.max_depth))
+    assert page.shown.kept
+    page.scales.dragged.on = False
+    assert page.shown.kept == {}
+    assert page.shown.axis(D).end > before.axis(D).end
 
 
 @pytest.fixture(scope="module")
@@ -80,60 +88,11 @@ def test_scales_stay_while_a_slider_is_dragged(lecture):
     lecture.change(lecture.press, "Undo")
 
 
-def test_present_fills_the_page_with_large_letters(lecture):
-    page = lecture.page
-    seen = [page.locator(name).first for name in ("output", ".act:visible", ".card.force h3")]
-    before, letters = [each.bounding_box()["height"] for each in seen], page.evaluate(LETTERS, "pressure")
-    lecture.press("Present")
-    page.locator(".side").wait_for(state="hidden")
-    present = page.get_by_role("button", name="Present")
-    lecture.wait("(size) => explorer.model('force').inner_width > 500")
-    assert present.get_attribute("aria-pressed") == "true"
-    after = [each.bounding_box()["height"] for each in seen]
-    # To a pixel.
-    np.testing.assert_allclose(after, np.multiply(1.5, before), atol=1)
-    assert page.evaluate(LETTERS, "pressure") == [1.5 * size for size in letters]
-    cards = [page.locator(f".card.{name}").bounding_box() for name in ("springs", "pressure", "force")]
-    assert min(box["x"] for box in cards) < 20
-    assert max(box["x"] + box["width"] for box in cards) > 1260
-    assert max(box["y"] + box["height"] for box in cards) <= 720
-    for part in ("Play", "Menu", "All numbers"):
-        box = page.get_by_role("button", name=part).bounding_box()
-        assert box["x"] + box["width"] <= 1280
-    # What the pointer is over is what is drawn there.
-    assert lecture.hover("force", "yielding", 20)[0].startswith("yielding")
-    page.keyboard.press("Escape")
-    page.locator(".side").wait_for()
-    assert present.get_attribute("aria-pressed") == "false"
-    assert page.evaluate(LETTERS, "pressure") == letters
-
-
-def test_a_guided_scene_is_gone_through_while_it_is_presented(lecture):
-    page = lecture.page
-    lecture.press("Present")
-    page.locator(".side").wait_for(state="hidden")
-    lecture.press("Guide")
-    lecture.change(page.get_by_role("button", name="Next").click)
-    status = page.get_by_role("status").get_by_text("1 of 4")
-    status.wait_for()
-    # The form is not there; the text ends before the plots begin.
-    assert page.locator(".form").is_hidden()
-    springs = page.locator(".card.springs").bounding_box()
-    text = status.bounding_box()
-    assert text["x"] + text["width"] <= springs["x"]
-    lecture.press("Guide")
-    page.locator(".side").wait_for(state="hidden")
-    page.keyboard.press("Escape")
-    page.locator(".form").wait_for()
-    lecture.change(lecture.press, "Undo")
-
-
 def test_what_is_opened_leaves_the_form_and_is_closed_by_escape(lecture):
     page, field = lecture.page, lecture.field("d_max")
     opened = (
-        ("Menu", page.get_by_role("button", name="Dark")),
+        ("Guide", page.get_by_label("Guided scene")),
         ("Share", page.get_by_label("This scene in Python")),
-        ("All numbers", page.locator('tr[data-name="critical_depth"]')),
     )
     for name, part in opened:
         lecture.press(name)

@@ -10,6 +10,7 @@ import mdr_core as mdr
 from app import changes, link
 from app.drives import DRIVES, follow, scene_of, turning_point
 from app.extras import share
+from app.page import Page
 from app.quantities import CHOICES, QUANTITIES
 from app.state import OPENING, PRESETS, VIEW, altered, medium, preset_state, profile, used
 from app.tip import MAX_SAMPLES, read_tip
@@ -64,7 +65,7 @@ def test_the_link_of_a_preset_is_its_name():
 @pytest.mark.parametrize("drive", DRIVES)
 def test_a_link_holds_the_whole_page(drive):
     state = state_with(DROP, drive, damping="eta", shape="sphere")
-    state = state.replace(at=0.75, tiles=("sweep", "section"), **{"log.plots": ("force",)})
+    state = state.replace(at=0.75, tiles=("sweep", "section"), **{"hardness.axes": "log"})
     others = {"held.scenes": (link.write(state),), "section.stress": "zz"}
     state = state.replace(**others)
     again = linked_state(state)
@@ -75,49 +76,61 @@ def test_a_link_holds_the_whole_page(drive):
     assert len(link.write(state)) < 700
 
 
-#: Links that version 0.6 wrote, and what they say.
+#: Links, and what they say.
 LINKS = {
-    f"preset={DROP}&speed=2.0&at=1.5&tiles=sweep&swept=mass&against=restitution": {
+    f"preset={DROP}&speed=2.0&at=1.5&tiles=sweep&sweep.swept=mass&sweep.against=restitution": {
         "speed": 2.0, "at": 1.5, "tiles": ("sweep",), "sweep.swept": "mass",
         "sweep.against": "restitution",
     },
-    "drive=path&pattern=hold&ramp_time=0.5&damping=eta&eta=3.0": {
+    "drive=path&path.pattern=hold&path.ramp_time=0.5&damping=eta&eta=3.0": {
         "drive": "path", "path.pattern": "hold", "path.ramp_time": 0.5, "eta": 3.0,
     },
-    f"preset={DROP}&drive=oblique&body=solid&incoming_speed=5.0&attack=0.5&friction=0.2": {
+    f"preset={DROP}&drive=oblique&oblique.body=solid&oblique.incoming_speed=5.0&oblique.attack=0.5": {
         "oblique.body": "solid", "oblique.incoming_speed": 5.0, "oblique.attack": 0.5,
-        "oblique.friction": 0.2,
     },
-    "tiles=section&section=zz&hold=shape%3Dcone%26cone_slope%3D0.2&dark=1": {
+    "tiles=section&section.stress=zz&held.scenes=shape%3Dcone%26cone_slope%3D0.2&dark=1": {
         "section.stress": "zz", "held.scenes": ("shape=cone&cone_slope=0.2",), "dark": True,
     },
-    "tiles=hardness&log=force+hardness": {"tiles": ("hardness",), "log.plots": ("force", "hardness")},
+    "tiles=hardness&hardness.axes=log": {"tiles": ("hardness",), "hardness.axes": "log"},
     # A hardness is that of class (b) at a radius.
     "plasticity=hardness&hardness=2000000000.0&hardness_radius=5e-08": {"q_c": 100.0, "hardness": 2e9},
-    # A compliance of the frame and the logarithmic plot are gone; a fit has a page of its own.
-    "frame_compliance=1e-05&fixed=q_c+frame_compliance&tiles=loglog": {"tiles": (), "fit.former": "1"},
-    "fixed=q_c+tilt&contact_point=1e-09&depth_noise=1e-11&fit_note=fit+to+a+curve&max_depth=5e-09": {
-        "fit.former": "1", "max_depth": 5e-9,
-    },
-    "fit.fixed=q_c&fit.samples=1+150&tiles=residual+hardness": {
-        "fit.former": "1", "tiles": ("hardness",),
-    },
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("query", LINKS)
-def test_links_of_version_0_6_are_read(query):
+def test_links_are_read(query):
     state = link.read(query)
     assert {name: state[name] for name in LINKS[query]} == LINKS[query]
     assert link.unknown(query) == []
+
+
+#: Links with names that are gone, which are told, and what is left of each.
+GONE = {
+    "max_depth=5e-09&tiles=radii+hardness+relief": (["radii", "relief"], {"tiles": ("hardness",)}),
+    "max_depth=5e-09&log=force&hold=at%3D1": (["log", "hold"], {"held.scenes": ()}),
+    "max_depth=5e-09&scales.keep=1&present.on=1": (["scales.keep", "present.on"], {"dark": False}),
+    "max_depth=5e-09&fit.fixed=q_c&fit_note=fit": (["fit.fixed", "fit_note"], {"tiles": ()}),
+}
+
+
+@pytest.mark.parametrize("query", GONE)
+def test_names_that_are_gone_are_left_out_of_a_link_with_one_line(query, monkeypatch):
+    names, left = GONE[query]
+    notices = []
+    monkeypatch.setattr(Page, "notify", lambda page, text: notices.append(text))
+    page = Page(query)
+    assert notices == [f"Unknown names in this link are ignored: {', '.join(names)}"]
+    assert page.state.max_depth == 5e-9
+    assert {name: page.state[name] for name in left} == left
+    assert not any(name in page.query()[0] for name in names)
 
 
 @pytest.mark.parametrize(
     "query",
     [
         "preset=none", "cone_slope=1e9", "shape=ball", "at=7", "shape=cone&shape=cone", "at=nan",
-        "shape=sampled&samples=0,0 1", "q_c=" + 9000 * "1", "hold=a b c d e", "shape=sphere",
-        "drive=path&pattern=own",
+        "shape=sampled&samples=0,0 1", "q_c=" + 9000 * "1", "held.scenes=a b c d e", "shape=sphere",
+        "drive=path&path.pattern=own",
     ],
 )  # fmt: skip
 def test_a_hostile_link_is_refused(query):
@@ -148,7 +161,11 @@ def test_a_link_is_refused_for_what_is_wrong(query, says):
 
 
 def test_what_others_append_to_a_link_is_left_out_and_other_names_are_told():
-    query = "utm_source=teams&max_depth=5e-09&fbclid=IwAR" + 9000 * "0" + "&utm_source=a&foo=1&hold=bar%3D2"
+    query = (
+        "utm_source=teams&max_depth=5e-09&fbclid=IwAR"
+        + 9000 * "0"
+        + "&utm_source=a&foo=1&held.scenes=bar%3D2"
+    )
     state = link.read(query)
     assert (state.max_depth, link.write(state.replace(**{"held.scenes": ()}))) == (5e-9, "max_depth=5e-09")
     assert link.unknown(query) == ["foo"]

@@ -8,18 +8,17 @@ import pytest
 from app import changes
 from app.drives import follow
 from app.extras import sweep
-from app.extras.former import NAMES
 from app.extras.guide import TOURS, step_state
 from app.state import OPENING, medium, profile
-from mdr_core.results.units import in_full
+from mdr_core.show.units import in_full
 
 from .conftest import DROP, PUNCH
-from .states import linked_state, state_with
+from .states import full_name, linked_state, state_with
 from .test_hardness import STEEL
 
 
 def swept(state, **choices):
-    state = state.replace(**{NAMES.get(name, name): value for name, value in choices.items()})
+    state = state.replace(**{full_name(name): value for name, value in choices.items()})
     asked = sweep.asked(state)
     return state, asked, sweep.found(follow(state), asked)
 

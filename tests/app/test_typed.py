@@ -7,7 +7,7 @@ from app.fields import Field
 from app.page import Page
 from app.quantities import QUANTITIES
 from app.state import preset_state
-from mdr_core.results.units import UNITS, read
+from mdr_core.show.units import UNITS, read
 
 from .conftest import DROP, GOLD, Explorer
 from .states import part

@@ -119,7 +119,7 @@ def test_a_sphere_next_to_its_equator():
 def test_a_slow_path_says_that_the_dashpots_carry_nothing():
     state = mdr.indent(mdr.Cone(0.3), VISCOUS, 1e-6)
     assert exceeded(state) == {"viscosity"}
-    assert "indent_in_time" in repr(state)
+    assert "prescribe the path in time" in repr(state)
     assert "τ = 30 µs" in repr(state)
     hit = mdr.impact(mdr.Cone(0.3), VISCOUS, 1e-6, 0.1)
     # States of a motion have their dashpots.
@@ -216,7 +216,7 @@ class TestCriticalDepthBelowAtoms:
             assert found.sentence[:40] in repr(result)
 
     def test_what_is_no_poisson_ratio_is_not_named_so(self):
-        state = mdr.indent(mdr.Paraboloid(1e-3), mdr.Medium(210e9, np.array([5.0, 1e3])), 1e-6)
+        state = mdr.indent(mdr.Paraboloid(1e-3), mdr.Medium(210e9, np.array([[5.0], [1e3]])), [0.0, 1e-6])
         found = limit(state, "critical depth")
         assert "Poisson" not in found.sentence
         assert "q_c = 5 " in found.sentence

@@ -19,6 +19,9 @@ ROLES = {
     "elastic": ("#0072b2", "#56b4e9"),
     "yielded": ("#d55e00", "#f0913a"),
     "held": ("#aa4499", "#dd8fd0"),
+    "held-2": ("#117733", "#6fcf8e"),
+    "held-3": ("#8a5a00", "#d9b45a"),
+    "held-4": ("#332288", "#b3a8ff"),
     "measured": ("#7a4a1e", "#d8b48a"),
     "speed": ("#009e73", "#35c79b"),
     "loss": ("#b8860b", "#e0c04c"),
@@ -224,6 +227,22 @@ def _places(half, state):
     return x
 
 
+def _tops(state, x, relaxing=lambda g: 0.0):
+    """Of springs at x: heights g of the indenter, plastic depths, contact, and where they end."""
+    g, interval = reduced(state.profile, np.abs(x)), state.live_interval
+    left = np.fmax(interval.lower - g, 0.0)
+    contact = (state.contact_radius > 0) & (g < interval.upper)
+    return g, left, contact, np.where(contact, g - state.depth, -left - np.where(contact, 0.0, relaxing(g)))
+
+
+def spring_line(state, half, relaxing=lambda g: 0.0):
+    """The line through the ends of all springs for |x| < `half` (m)."""
+    a, c = float(state.contact_radius), float(state.plastic_radius)
+    edges = [side * radius * (1 + near) for radius in (a, c) for side in (-1, 1) for near in (-1e-6, 1e-6)]
+    x = np.unique(np.clip([*np.linspace(-half, half, 161), *edges], -half, half))
+    return x, _tops(state, x, relaxing)[3]
+
+
 def springs(state, half, base, height, relaxing=lambda g: 0.0, along=None):
     """Springs for |x| < `half` (m) from their base (m) up, below an indenter that is drawn up to a height.
 
@@ -233,10 +252,7 @@ def springs(state, half, base, height, relaxing=lambda g: 0.0, along=None):
     """
     profile, interval, far = state.profile, state.live_interval, 3 * height
     x = _places(half, state)
-    g = reduced(profile, np.abs(x))
-    left = np.fmax(interval.lower - g, 0.0)
-    contact = (state.contact_radius > 0) & (g < interval.upper)
-    top = np.where(contact, g - state.depth, -left - np.where(contact, 0.0, relaxing(g)))
+    g, left, contact, top = _tops(state, x, relaxing)
     lean, stick = (0.0 * x, None) if along is None else along(np.abs(x))
     lean = np.where(contact, lean, 0.0)[:, None] * (half / 2 / height) * _ALONG
     path = x[:, None] + _BEND * half / SPRINGS + lean, base + (top[:, None] - base) * _ALONG
