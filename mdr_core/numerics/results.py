@@ -32,6 +32,7 @@ class Model(str):
 
     Examples
     --------
+    >>> from mdr_core.numerics.results import CLOSED_FORM
     >>> CLOSED_FORM == "closed form"
     True
     """

@@ -23,6 +23,7 @@ class FlatPunch(Profile):
 
     Examples
     --------
+    >>> from mdr_core import FlatPunch
     >>> FlatPunch(radius=2.0).contact_radius([0.0, 1.0]).tolist()
     [2.0, 2.0]
     """
@@ -54,6 +55,7 @@ class Cone(Profile):
 
     Examples
     --------
+    >>> from mdr_core import Cone
     >>> print(Cone(slope=1.0).reduced(1.0))  # π/2
     1.5707963267948966
     """
@@ -70,6 +72,7 @@ class Cone(Profile):
 
         Examples
         --------
+        >>> from mdr_core import Cone
         >>> print(round(Cone.from_half_angle(45.0).slope, 12))  # its cotangent
         1.0
         """
@@ -84,6 +87,8 @@ class Cone(Profile):
 
         Examples
         --------
+        >>> import numpy as np
+        >>> from mdr_core import Cone
         >>> print(round(np.pi / Cone.berkovich().slope ** 2, 1))  # A = 3√3 tan²(65.27°) h²
         24.5
         """
@@ -99,6 +104,8 @@ class Cone(Profile):
 
         Examples
         --------
+        >>> import numpy as np
+        >>> from mdr_core import Cone, Medium, indent
         >>> from mdr_core import Medium, indent
         >>> state = indent(Cone.pyramid(35.0), Medium(E_star=1.0), 1.0)
         >>> print(round(state.force / np.tan(np.radians(35.0)), 4))
@@ -130,6 +137,7 @@ class Paraboloid(Profile):
 
     Examples
     --------
+    >>> from mdr_core import Paraboloid
     >>> print(Paraboloid(radius=8.0).contact_radius(2.0))  # √(R d)
     4.0
     """
@@ -165,6 +173,7 @@ class PowerLaw(Profile):
 
     Examples
     --------
+    >>> from mdr_core import PowerLaw
     >>> print(round(PowerLaw(coefficient=1.0, exponent=2.0).reduced(3.0), 12))  # κ₂ = 2
     18.0
     """

@@ -37,6 +37,7 @@ class Sampled(Profile):
 
     Examples
     --------
+    >>> from mdr_core import Sampled
     >>> profile = Sampled([0.0, 1.0, 2.0], [0.0, 1.0, 3.0])
     >>> print(round(profile.reduced(1.0), 12))  # π/2
     1.570796326795
@@ -112,6 +113,7 @@ class Sampled(Profile):
 
         Examples
         --------
+        >>> from mdr_core import Sampled
         >>> profile = Sampled.fit([-2.0, -1.0, 0.0, 1.0, 2.0], [2.1, 0.9, 0.0, 1.1, 1.9])
         >>> print(round(profile.height(2.0), 12))
         2.0
@@ -152,6 +154,7 @@ class Sampled(Profile):
 
         Examples
         --------
+        >>> from mdr_core import Sampled
         >>> tip = Sampled.from_area_function([24.5, 100.0], 1e-6, unit="nm")  # blunt by 100 nm
         >>> print(f"{tip.r[-1]:.3g} {tip.z[-1]:.3g}")  # π r² = 24.6 h²
         2.8e-06 1e-06
