@@ -170,9 +170,6 @@ _MODULES = {
 }
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}
 
-#: Names that are looked for, and what there is instead.
-_INSTEAD = {"Berkovich": "Cone.berkovich()", "Cylinder": "FlatPunch", "Hertz": "Paraboloid"}
-
 
 def __dir__():
     return __all__
@@ -181,8 +178,6 @@ def __dir__():
 def __getattr__(name):
     if name in _MODULE_OF:
         value = getattr(import_module(f".{_MODULE_OF[name]}", __name__), name)
-    elif name in _INSTEAD:
-        raise AttributeError(f"mdr_core has no {name!r}: take mdr_core.{_INSTEAD[name]}", name=name)
     elif name.isidentifier() and not name.startswith("__") and find_spec(f"{__name__}.{name}"):
         value = import_module(f".{name}", __name__)
     else:

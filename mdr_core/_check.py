@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
 import numpy as np
 
 from ._errors import InvalidArgument, InvalidEntries, shown
+from ._hints import keyword_hint, model_hint, quantity_hint
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -220,26 +221,6 @@ def frozen_property(function: "Callable[[Any], Any]") -> "cached_property[Array]
     return cached_property(wraps(function)(lambda self: frozen(function(self))))
 
 
-_ANGLE = (
-    "A slope is the tangent of the angle to the surface; Cone.from_half_angle(degrees) takes the angle "
-    "between axis and generator"
-)
-_RADIUS = "A radius is half of the diameter, in m"
-_MODULUS = "E_star is E/(1 − ν²) under a rigid indenter; Medium.from_bodies(E1, nu1) takes E and ν"
-_SPEED = "The speed before the impact is `speed` (m/s); from an energy it is (2 energy/mass)**0.5"
-#: Remarks on keywords that are no parameters.
-_INSTEAD = (
-    dict.fromkeys(("angle", "half_angle", "alpha", "theta"), _ANGLE)
-    | dict.fromkeys(("R", "r", "diameter", "D"), _RADIUS)
-    | dict.fromkeys(("E", "modulus", "youngs_modulus", "nu"), _MODULUS)
-    | dict.fromkeys(("velocity", "v", "v0", "energy"), _SPEED)
-    | {
-        "critical_depth": "Medium.from_critical_depth(E_star, critical_depth) takes a critical depth",
-        "viscosity": "The viscosity is `eta` (Pa·s)",
-        "tau": "The viscosity is `eta` = E_star τ/4 (Pa·s)",
-    }
-)
-
 _Arguments = ParamSpec("_Arguments")
 _Result = TypeVar("_Result")
 
@@ -255,25 +236,42 @@ def _refuse_keywords(name, keywords, parameters):
     """Refuses keywords that are no parameters, and names the parameters."""
     for keyword in keywords:
         if parameters is not None and keyword not in parameters:
-            instead = f". {_INSTEAD[keyword]}" if keyword in _INSTEAD else ""
-            raise TypeError(f"{name} has no parameter {keyword!r}; it has {', '.join(parameters)}{instead}")
+            hint = keyword_hint(name, keyword)
+            said = f"{name} has no parameter {keyword!r}; it has {', '.join(parameters)}"
+            raise TypeError(f"{said}. {hint}" if hint else said)
 
 
 def keywords_explained(function: "Callable[_Arguments, _Result]") -> "Callable[_Arguments, _Result]":
-    """The function with errors on unknown keywords that name its parameters and suggest one."""
+    """The function with errors on unknown keywords that name its parameters and suggest one.
+
+    Of a class method, below `classmethod`.
+    """
 
     @wraps(function)
     def checked(*arguments: _Arguments.args, **keywords: _Arguments.kwargs) -> _Result:
-        _refuse_keywords(function.__name__, keywords, _parameters(function))
+        parameters = _parameters(function)
+        if parameters and parameters[0] == "cls":
+            parameters = parameters[1:]
+        _refuse_keywords(function.__qualname__, keywords, parameters)
         return function(*arguments, **keywords)
 
     return checked
 
 
 def no_attribute(owner, name, known):
-    """AttributeError on an unknown name, which suggests the nearest one of those that are known."""
+    """AttributeError on an unknown name of a result or the package, which says what may be meant.
+
+    That is the name that is known for what the field calls so, else the nearest one.
+    """
+    if owner == "mdr_core":
+        hint = model_hint(name)
+        suggestion = f": {hint}" if hint else ""
+    else:
+        hint = quantity_hint(name, known)
+        suggestion = f"; {hint}" if hint else ""
     nearest = difflib.get_close_matches(name, known, 1)
-    suggestion = f"; did you mean {nearest[0]!r}?" if nearest else ""
+    if nearest and not hint:
+        suggestion = f"; did you mean {nearest[0]!r}?"
     # With its name, Python does not add a suggestion of its own.
     return AttributeError(f"{owner} has no {name!r}{suggestion}", name=name)
 

@@ -42,6 +42,7 @@ def reduce_slope(slope: Callable[[Array], Array], x: ArrayLike) -> Array:
 
     Examples
     --------
+    >>> from mdr_core.abel import reduce_slope
     >>> print(round(reduce_slope(lambda r: 2 * r, 3.0), 12))  # z = r² has g = 2x²
     18.0
     """
@@ -61,6 +62,7 @@ def kappa(n: ArrayLike) -> Array:
 
     Examples
     --------
+    >>> from mdr_core.abel import kappa
     >>> print(kappa(2.0))
     2.0
     """
@@ -130,6 +132,7 @@ def stress_from_line_load(x: ArrayLike, q: ArrayLike, r: ArrayLike) -> Array:
     --------
     A cone in elastic contact, q = 1 − x and p = arcosh(1/r)/π:
 
+    >>> from mdr_core.abel import stress_from_line_load
     >>> print(round(stress_from_line_load([0.0, 1.0], [1.0, 0.0], 0.5), 12))
     -0.419200718279
     """
@@ -167,6 +170,7 @@ def surface_displacement(x: ArrayLike, u: ArrayLike, r: ArrayLike) -> Array:
     --------
     A flat punch of radius 1 m, pressed by 1 m, displaces the surface at r = 2 m by (2/π) arcsin(1/2) m:
 
+    >>> from mdr_core.abel import surface_displacement
     >>> print(round(float(surface_displacement([0.0, 1.0], [1.0, 1.0], 2.0)), 12))
     0.333333333333
     """

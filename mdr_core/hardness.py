@@ -38,6 +38,9 @@ class HardnessLaw(_check.Parameters, ABC):
     --------
     Indentation size effect of metals, σ_c = H₀ √(1 + a*/a) (Nix and Gao 1998):
 
+    >>> import numpy as np
+    >>> from mdr_core import Cone, HardnessLaw, Medium, indent
+    >>> from dataclasses import dataclass
     >>> from mdr_core import Cone, Medium, indent
     >>> @dataclass(frozen=True)
     ... class NixGao(HardnessLaw):

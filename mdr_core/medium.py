@@ -197,6 +197,7 @@ class Medium(_check.Parameters):
 
     Examples
     --------
+    >>> from mdr_core import Medium
     >>> medium = Medium(E_star=100e9, q_c=2000.0)
     >>> print(round(medium.critical_depth * 1e9, 6))  # π q_c / (2 E*), in nm
     31.415927
@@ -238,6 +239,7 @@ class Medium(_check.Parameters):
             )
 
     @classmethod
+    @_check.keywords_explained
     def from_hardness(
         cls, E_star: ArrayLike, hardness: ArrayLike, radius: ArrayLike, **other: ArrayLike
     ) -> "Medium":
@@ -258,6 +260,7 @@ class Medium(_check.Parameters):
 
         Examples
         --------
+        >>> from mdr_core import Medium
         >>> print(Medium.from_hardness(95e9, hardness=1e9, radius=100e-9).q_c)
         100.0
         """
@@ -269,6 +272,7 @@ class Medium(_check.Parameters):
         return cls(E_star, hardness * radius, **other)
 
     @classmethod
+    @_check.keywords_explained
     def from_critical_depth(
         cls, E_star: ArrayLike, critical_depth: ArrayLike, **other: ArrayLike
     ) -> "Medium":
@@ -285,6 +289,7 @@ class Medium(_check.Parameters):
 
         Examples
         --------
+        >>> from mdr_core import Medium
         >>> medium = Medium.from_critical_depth(1e9, critical_depth=2e-9)
         >>> print(round(medium.q_c, 9), round(medium.critical_depth * 1e9, 9))
         1.273239545 2.0
@@ -299,6 +304,7 @@ class Medium(_check.Parameters):
         return cls(E_star, yield_constant(E_star, depth), **other)
 
     @classmethod
+    @_check.keywords_explained
     def from_bodies(
         cls,
         E1: ArrayLike,
@@ -327,6 +333,7 @@ class Medium(_check.Parameters):
 
         Examples
         --------
+        >>> from mdr_core import Medium
         >>> print(round(Medium.from_bodies(210e9, 0.3).E_star / 1e9, 6))  # steel under a rigid indenter
         230.769231
         """
@@ -381,6 +388,7 @@ class Medium(_check.Parameters):
 
         Examples
         --------
+        >>> from mdr_core import Medium
         >>> print(Medium(E_star=1e9, q_c=2.0, hardness=1e6).hardness_at(1e-6))
         3000000.0
         """

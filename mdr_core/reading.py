@@ -41,6 +41,7 @@ def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> Measu
 
     Examples
     --------
+    >>> from mdr_core import read_curve
     >>> import tempfile
     >>> from pathlib import Path
     >>> with tempfile.TemporaryDirectory() as folder:

@@ -46,7 +46,7 @@ class Scene:
 
     Examples
     --------
-    >>> from mdr_core import Cone, Medium
+    >>> from mdr_core import Cone, DepthPath, Medium, Scene
     >>> scene = Scene(Cone(slope=1.0), Medium(E_star=1.0), DepthPath(2.0))
     >>> print(round(scene.solve().force, 9))  # 2E* d²/(π s)
     2.546479089
@@ -79,7 +79,7 @@ class Scene:
 
         Examples
         --------
-        >>> from mdr_core import Cone, Medium
+        >>> from mdr_core import Cone, FreeImpact, Medium, Scene
         >>> scene = Scene(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), FreeImpact(1e-9, 0.1))
         >>> print(scene.models, round(scene.solve().restitution, 6))
         ('closed form', 'scalar ODE', 'chain') 0.200701
@@ -112,7 +112,7 @@ class Scene:
 
         Examples
         --------
-        >>> from mdr_core import Cone, Medium
+        >>> from mdr_core import Cone, DepthPath, Medium, Scene
         >>> print(Scene(Cone(slope=1.0), Medium(E_star=1.0), DepthPath(2.0)).to_python())
         import mdr_core as mdr
         <BLANKLINE>

@@ -121,6 +121,7 @@ def impacts(
 
     Examples
     --------
+    >>> from mdr_core.sweep import impacts
     >>> import xarray as xr
     >>> from mdr_core import Sphere
     >>> speed = xr.DataArray([0.1, 1.0, 10.0], dims="speed")
@@ -161,6 +162,8 @@ def oblique_impacts(
 
     Examples
     --------
+    >>> from mdr_core.sweep import oblique_impacts
+    >>> import numpy as np
     >>> import xarray as xr
     >>> from mdr_core import Paraboloid
     >>> attack = xr.DataArray(np.radians([30.0, 60.0, 90.0]), dims="attack")
@@ -198,6 +201,7 @@ def indentations(
 
     Examples
     --------
+    >>> from mdr_core.sweep import indentations
     >>> import xarray as xr
     >>> from mdr_core import Cone
     >>> slope = xr.DataArray([0.1, 0.2], dims="cone")

@@ -1,13 +1,17 @@
 """Whatever is handed in: a right answer, or an error that says what is wrong and what to do."""
 
+import re
 import threading
 
 import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core import _hints
 
 MEDIUM = mdr.Medium(1e9, 10.0)
+HIT = mdr.impact(mdr.Cone(0.3), MEDIUM, 1e-9, 1.0)
+STATE = mdr.indent(mdr.Cone(0.3), MEDIUM, 1e-9)
 
 
 @pytest.mark.parametrize(
@@ -202,7 +206,28 @@ def test_stress_at_a_radius_next_to_nothing():
         ),
         (
             lambda: mdr.indent(mdr.Cone(0.3), MEDIUM, load=1.0),
-            "indent has no parameter 'load'; it has profile",
+            "indent has no parameter 'load'; it has profile, .*indent_to_force",
+        ),
+        (
+            lambda: mdr.Medium.from_bodies(E=210e9, nu=0.3),
+            r"Medium\.from_bodies has no parameter 'E'; it has E1, nu1, .*`E1` and `nu1` are E and ν",
+        ),
+        (
+            lambda: mdr.Medium.from_hardness(1e9, 1e9, 1e-6, E=1.0),
+            "Medium has no parameter 'E'; .*from_bodies",
+        ),
+        (
+            lambda: mdr.impact(mdr.Cone(0.3), MEDIUM, mass=1.0, speed=1.0, angle=0.3),
+            "impact has no parameter 'angle'; .*oblique_impact",
+        ),
+        (
+            lambda: mdr.chain_impact(mdr.Cone(0.3), MEDIUM, mass=1.0, speed=1.0, friction=0.3),
+            "chain_impact has no parameter 'friction'; .*oblique_impact",
+        ),
+        (lambda: mdr.Cone.from_half_angle(angle=70), "has no parameter 'angle'; it has degrees"),
+        (
+            lambda: mdr.Sampled.from_csv("tip.csv", units="nm"),
+            "has no parameter 'units'; it has path, unit",
         ),
     ],
 )
@@ -223,6 +248,22 @@ def test_an_unknown_keyword_is_told_what_there_is(make, says):
             "depth",
             "this Impact has no 'depth'; .*'max_depth'",
         ),
+        # What the field calls so comes before the nearest spelling.
+        (mdr, "JKR", r"take mdr_core\.Paraboloid\(radius\) on a Medium\(E_star, work_of_adhesion=w\)"),
+        (mdr, "Sneddon", r"take mdr_core\.Cone\.from_half_angle"),
+        (mdr, "Vickers", r"take mdr_core\.Cone\.from_half_angle\(70\.3\)"),
+        (mdr, "DMT", r"work_of_adhesion=w.*Tabor's parameter"),
+        (mdr, "Hertz", r"take mdr_core\.Paraboloid"),
+        (mdr, "CubeCorner", r"from_half_angle\(42\.28\)"),
+        (HIT, "e", "this Impact has no 'e'; did you mean 'restitution'"),
+        (HIT, "cor", "did you mean 'restitution'"),
+        (HIT, "load", "did you mean 'max_force'"),
+        (HIT, "displacement", "did you mean 'max_depth'"),
+        (HIT, "max_pressure", r"'turning_point', .*\.turning_point\.pressure\(0\.0\)"),
+        (STATE, "load", "this Indentation has no 'load'; did you mean 'force'"),
+        (STATE, "max_pressure", r"did you mean 'pressure', .*\.pressure\(0\.0\)"),
+        (STATE, "displacement", "did you mean 'depth'"),
+        (STATE, "E", r"did you mean 'medium', .*\.E_star"),
         # Fields have no class attribute.
         (mdr.indent(mdr.Cone(0.3), MEDIUM, 1e-9), "depht", "this Indentation has no 'depht'; .* 'depth'"),
     ],
@@ -230,6 +271,28 @@ def test_an_unknown_keyword_is_told_what_there_is(make, says):
 def test_an_unknown_name_is_told_the_nearest_one(owner, name, says):
     with pytest.raises(AttributeError, match=says):
         getattr(owner, name)
+
+
+@pytest.mark.parametrize(
+    ("name", "degrees", "area"), [("Vickers", 70.3, 24.504), ("CubeCorner", 42.28, 2.598)]
+)
+def test_cones_of_pyramids_have_their_area(name, degrees, area):
+    """A = area h²: 4 tan²68° of Vickers, 3√3/2 of a corner of a cube; degrees with four digits."""
+    assert str(degrees) in _hints.model_hint(name)
+    assert np.pi / mdr.Cone.from_half_angle(degrees).slope ** 2 == pytest.approx(area, rel=1e-3)
+
+
+def test_what_a_hint_names_is_there():
+    """Functions and classes of the package, and parameters and quantities of results."""
+    texts = [*_hints.MODELS.values(), *_hints.KEYWORDS.values()]
+    texts += [text for hints in _hints.KEYWORDS_OF.values() for text in hints.values()]
+    called = r"\b((?:[A-Z]\w+|indent\w*|impact|oblique_impact|creep|at_angle)(?:\.\w+)?)\("
+    named = set(re.findall(called, " ".join(texts)))
+    assert len(named) > 15
+    for name in named:
+        thing = mdr
+        for part in name.split("."):
+            thing = getattr(thing, part)
 
 
 def test_a_missing_argument_is_named_by_python():

@@ -16,7 +16,7 @@ import mdr_core as mdr
 PACKAGE = Path(mdr.__file__).parent
 #: From the bottom up; what is of one folder may import what stands below it, and others of the folder.
 KERNEL = (
-    "_errors", "_check", "numerics", "abel", "profiles", "hardness", "hardness_check", "medium",
+    "_errors", "_hints", "_check", "numerics", "abel", "profiles", "hardness", "hardness_check", "medium",
     "foundation", "contact", "impacts",
 )  # fmt: skip
 ORDER = (

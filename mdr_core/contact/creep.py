@@ -72,7 +72,7 @@ def creep(
     A flat punch under a force that increases for a time τ and is then constant for as long,
     d = F/(2E*b) (1 − (e − 1)/e²):
 
-    >>> from mdr_core import Cone, FlatPunch, Medium
+    >>> from mdr_core import Cone, FlatPunch, Medium, creep
     >>> medium = Medium(E_star=1.0, eta=0.25)
     >>> state = creep(FlatPunch(1.0), medium, [0.0, 2.0, 2.0], [0.0, 1.0, 2.0])
     >>> print(round(float(state.depth[-1]), 9))

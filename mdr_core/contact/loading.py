@@ -51,7 +51,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     --------
     A cone at twice the critical depth, F = 3 F_c (Popov 2015, Eqs. (20), (22)):
 
-    >>> from mdr_core import Cone, Medium, critical_force
+    >>> from mdr_core import Cone, Medium, critical_force, indent
     >>> cone, medium = Cone(slope=1.0), Medium(E_star=1.0, q_c=2.0)
     >>> state = indent(cone, medium, 2 * medium.critical_depth)
     >>> print(round(state.force / critical_force(cone, medium), 12))
@@ -97,7 +97,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
 
     Examples
     --------
-    >>> from mdr_core import Cone, Medium
+    >>> from mdr_core import Cone, Medium, indent, indent_to_force
     >>> cone, medium = Cone(slope=1.0), Medium(E_star=1.0, q_c=1.0)
     >>> print(round(indent_to_force(cone, medium, indent(cone, medium, 5.0).force).depth, 12))
     5.0

@@ -39,6 +39,8 @@ def yield_depth(profile: Profile, medium: Medium) -> Array:
     --------
     Under a paraboloid on a medium of constant hardness H, d_y = R (π H/(2E*))²:
 
+    >>> import numpy as np
+    >>> from mdr_core import Medium, Paraboloid, yield_depth
     >>> from mdr_core import Paraboloid
     >>> medium = Medium(E_star=np.pi, hardness=0.2)
     >>> print(round(yield_depth(Paraboloid(radius=1.0), medium), 12))
@@ -73,7 +75,7 @@ def critical_force(profile: Profile, medium: Medium) -> Array:
 
     Examples
     --------
-    >>> from mdr_core import Cone
+    >>> from mdr_core import Cone, Medium, critical_force
     >>> print(round(critical_force(Cone(slope=1.0), Medium(E_star=1.0, q_c=2.0)), 12))  # π q_c²/(2E* s)
     6.28318530718
     """
@@ -111,6 +113,8 @@ def yield_speed(profile: Profile, medium: Medium, mass: ArrayLike) -> Array:
     --------
     Cone of slope s: m v_y²/2 = 2E* d_c³/(3π s).
 
+    >>> import numpy as np
+    >>> from mdr_core import Cone, Medium, yield_speed
     >>> from mdr_core import Cone
     >>> medium = Medium.from_critical_depth(E_star=1.0, critical_depth=1.0)
     >>> print(round(yield_speed(Cone(slope=1.0), medium, mass=4 / (3 * np.pi)), 12))

@@ -46,6 +46,7 @@ class Stress:
 
     Examples
     --------
+    >>> from mdr_core.contact.stress import Stress
     >>> state = Stress(rr=1.0, tt=1.0, zz=-2.0, rz=0.0)
     >>> print(round(state.von_mises, 12), state.max_shear, state.principal.tolist())
     3.0 1.5 [1.0, 1.0, -2.0]

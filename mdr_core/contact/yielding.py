@@ -398,6 +398,9 @@ def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from mdr_core.contact.yielding import yield_rule
+    >>> from mdr_core import Cone, Medium
     >>> from mdr_core import Cone
     >>> rule = yield_rule(Cone(slope=1.0), Medium.from_critical_depth(1.0, critical_depth=1.0))
     >>> rule.path(np.array([0.5, 3.0, 2.5, 1.0])).length.tolist()

@@ -81,15 +81,39 @@ def _misfit(solution):
     return np.sqrt(np.mean((solution.minimum.residual * solution.noise) ** 2, axis=1)) / force
 
 
+def _told_apart(fits, samples):
+    """Letter of the class with the least misfit, and of those that so many samples do not rule out."""
+    best = min(fits, key=lambda letter: fits[letter].misfit)
+    least = max(fits[best].misfit, np.finfo(float).tiny)
+    independent = samples / fits[best].block_length
+    close = [letter for letter, fit in fits.items() if independent * 2 * np.log(fit.misfit / least) < _TOLD]
+    return best, close
+
+
+def fit_again(fits, free, samples):
+    """Row of a report on a fit of one class that the curve rules out; none where it does not.
+
+    `free` are the names of the free parameters, `samples` the number of the samples.
+    """
+    taken = [letter for letter, name in CLASSES.items() if name in free]
+    if len(taken) != 1 or not set(taken) <= set(fits):
+        return
+    best, close = _told_apart(fits, samples)
+    if taken[0] not in close:
+        misfits = (f"{100 * fits[letter].misfit:.3g} %" for letter in (taken[0], best))
+        text = (
+            f"the curve is not of class ({taken[0]}), as is fitted here: fit again with "
+            f"{CLASSES[best]}=None, class ({best}); misfit {' against '.join(misfits)}"
+        )
+        yield "another class", text
+
+
 def verdict(fits, free, depth, force, depth_noise):
     """Rows of a report on one curve: misfits, classes that they do not rule out, and what this presumes.
 
     `free` are the names of the free parameters.
     """
-    best = min(fits, key=lambda letter: fits[letter].misfit)
-    least = max(fits[best].misfit, np.finfo(float).tiny)
-    independent = depth.size / fits[best].block_length
-    close = [letter for letter, fit in fits.items() if independent * 2 * np.log(fit.misfit / least) < _TOLD]
+    best, close = _told_apart(fits, depth.size)
     misfits = ", ".join(f"({letter}) {100 * fit.misfit:.3g} %" for letter, fit in fits.items())
     answer = f"({best})" if len(close) == 1 else f"cannot be told, ({') or ('.join(close)})"
     if fits[best].misfit > _NONE and fits[best].block_length > 1:

@@ -71,7 +71,7 @@ def fit_hardness(
 
     Examples
     --------
-    >>> from mdr_core import Cone, Medium, indent
+    >>> from mdr_core import Cone, Medium, fit_hardness, indent
     >>> medium = Medium(E_star=10e9, hardness=0.5e9)
     >>> state = indent(Cone(slope=0.3), medium, [20e-9, 40e-9, 80e-9, 160e-9])
     >>> fit = fit_hardness(Cone(slope=0.3), state.mean_pressure, state.contact_radius, E_star=10e9)

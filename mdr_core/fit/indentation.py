@@ -157,7 +157,7 @@ def fit_indentation(
     Examples
     --------
     >>> import numpy as np
-    >>> from mdr_core import Cone, Medium, indent
+    >>> from mdr_core import Cone, Medium, fit_indentation, indent
     >>> d = np.append(np.linspace(-5e-9, 60e-9, 100), np.linspace(60e-9, 30e-9, 50))
     >>> F = indent(Cone(slope=0.3), Medium(E_star=10e9, q_c=100.0), d).force
     >>> fit = fit_indentation(Cone(slope=0.3), d + 3e-9, F)

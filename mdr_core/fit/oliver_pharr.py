@@ -109,7 +109,7 @@ def oliver_pharr(
     Examples
     --------
     >>> import numpy as np
-    >>> from mdr_core import Cone, Medium, indent
+    >>> from mdr_core import Cone, Medium, indent, oliver_pharr
     >>> d = np.append(np.linspace(0, 60e-9, 100), np.linspace(60e-9, 0, 100))
     >>> F = indent(Cone(slope=0.3), Medium(E_star=10e9), d).force
     >>> result = oliver_pharr(Cone(slope=0.3), d, F, epsilon=2 - 4 / np.pi)

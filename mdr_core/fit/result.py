@@ -14,7 +14,7 @@ from ..medium import Medium
 from ..show.quantities import described, engineering
 from ..show.report import attributes as attributes_of
 from ..show.report import dimensions, imported
-from .classes import ClassFit, fits_of_classes, verdict
+from .classes import ClassFit, fit_again, fits_of_classes, verdict
 from .figures import plot_fit
 from .measurement import Measurement
 from .oliver_pharr import OLIVER_PHARR
@@ -232,6 +232,10 @@ class IndentationFit(Fit):
         """Rows on the number to quote of one curve, and why that of the model differs."""
         if self.shape or self.invalid:
             return
+        if classes := self.classes:
+            yield from fit_again(
+                classes, self.standard_errors, np.count_nonzero(np.isfinite(self.residuals))
+            )
         quote = self.quoted
         if quote.source is None:
             yield "to quote", f"no E*: {quote.reason}"

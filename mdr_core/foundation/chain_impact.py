@@ -73,7 +73,7 @@ def chain_impact(
     A flat punch on a medium that does not yield is a damped oscillator until its force is zero. At half of
     the critical damping, e = exp(−ζφ/√(1 − ζ²)) with tan φ = 2ζ√(1 − ζ²)/(2ζ² − 1):
 
-    >>> from mdr_core import FlatPunch, Medium
+    >>> from mdr_core import FlatPunch, Medium, chain_impact
     >>> hit = chain_impact(FlatPunch(radius=0.5), Medium(E_star=1.0, eta=0.25), 1.0, 1.0)
     >>> print(round(hit.restitution, 5))  # ζ = 1/2: exp(−2π/(3√3))
     0.29844

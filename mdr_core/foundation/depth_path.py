@@ -74,7 +74,7 @@ def indent_in_time(
     --------
     Dashpots add 8ηb ḋ to the force of a flat punch and 4ηḋ to its line load, and nothing at constant depth:
 
-    >>> from mdr_core import FlatPunch, Medium
+    >>> from mdr_core import FlatPunch, Medium, indent_in_time
     >>> path = indent_in_time(FlatPunch(1.0), Medium(E_star=1.0, eta=1.0), [0.0, 3.0, 3.0], [0.0, 1.5, 2.0])
     >>> print(path.force.round(9).tolist(), path[1].line_load(0.5))
     [0.0, 22.0, 6.0] 11.0

@@ -81,7 +81,7 @@ class Foundation:
     --------
     Cone of slope 1 pressed to three times the critical depth, F = 5 F_c (Popov 2015, Eqs. (20), (22)):
 
-    >>> from mdr_core import Cone, Medium
+    >>> from mdr_core import Cone, Foundation, Medium
     >>> cone, medium = Cone(slope=1.0), Medium(E_star=1.0, q_c=2.0)
     >>> depth = 3 * medium.critical_depth
     >>> foundation = Foundation(cone, medium, 12, half_width=cone.contact_radius(depth)).advance(depth)
@@ -152,7 +152,7 @@ class Foundation:
         --------
         A dashpot adds 8ηb ḋ to the force of a flat punch, and nothing at constant depth:
 
-        >>> from mdr_core import FlatPunch, Medium
+        >>> from mdr_core import FlatPunch, Foundation, Medium
         >>> foundation = Foundation(FlatPunch(radius=1.0), Medium(E_star=1.0, eta=1.0), 2, half_width=1.0)
         >>> moved = foundation.advance(3.0, dt=1.5)
         >>> print(moved.force, moved.advance(3.0, dt=1.0).force)  # 2E*b d + 8ηb ḋ

@@ -259,7 +259,7 @@ def capture_speeds(profile: Profile, medium: Medium, mass: ArrayLike) -> tuple[A
     --------
     An elastic paraboloid needs 7.092196 (w⁵R⁴/E*²)^(1/3) (Johnson and Pollock 1994):
 
-    >>> from mdr_core import Paraboloid
+    >>> from mdr_core import Medium, Paraboloid, capture_speeds
     >>> medium = Medium(E_star=1.0, work_of_adhesion=1.0)
     >>> low, high = capture_speeds(Paraboloid(radius=1.0), medium, mass=2.0)
     >>> print(round(low**2, 6), high)

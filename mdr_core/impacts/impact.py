@@ -60,7 +60,7 @@ def impact(
     --------
     Restitution of a cone whose largest depth is five times the critical depth:
 
-    >>> from mdr_core import Cone, Medium, indent
+    >>> from mdr_core import Cone, Medium, impact, indent
     >>> medium = Medium(E_star=1.0, q_c=1.0)
     >>> state = indent(Cone(slope=1.0), medium, 5 * medium.critical_depth)
     >>> energy = state.stored_energy + state.plastic_work

@@ -37,6 +37,7 @@ class ScalingLaw:
 
     Examples
     --------
+    >>> from mdr_core import ScalingLaw
     >>> ScalingLaw("b", 1.0).area  # Popov (2015), Eq. (24)
     1.0
     """
@@ -111,7 +112,7 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
 
     Examples
     --------
-    >>> from mdr_core import Cone, Medium, impact
+    >>> from mdr_core import Cone, Medium, hardness_class, impact
     >>> hit = impact(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), 1e-6, [1.0, 3.0, 10.0])
     >>> hardness_class(hit.plastic_work, hit.plastic_radius, exponent=1.0).hardness_class
     'b'

@@ -32,6 +32,7 @@ class Model(str):
 
     Examples
     --------
+    >>> from mdr_core.numerics.results import CLOSED_FORM
     >>> CLOSED_FORM == "closed form"
     True
     """
@@ -83,12 +84,13 @@ class Limit:
     Attributes
     ----------
     what : str
-        Quantity that is bounded: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa, "Poisson
-        ratio", "viscosity", "speed", "fast limit", "Tabor's parameter", which must be larger than its
-        bound, "facets" of samples with adhesion, for friction "coupling" and "slip direction", and where
-        elements stick "tolerance", "depth" over the elastic compression at the turning point (d_c of a
-        hardness q_c/a) and "mass" over the tangential one; with a constant hardness "flow", the area of a
-        contact that flows over that of the model; and the length (m) of a "jump" of a path given by force.
+        Quantity that is bounded: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa,
+        "critical depth" below 0.1 nm, "Poisson ratio", "viscosity", "speed", "fast limit", "Tabor's
+        parameter", which must be larger than its bound, "facets" of samples with adhesion, for friction
+        "coupling" and "slip direction", and where elements stick "tolerance", "depth" over the elastic
+        compression at the turning point (d_c of a hardness q_c/a) and "mass" over the tangential one; with
+        a constant hardness "flow", the area of a contact that flows over that of the model; and the length
+        (m) of a "jump" of a path given by force.
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool

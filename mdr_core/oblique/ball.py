@@ -18,6 +18,8 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from mdr_core import at_angle
     >>> print(*(round(part, 9) for part in at_angle(2.0, np.radians(30.0))))
     1.732050808 1.0
     """
@@ -46,6 +48,7 @@ class Ball:
 
     Examples
     --------
+    >>> from mdr_core import Ball
     >>> solid, hollow = Ball(7.0, 1.0), Ball(5.0, 1.0, hollow=True)
     >>> print(round(solid.tangential_mass, 9), round(hollow.tangential_mass, 9))
     2.0 2.0
@@ -85,7 +88,7 @@ class Ball:
 
         Examples
         --------
-        >>> from mdr_core import FlatPunch, Medium, oblique_impact
+        >>> from mdr_core import Ball, FlatPunch, Medium, oblique_impact
         >>> ball = Ball(mass=1.0, radius=1.0)
         >>> hit = oblique_impact(FlatPunch(1.0), Medium(1.0), 1.0, 1.0, 3.5, 0.5, tangential_mass=2 / 7)
         >>> speed, spin = ball.rebound(hit, 3.5)

@@ -77,7 +77,7 @@ def oblique_impact(
     A ball that slips throughout, Maw, Barber & Fawcett (1976): with ψ = κv_t/(μv) and χ = κm/(2m_t),
     ψ₂ = ψ₁ − 4χ, here ψ₁ = 4 and χ = 7/6.
 
-    >>> from mdr_core import Ball, Medium, Paraboloid
+    >>> from mdr_core import Ball, Medium, Paraboloid, oblique_impact
     >>> ball, medium = Ball(mass=1e-3, radius=5e-3), Medium(E_star=1e9)
     >>> mass = ball.tangential_mass
     >>> hit = oblique_impact(Paraboloid(5e-3), medium, 1e-3, 1.0, 3.0, 0.5, tangential_mass=mass)
@@ -277,7 +277,7 @@ class ObliqueImpact(Entries, Result):
 
         Examples
         --------
-        >>> from mdr_core import Medium, Paraboloid
+        >>> from mdr_core import Medium, Paraboloid, oblique_impact
         >>> hit = oblique_impact(Paraboloid(1.0), Medium(1.0), 1.0, 0.01, 0.01, 0.3, tangential_mass=2 / 7)
         >>> motion = hit.motion(50)
         >>> print(motion.stick_radius[0] == 0, (motion.stick_radius > 0).any())

@@ -23,6 +23,7 @@ class FlatPunch(Profile):
 
     Examples
     --------
+    >>> from mdr_core import FlatPunch
     >>> FlatPunch(radius=2.0).contact_radius([0.0, 1.0]).tolist()
     [2.0, 2.0]
     """
@@ -54,6 +55,7 @@ class Cone(Profile):
 
     Examples
     --------
+    >>> from mdr_core import Cone
     >>> print(Cone(slope=1.0).reduced(1.0))  # π/2
     1.5707963267948966
     """
@@ -64,11 +66,13 @@ class Cone(Profile):
         _check.set_positive(self, slope="")
 
     @classmethod
+    @_check.keywords_explained
     def from_half_angle(cls, degrees: ArrayLike) -> "Cone":
         """Cone with a half-angle between axis and generator, in degrees between 0 and 90.
 
         Examples
         --------
+        >>> from mdr_core import Cone
         >>> print(round(Cone.from_half_angle(45.0).slope, 12))  # its cotangent
         1.0
         """
@@ -83,12 +87,15 @@ class Cone(Profile):
 
         Examples
         --------
+        >>> import numpy as np
+        >>> from mdr_core import Cone
         >>> print(round(np.pi / Cone.berkovich().slope ** 2, 1))  # A = 3√3 tan²(65.27°) h²
         24.5
         """
         return cls(math.sqrt(math.pi / (3 * math.sqrt(3.0))) / math.tan(math.radians(65.27)))
 
     @classmethod
+    @_check.keywords_explained
     def pyramid(cls, degrees: ArrayLike) -> "Cone":
         """Cone with the force of a four-sided pyramid, as of an AFM tip, at each depth.
 
@@ -97,6 +104,8 @@ class Cone(Profile):
 
         Examples
         --------
+        >>> import numpy as np
+        >>> from mdr_core import Cone, Medium, indent
         >>> from mdr_core import Medium, indent
         >>> state = indent(Cone.pyramid(35.0), Medium(E_star=1.0), 1.0)
         >>> print(round(state.force / np.tan(np.radians(35.0)), 4))
@@ -128,6 +137,7 @@ class Paraboloid(Profile):
 
     Examples
     --------
+    >>> from mdr_core import Paraboloid
     >>> print(Paraboloid(radius=8.0).contact_radius(2.0))  # √(R d)
     4.0
     """
@@ -163,6 +173,7 @@ class PowerLaw(Profile):
 
     Examples
     --------
+    >>> from mdr_core import PowerLaw
     >>> print(round(PowerLaw(coefficient=1.0, exponent=2.0).reduced(3.0), 12))  # κ₂ = 2
     18.0
     """

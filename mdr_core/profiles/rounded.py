@@ -19,6 +19,7 @@ class Sphere(OneLength):
 
     Examples
     --------
+    >>> from mdr_core import Sphere
     >>> print(round(Sphere(radius=1.0).reduced(0.5), 12))  # artanh(1/2)/2
     0.274653072167
     """
@@ -57,6 +58,7 @@ class Hyperboloid(OneLength):
 
     Examples
     --------
+    >>> from mdr_core import Hyperboloid
     >>> print(round(Hyperboloid(slope=1.0, tip_radius=1.0).reduced(1.0), 12))  # π/4
     0.785398163397
     """
@@ -85,6 +87,7 @@ class RoundedCone(OneLength):
 
     Examples
     --------
+    >>> from mdr_core import RoundedCone
     >>> print(round(RoundedCone(tip_radius=1.0, slope=1.0).reduced(1.0), 12))
     1.0
     """
@@ -124,6 +127,7 @@ class ParabolicPunch(OneLength):
 
     Examples
     --------
+    >>> from mdr_core import ParabolicPunch
     >>> ParabolicPunch(radius=1.0, cylinder_radius=0.5).contact_radius([0.04, 9.0]).tolist()
     [0.2, 0.5]
     """

@@ -37,6 +37,7 @@ class Sampled(Profile):
 
     Examples
     --------
+    >>> from mdr_core import Sampled
     >>> profile = Sampled([0.0, 1.0, 2.0], [0.0, 1.0, 3.0])
     >>> print(round(profile.reduced(1.0), 12))  # π/2
     1.570796326795
@@ -67,6 +68,7 @@ class Sampled(Profile):
         return f"Sampled({len(self.r)} samples to r = {self.r[-1]:g} m, z = {self.z[-1]:g} m{remarks})"
 
     @classmethod
+    @_check.keywords_explained
     def from_csv(cls, path: str | PathLike[str], unit: str | None = None) -> "Sampled":
         """Read a text file with columns radius and height.
 
@@ -87,6 +89,7 @@ class Sampled(Profile):
         return cls(*above("files.tips").samples_in(path, unit, _MOST_SAMPLES))
 
     @classmethod
+    @_check.keywords_explained
     def fit(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":
         """Fit the convex profile nearest to noisy samples, by least squares in the height.
 
@@ -110,6 +113,7 @@ class Sampled(Profile):
 
         Examples
         --------
+        >>> from mdr_core import Sampled
         >>> profile = Sampled.fit([-2.0, -1.0, 0.0, 1.0, 2.0], [2.1, 0.9, 0.0, 1.1, 1.9])
         >>> print(round(profile.height(2.0), 12))
         2.0
@@ -120,6 +124,7 @@ class Sampled(Profile):
         return cls(*convex_fit(r, z))
 
     @classmethod
+    @_check.keywords_explained
     def from_area_function(
         cls, coefficients: ArrayLike, height: float, samples: int = 400, *, unit: str = "m"
     ) -> "Sampled":
@@ -149,6 +154,7 @@ class Sampled(Profile):
 
         Examples
         --------
+        >>> from mdr_core import Sampled
         >>> tip = Sampled.from_area_function([24.5, 100.0], 1e-6, unit="nm")  # blunt by 100 nm
         >>> print(f"{tip.r[-1]:.3g} {tip.z[-1]:.3g}")  # π r² = 24.6 h²
         2.8e-06 1e-06

@@ -38,6 +38,7 @@ class Smooth(Profile):
 
     Examples
     --------
+    >>> from mdr_core import Smooth
     >>> print(round(Smooth(lambda r: 2 * r).reduced(3.0), 12))  # z = r² has g = 2x²
     18.0
     """

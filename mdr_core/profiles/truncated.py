@@ -29,6 +29,7 @@ class TruncatedCone(_FlatFaced):
 
     Examples
     --------
+    >>> from mdr_core import TruncatedCone
     >>> print(round(TruncatedCone(flat_radius=1.0, slope=3.0).reduced(2.0), 12))  # 2π
     6.28318530718
     """
@@ -58,6 +59,7 @@ class TruncatedParaboloid(_FlatFaced):
 
     Examples
     --------
+    >>> from mdr_core import TruncatedParaboloid
     >>> print(round(TruncatedParaboloid(flat_radius=3.0, radius=1.0).reduced(5.0), 12))
     20.0
     """
@@ -89,6 +91,7 @@ class RoundedPunch(_FlatFaced):
 
     Examples
     --------
+    >>> from mdr_core import RoundedPunch
     >>> print(round(RoundedPunch(flat_radius=1.0, edge_radius=1.0).reduced(2.0), 12))  # 2(√3 − π/3)
     1.369706512745
     """

@@ -29,6 +29,9 @@ _LIGHT = 10.0
 #: Range of the effective moduli (Pa) of the media that there are.
 _SOFTEST = 1e3
 _STIFFEST = 1e13
+#: Depth (m) of an atom: no medium yields at less. Largest Poisson ratio, for which a q_c may be mistaken.
+_ATOM = 1e-10
+_INCOMPRESSIBLE = 0.5
 
 
 def contact_limits(profile, medium, radius, *, slow=False):
@@ -37,6 +40,7 @@ def contact_limits(profile, medium, radius, *, slow=False):
     if np.any(np.asarray(medium.eta) > 0):
         limits.append(_viscosity_limit(medium) if slow else _poisson_limit(medium))
     limits.extend(_modulus_limit(medium))
+    limits.extend(_critical_depth_limit(medium))
     limits.extend(_flow_limit(medium))
     return (*limits, *_tabor_limit(profile, medium), *_facet_limit(profile, medium))
 
@@ -89,6 +93,26 @@ def _modulus_limit(medium):
         yield Limit("modulus", softest, _SOFTEST, True, text.format(engineering(softest, "Pa")))
     if stiffest > _STIFFEST:
         yield Limit("modulus", stiffest, _STIFFEST, True, text.format(engineering(stiffest, "Pa")))
+
+
+def _critical_depth_limit(medium):
+    """Critical depth below the size of an atom, as of a Poisson ratio that is taken for q_c."""
+    if not medium.inverse_to_radius:
+        return
+    depths, q_c = np.broadcast_arrays(medium.critical_depth, medium.q_c)
+    if not depths.size or depths.min() >= _ATOM:
+        return
+    least, q_c = float(depths.min()), float(q_c.flat[depths.argmin()])
+    text = (
+        f"The critical depth π q_c/(2E*) is {engineering(least, 'm')}, less than an atom (0.1 nm), so that "
+        f"the medium carries nearly no force: check that q_c = {q_c:.3g} is a yield constant in N/m"
+    )
+    if q_c <= _INCOMPRESSIBLE:
+        text += (
+            " and no Poisson ratio: Medium(E_star, q_c) takes E* and q_c, Medium.from_bodies(E1, nu1) "
+            "Young's modulus and the Poisson ratio"
+        )
+    yield Limit("critical depth", least, _ATOM, True, f"{text}.")
 
 
 def _flow_limit(medium):

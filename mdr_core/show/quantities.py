@@ -94,6 +94,7 @@ def engineering(values, unit):
 
     Examples
     --------
+    >>> from mdr_core.show.quantities import engineering
     >>> engineering(1.33472e-5, "N"), engineering([0.0, 2e-13], "m²"), engineering(1e-12, "kg")
     ('13.35 µN', '0 … 0.2 µm²', '1 ng')
     """
@@ -113,6 +114,7 @@ def unit_of(largest, unit):
 
     Examples
     --------
+    >>> from mdr_core.show.quantities import unit_of
     >>> unit_of(2e-8, "m")
     Unit(name='nm', factor=1e-09)
     """

@@ -67,6 +67,7 @@ def fitting(value: float, kind: str, like: float = 0.0) -> Unit:
 
     Examples
     --------
+    >>> from mdr_core.show.units import fitting
     >>> fitting(2e-8, "length").name
     'nm'
     """
@@ -99,6 +100,7 @@ def written(value: float, kind: str, count: int = 4) -> str:
 
     Examples
     --------
+    >>> from mdr_core.show.units import written
     >>> written(4.5136e-6, "force"), written(2e-30, "force")
     ('4.514 µN', '2.000 × 10⁻¹⁵ fN')
     """
@@ -150,6 +152,7 @@ def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
 
     Examples
     --------
+    >>> from mdr_core.show.units import Unit, read
     >>> read("12,5 um", "length", Unit("nm", 1e-9))
     (1.25e-05, Unit(name='µm', factor=1e-06))
     """

@@ -250,6 +250,12 @@ class TestVerdict:
             assert getattr(own.medium, constant) == pytest.approx(value, rel=0.02)
         assert min(each.misfit for other, each in fit.classes.items() if other != letter) > 1.5 * own.misfit
         assert f"class of hardness        ({letter}): misfit" in repr(fit)
+        # The fit is that of q_c: the report of another class begins with what to do.
+        head = repr(fit).splitlines()[2]
+        (constant,) = ALONE[letter]
+        assert (f"fit again with {constant}=None, class ({letter})" in head) == (letter != "b")
+        again = mdr.fit_indentation(self.PROFILE, OUT + 3e-9, force, **{constant: None})
+        assert "fit again" not in repr(again)
 
     def test_of_the_fit_itself(self):
         """With all that the fit was given: noise of force and depth, a held contact point, a baseline."""

@@ -198,6 +198,38 @@ def test_speed_against_wave_speed(hit):
         hit.speed_limit(-1.0)
 
 
+class TestCriticalDepthBelowAtoms:
+    """π q_c/(2E*) against 0.1 nm; steel with its Poisson ratio for q_c has 2.2 pm."""
+
+    def test_a_poisson_ratio_in_the_place_of_q_c(self):
+        mistaken = mdr.Medium(210e9, 0.3)
+        for result in (
+            mdr.indent(mdr.Paraboloid(1e-3), mistaken, 1e-6),
+            mdr.impact(mdr.Paraboloid(1e-3), mistaken, 1e-6, 0.1),
+        ):
+            found = limit(result, "critical depth")
+            assert found.exceeded
+            assert found.level == "beyond"
+            assert found.value == pytest.approx(np.pi * 0.3 / 420e9, rel=1e-12)
+            assert "no Poisson ratio" in found.sentence
+            assert "from_bodies(E1, nu1)" in found.sentence
+            assert found.sentence[:40] in repr(result)
+
+    def test_what_is_no_poisson_ratio_is_not_named_so(self):
+        state = mdr.indent(mdr.Paraboloid(1e-3), mdr.Medium(210e9, np.array([[5.0], [1e3]])), [0.0, 1e-6])
+        found = limit(state, "critical depth")
+        assert "Poisson" not in found.sentence
+        assert "q_c = 5 " in found.sentence
+
+    @pytest.mark.parametrize(
+        "medium", [mdr.Medium(210e9, 13.4), mdr.Medium(210e9), mdr.Medium(210e9, hardness=2e9)]
+    )
+    def test_others_have_none(self, medium):
+        """13.4 N/m is a hair above the bound, 13.369 N/m."""
+        state = mdr.indent(mdr.Paraboloid(1e-3), medium, 1e-6)
+        assert "critical depth" not in {found.what for found in state.limits}
+
+
 def test_limits_are_frozen():
     with pytest.raises(FrozenInstanceError):
         CHAIN.limits[0].value = 1.0

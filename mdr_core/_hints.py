@@ -1,0 +1,182 @@
+"""Names that people look for, and what there is instead: the field's symbols, words and models."""
+
+_ANGLE = (
+    "A slope is the tangent of the angle to the surface; Cone.from_half_angle(degrees) takes the angle "
+    "between axis and generator"
+)
+_DEGREES = (
+    "The half-angle `degrees` is between the axis and the generator of a cone, or a face of a pyramid"
+)
+_RADIUS = "A radius is half of the diameter, in m"
+_MODULUS = "E_star is E/(1 − ν²) under a rigid indenter; Medium.from_bodies(E1, nu1) takes E and ν"
+_BODIES = "`E1` and `nu1` are E and ν of the medium, `E2` and `nu2` those of an elastic indenter"
+_SPEED = "The speed before the impact is `speed` (m/s); from an energy it is (2 energy/mass)**0.5"
+_OBLIQUE = (
+    "An impact at an angle is oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction), "
+    "with the angle to the normal in rad"
+)
+_FORCE = "indent_to_force(profile, medium, force) presses to a force (N)"
+_DEPTH = "indent(profile, medium, depth) presses to a depth (m)"
+_TIME = "indent_in_time(profile, medium, depth, time) takes depths over time, creep(…, force, time) forces"
+_ADHESION = "The work of adhesion is `work_of_adhesion` (J/m²)"
+
+#: Remarks on keywords that are no parameters.
+KEYWORDS = (
+    dict.fromkeys(("angle", "half_angle", "alpha", "theta"), _ANGLE)
+    | dict.fromkeys(("R", "r", "diameter", "D"), _RADIUS)
+    | dict.fromkeys(("E", "modulus", "youngs_modulus", "nu"), _MODULUS)
+    | dict.fromkeys(("velocity", "v", "v0", "energy"), _SPEED)
+    | dict.fromkeys(("w", "gamma", "adhesion", "surface_energy"), _ADHESION)
+    | {
+        "critical_depth": "Medium.from_critical_depth(E_star, critical_depth) takes a critical depth",
+        "viscosity": "The viscosity is `eta` (Pa·s)",
+        "tau": "The viscosity is `eta` = E_star τ/4 (Pa·s)",
+        "H": "The constant hardness is `hardness` (Pa)",
+        "poisson_ratio": "The Poisson ratio is `poisson`",
+    }
+)
+
+_ANGLES = ("angle", "degrees", "theta", "alpha")
+_ALONG_THE_SURFACE = (*_ANGLES, "friction", "mu", "tangential_speed", "tangential_mass")
+#: Those on keywords of single functions, which come first.
+KEYWORDS_OF = {
+    "Medium.from_bodies": dict.fromkeys(
+        ("E", "nu", "E_star", "modulus", "youngs_modulus", "poisson", "poisson_ratio"), _BODIES
+    ),
+    "Cone.from_half_angle": dict.fromkeys(("angle", "half_angle", "alpha", "theta"), _DEGREES),
+    "Cone.pyramid": dict.fromkeys(("angle", "half_angle", "alpha", "theta"), _DEGREES),
+    "impact": dict.fromkeys(_ALONG_THE_SURFACE, _OBLIQUE),
+    "chain_impact": dict.fromkeys(_ALONG_THE_SURFACE, _OBLIQUE),
+    "oblique_impact": dict.fromkeys(
+        _ANGLES,
+        "at_angle(speed, angle) gives `speed` and `tangential_speed` of an angle to the normal in rad",
+    )
+    | {"mu": "Coulomb's coefficient is `friction`"},
+    "indent": dict.fromkeys(("force", "load", "F", "P"), _FORCE) | {"time": _TIME},
+    "indent_to_force": dict.fromkeys(("depth", "displacement", "d", "h"), _DEPTH) | {"time": _TIME},
+}
+
+_CONE = "take mdr_core.Cone.from_half_angle({}), the cone with the area of {} at each depth"
+_JKR = "take mdr_core.Paraboloid(radius) on a Medium(E_star, work_of_adhesion=w), which is the model of {}"
+_RIM = (
+    "adhesion is for forces of short range (Johnson, Kendall and Roberts): take mdr_core.Medium(E_star, "
+    "work_of_adhesion=w), and see Tabor's parameter in the limits of the result"
+)
+_HALF_SPACE = "take mdr_core.Medium(E_star, …)"
+_VISCOUS = "the viscosity is that of Kelvin and Voigt: take mdr_core.Medium(E_star, eta=…)"
+_FRICTION = "take mdr_core.oblique_impact(…, friction=μ)"
+#: What to take instead of names that the package does not have, in small letters and without underscores.
+MODELS = {
+    "berkovich": "take mdr_core.Cone.berkovich()",
+    "brinell": "take mdr_core.Sphere(radius)",
+    "cattaneo": _FRICTION,
+    "conical": "take mdr_core.Cone(slope), or Cone.from_half_angle(degrees)",
+    "conospherical": "take mdr_core.RoundedCone(tip_radius, slope)",
+    "cor": "take mdr_core.impact(…).restitution",
+    "coulomb": _FRICTION,
+    "cubecorner": _CONE.format("42.28", "a cube corner"),
+    "cylinder": "take mdr_core.FlatPunch",
+    "dmt": _RIM,
+    "e": "take mdr_core.impact(…).restitution",
+    "halfspace": _HALF_SPACE,
+    "hertz": "take mdr_core.Paraboloid",
+    "jkr": _JKR.format("Johnson, Kendall and Roberts"),
+    "johnson": "take mdr_core.impact with a Medium(E_star, hardness=H)",
+    "kelvinvoigt": _VISCOUS,
+    "load": "take mdr_core.indent_to_force, or mdr_core.Scene.from_json for a saved scene",
+    "material": _HALF_SPACE,
+    "maugis": _RIM,
+    "maugisdugdale": _RIM,
+    "maxwell": _VISCOUS,
+    "mindlin": _FRICTION,
+    "oblique": "take mdr_core.oblique_impact",
+    "oliverpharr": "take mdr_core.oliver_pharr",
+    "press": "take mdr_core.indent, or mdr_core.indent_to_force",
+    "punch": "take mdr_core.FlatPunch(radius)",
+    "pyramid": "take mdr_core.Cone.pyramid(degrees)",
+    "readcsv": "take mdr_core.read_curve for a curve, mdr_core.Sampled.from_csv for a tip",
+    "sample": _HALF_SPACE,
+    "sneddon": "take mdr_core.Cone.from_half_angle(degrees), Sneddon's cone",
+    "sphericalindenter": "take mdr_core.Sphere(radius)",
+    "substrate": _HALF_SPACE,
+    "thornton": "take mdr_core.impact with a Medium(E_star, hardness=H)",
+    "vickers": _CONE.format("70.3", "a Vickers pyramid"),
+    "viscoelastic": _VISCOUS,
+}
+
+#: What a result may have under another name, the first of these that it has. Symbols, as they are written.
+_SYMBOLS = {
+    "e": ("restitution",),
+    "F": ("force", "max_force"),
+    "P": ("force", "max_force"),
+    "P_max": ("max_force", "force"),
+    "Pmax": ("max_force", "force"),
+    "d": ("depth", "max_depth"),
+    "h": ("depth", "max_depth"),
+    "a": ("contact_radius",),
+    "c": ("plastic_radius",),
+    "A": ("contact_area", "damaged_area"),
+    "E": ("E_star", "medium"),
+    "Er": ("E_star", "medium"),
+    "E_star": ("medium",),
+    "q_c": ("medium",),
+    "eta": ("medium",),
+    "H": ("hardness", "mean_pressure"),
+    "S": ("stiffness",),
+    "p": ("pressure", "turning_point"),
+    "v": ("velocity", "rebound_speed"),
+    "t": ("time", "contact_time"),
+}
+_FORCES, _DEPTHS = ("force", "max_force"), ("depth", "max_depth")
+_MOST_FORCE, _MOST_DEPTH = _FORCES[::-1], _DEPTHS[::-1]
+_PRESSURE = ("pressure", "turning_point")
+#: Words, in small letters and without underscores.
+_WORDS = {
+    "cor": ("restitution",),
+    "coefficientofrestitution": ("restitution",),
+    "restitutioncoefficient": ("restitution",),
+    **dict.fromkeys(("load", "normalforce", "normalload", "contactforce", "reaction"), _FORCES),
+    **dict.fromkeys(("maxload", "peakload", "peakforce", "maximumforce", "fmax"), _MOST_FORCE),
+    **dict.fromkeys(("displacement", "indentation", "indentationdepth", "penetration"), _DEPTHS),
+    **dict.fromkeys(("penetrationdepth", "approach", "deformation", "overlap"), _DEPTHS),
+    **dict.fromkeys(("maxdisplacement", "maxindentation", "maxpenetration", "hmax", "dmax"), _MOST_DEPTH),
+    **dict.fromkeys(("maxpressure", "maximumpressure", "peakpressure", "pmax", "p0"), _PRESSURE),
+    **dict.fromkeys(("contactpressure", "pressuredistribution"), _PRESSURE),
+    **dict.fromkeys(("area", "projectedarea"), ("contact_area", "damaged_area")),
+    **dict.fromkeys(("youngsmodulus", "modulus", "reducedmodulus", "qc"), ("E_star", "medium")),
+    **dict.fromkeys(("vonmises", "mises", "maxstress", "maxvonmises"), ("stress_peak",)),
+    **dict.fromkeys(("duration", "impacttime", "collisiontime"), ("contact_time",)),
+    **dict.fromkeys(("velocity", "reboundvelocity", "finalspeed"), ("velocity", "rebound_speed")),
+    **dict.fromkeys(("energyloss", "dissipation", "dissipatedenergy"), ("plastic_work",)),
+    **dict.fromkeys(("pulloff", "adhesionforce"), ("pull_off_force",)),
+    **dict.fromkeys(("residualdepth", "finaldepth", "imprintdepth", "hf"), ("plastic_depth",)),
+}
+#: What is said of a quantity beside its name.
+_SAID = {
+    "pressure": ", a function of the radius: on the axis it is .pressure(0.0)",
+    "turning_point": ", the state of largest depth: on the axis it has .turning_point.pressure(0.0)",
+    "medium": ", which has the modulus .E_star, the hardness and the viscosity",
+    "stress_peak": ": .stress_peak('von_mises') is the largest stress below the surface",
+}
+
+
+def _plain(name):
+    """A name in small letters without underscores."""
+    return name.lower().replace("_", "")
+
+
+def keyword_hint(function, keyword):
+    """Sentence on a keyword that a function of this name does not have; else nothing."""
+    return KEYWORDS_OF.get(function, {}).get(keyword) or KEYWORDS.get(keyword, "")
+
+
+def quantity_hint(name, known):
+    """What is meant by the name of a quantity, of those that are known; else nothing."""
+    meant = _SYMBOLS.get(name) or _WORDS.get(_plain(name), ())
+    found = next((each for each in meant if each in known), "")
+    return f"did you mean {found!r}{_SAID.get(found, '')}?" if found else ""
+
+
+def model_hint(name):
+    """What to take instead of a name that the package does not have; else nothing."""
+    return MODELS.get(_plain(name), "")
