@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import inspect
 import pkgutil
 import re
 import shutil
@@ -43,6 +44,32 @@ def test_examples_in_docstrings(module):
     if module == "mdr_core.sweep":
         pytest.importorskip("xarray")
     assert doctest.testmod(importlib.import_module(module)).failed == 0
+
+
+def documented(name):
+    """A public name with its public methods or functions, those that have a docstring."""
+    thing = getattr(mdr, name)
+    yield name, thing
+    if inspect.isclass(thing) or inspect.ismodule(thing):
+        for part, value in vars(thing).items():
+            value = getattr(value, "__func__", getattr(value, "fget", value))
+            own = inspect.isclass(thing) or getattr(value, "__module__", "") == thing.__name__
+            if own and not part.startswith("_") and inspect.isfunction(value):
+                yield f"{name}.{part}", value
+
+
+@pytest.mark.parametrize("name", mdr.__all__)
+def test_an_example_runs_alone_as_it_is_pasted(name):
+    """In an empty namespace; every public name has one."""
+    if name == "sweep":
+        pytest.importorskip("xarray")
+    for title, thing in documented(name):
+        text = inspect.getdoc(thing) or ""
+        test = doctest.DocTestParser().get_doctest(text, {}, title, None, 0)
+        assert test.examples or title != name, f"{name} has no example"
+        said = []
+        failures, _ = doctest.DocTestRunner().run(test, out=said.append)
+        assert not failures, "".join(said)
 
 
 def test_the_example_of_a_shape_of_ones_own_is_run():
