@@ -6,19 +6,19 @@ from typing import Any
 import mdr_core as mdr
 
 from .drives import DRIVES, follow, turning_point
+from .plots import PLOTS
 from .quantities import CHOICES, QUANTITIES
 from .state import PRESETS, State, checked, medium, preset_state, yield_constant
 
-#: Options of choices of extras that apply to a state, the default first, where these are not all.
-OFFERED: dict[str, Callable[[State], list[str]]] = {}
 #: Constants of the hardness, by the power of the contact radius in them.
 CONSTANTS = ("volume_hardness", "q_c", "f_c")
 
 
 def options(state: State, name: str) -> list[str]:
     """Applicable options of a choice, the default first."""
-    if name in OFFERED:
-        return OFFERED[name](state)
+    for plot in PLOTS.values():
+        if name in plot.controls:
+            return plot.options_of(state, name)
     # A measured tip has to be loaded first.
     return [each for each in CHOICES[name].options if each != "sampled" or state.samples]
 
@@ -39,9 +39,10 @@ def choose(state: State, name: str, wanted: str) -> State:
     if wanted == option(state, name):
         return state
     changed = state.replace(**{name: wanted})
-    if name in CONVERT:
-        for number, value in CONVERT[name](state, wanted).items():
-            changed = put(changed, number, value)
+    convert = _CONVERT.get(name)
+    numbers = convert(state, wanted) if convert else DRIVES[state.drive].converted(state, name)
+    for number, value in numbers.items():
+        changed = put(changed, number, value)
     return changed
 
 
@@ -131,8 +132,8 @@ def _damping(state: State, wanted: str) -> dict[str, float]:
     return {"eta": float(f"{tau * state.E_star / 4:.2g}")}
 
 
-#: Extras add conversions of their choices.
-CONVERT: dict[str, Callable[[State, str], dict[str, float]]] = {
+#: By choices of the page; those of a drive are converted by it.
+_CONVERT: dict[str, Callable[[State, str], dict[str, float]]] = {
     "shape": _shape,
     "elasticity": lambda state, wanted: {"E_star": state.E_star},
     "plasticity": _plasticity,

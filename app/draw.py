@@ -76,6 +76,8 @@ class Picture:
 
     def __init__(self, plot: Plot):
         self.plot, self.axes = plot, None
+        # Ranges (SI) of the axes to which a person has zoomed.
+        self._zoom: list[tuple[float, float]] | None = None
         f = self.figure = figure(
             name=plot.name, tools="", x_range=(0, 1), y_range=(0, 1), stylesheets=_FOCUS
         )
@@ -119,14 +121,22 @@ class Picture:
         f.html_attributes = {"role": "img", "aria-label": about}
         ranges = (f.x_range, f.y_range, *f.extra_y_ranges.values())
         sides = (f.below[0], f.left[0], *f.right)
-        for bounds, side, axis in zip(ranges, sides, axes, strict=False):
-            start, end = axis.ends
+        for k, (bounds, side, axis) in enumerate(zip(ranges, sides, axes, strict=False)):
+            start, end = (each / axis.factor for each in self._zoom[k]) if self._zoom else axis.ends
             bounds.update(start=start, end=end)
             side.axis_label = axis.label
         symbol = axes[0].title.split(",")[0]
         for layer in self.layers:
             if layer.hover:
                 layer.hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[layer.axis])
+
+    def zoom_to(self, box: list[list[float]] | None) -> None:
+        """Show what is within ranges, in the units of the axes, or all."""
+        if not self.axes or box == self._zoom:
+            return
+        pairs = zip(box or (), self.axes, strict=False)
+        self._zoom = [(low * axis.factor, high * axis.factor) for (low, high), axis in pairs] or None
+        self.set_axes(self.axes)
 
 
 def picture_of(plot: Plot) -> Picture:

@@ -13,6 +13,7 @@ from mdr_core.impacts.motion import motion as motion_of
 
 from .courses import LAST_PROGRESS, Course, nearest, onset_depth, path_progress
 from .quantities import QUANTITIES
+from .registry import Registry
 from .state import State, medium, profile
 
 #: Places from 0 to 1, dense at both ends, where radii change as a root of the depth.
@@ -43,6 +44,10 @@ class Drive(ABC):
     @abstractmethod
     def equivalent(self, state: State, turning_point: mdr.Indentation) -> dict[str, Any]:
         """Numbers of this drive that lead to the same largest depth."""
+
+    def converted(self, state: State, choice: str) -> dict[str, Any]:
+        """Numbers that keep their meaning when a choice of this drive is about to change."""
+        return {}
 
 
 def limited_force(turning_point):
@@ -122,7 +127,7 @@ class Impact(Drive):
 
 
 #: Every drive by its option of the choice "drive"; extras add theirs.
-DRIVES: dict[str, Drive] = {"depth": Depth(), "force": Force(), "impact": Impact()}
+DRIVES: dict[str, Drive] = Registry({"depth": Depth(), "force": Force(), "impact": Impact()})
 #: Exact courses by their scenes, where that of the drive is approximate; extras add those they find.
 EXACT: dict[mdr.Scene, Course] = {}
 

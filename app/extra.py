@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
-if TYPE_CHECKING:
-    from .courses import Course
-    from .drives import Drive
-    from .parts import Part
-    from .plot import Overlay, Plot, View
-    from .state import State
-
-#: Names and values of a link.
-Pairs = list[tuple[str, str]]
+from .courses import Course
+from .drives import Drive
+from .parts import Part
+from .plot import Overlay, Plot, View
+from .registry import Registry
+from .state import Entries, State
 
 
 class Side(Protocol):
@@ -47,20 +44,19 @@ class Extra:
     """Something that plugs into the page: `EXTRA` of a file in `app/extras`, and what it brings.
 
     Its numbers, choices, drives and readouts are in a JSON file of its name beside it; names of numbers and
-    choices begin with its own, as "sweep.swept". These are values of the state, in links and undone.
+    choices begin with its own and a point. These are values of the state, in links and undone.
+
+    What it alone needs is in a class of its own: of `Service`, what it keeps or does in a session; of
+    `Drive`, numbers that keep their meaning when a choice of it changes (`converted`); of `Plot`, axes,
+    notes and options that apply to a state (`axes_of`, `note_of`, `options_of`).
     """
 
     name: str
     #: Its place among the extras.
     order: int = 0
-    #: Values beside those of its JSON file, with their defaults: texts and lists of names. A value whose
-    #: default is None is in no link.
-    values: dict[str, Any] = field(default_factory=dict)
-    #: Names of values that undo leaves alone.
-    of_view: tuple[str, ...] = ()
-    #: Numbers that keep their meaning under another option of a choice, and options that apply to a state.
-    converts: dict[str, Callable[[State, str], dict[str, Any]]] = field(default_factory=dict)
-    offers: dict[str, Callable[[State], list[str]]] = field(default_factory=dict)
+    #: Values of the view beside those of its JSON file, which undo leaves alone, with their defaults: a
+    #: text, None for one that is in no link, or `Entries` for a list.
+    values: dict[str, str | Entries | None] = field(default_factory=dict)
     drives: dict[str, Drive] = field(default_factory=dict)
     plots: tuple[Plot, ...] = ()
     overlays: tuple[Overlay, ...] = ()
@@ -74,27 +70,16 @@ class Extra:
     #: A button in the header of a page for a view, and one above a plot; each may be None.
     header: Callable[[Any, View], Part | None] = lambda page, view: None
     on_plots: Callable[[Any, Plot, View], Part | None] = lambda page, plot, view: None
-    #: Changes names and values of a link before it is read.
-    translated: Callable[[Pairs], Pairs] = lambda pairs: pairs
-    #: Why a link with its values is refused, or nothing.
-    check: Callable[[State], str] = lambda state: ""
     #: What it and others need once in a session of a page, which it is made of.
     service: Callable[[Any], Service] | None = None
-    #: What its overlays need, `view.computed[name]`, of a state and the view that is shown before it.
-    compute: Callable[[State, View | None], Any] = lambda state, before: None
-    #: Courses of which the exact ones are found at rest.
-    courses: Callable[[View], list[Course]] = lambda view: []
-    #: Puts links into a text (HTML).
-    linked: Callable[[str], str] = lambda html: html
     #: Files to download, each with its label, its name, and its text of a view.
     files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
-    #: Notes (HTML) in the form by their places: the "first" line, "drive", "shape", "medium", the "more" of
-    #: it and "sources"; and a note below the player, found when the input rests.
+    #: Notes (HTML) by their places: in the form the "first" line, "drive", "shape", "medium", the "more" of
+    #: it and "sources", and "below" the player, where they change when the input rests.
     notes: Callable[[View], dict[str, str]] = lambda view: {}
-    below: Callable[[View], str] = lambda view: ""
     #: Titles and texts (HTML) that a saved scene has of it.
     told: Callable[[View], list[tuple[str, str]]] = lambda view: []
 
 
 #: All extras by name, in their order.
-EXTRAS: dict[str, Extra] = {}
+EXTRAS: dict[str, Extra] = Registry()

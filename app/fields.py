@@ -119,8 +119,6 @@ class Form:
         self._page, self._open = page, {"more": False, "tip": False}
         # Why the last file of a tip was refused.
         self._tip_refused = ""
-        #: Where the numbers of the preset come from, as HTML.
-        self.sources = ""
         self.view = Parts("form", stylesheets=LAYOUT)
 
     def show(self, view: View) -> None:
@@ -133,19 +131,14 @@ class Form:
         notes = [extra.notes(view) for extra in EXTRAS.values()]
 
         def note(place: str, before: str = "") -> Part:
-            return text(f"note {place}", before + told(place))
-
-        def told(place: str) -> str:
-            return "".join(each.get(place, "") for each in notes)
-
-        self.sources = told("sources")
+            return text(f"note {place}", before + "".join(each.get(place, "") for each in notes))
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
         # What differs from the preset is not folded.
         in_use = not {*FOLDED_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
         opened = in_use or self._open["more"]
         modulus, *constant = numbers["medium"]
-        more = [*map(page.choice, FOLDED_CHOICES), *numbers["more"], note("more")]
+        more = [*map(page.choice, FOLDED_CHOICES), *numbers["more"], note("more"), note("sources")]
         with_tip = self._open["tip"] or state.shape == "sampled" or self._tip_refused
         parts = [
             note("first", _FIRST),

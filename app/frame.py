@@ -31,8 +31,8 @@ class Frame:
         self.parts: dict[str, Side] = {}
         self.opened: dict[str, str] = {}
         # On a phone what is less often used is below the plots.
-        self.header = Parts("header", "bar", stylesheets=LAYOUT)
-        self.more = Parts("more", "bar", stylesheets=LAYOUT)
+        self.header = Parts("header", stylesheets=LAYOUT)
+        self.more = Parts("more", stylesheets=LAYOUT)
         self.line = Parts("top", stylesheets=LAYOUT)
         self.player = Parts("player", stylesheets=LAYOUT)
         self.below = html("", "lights")
@@ -41,7 +41,7 @@ class Frame:
         plots = (self.line, self.player, self.below, page.board.grid)
         results = pn.Column(*plots, css_classes=["results"], **FULL)
         columns = pn.Row(self._side, results, css_classes=["columns"], **FULL)
-        head = pn.Row(self.header, self.more, css_classes=["head"], **WIDE | {"stylesheets": LAYOUT})
+        head = pn.Row(self.header, self.more, css_classes=["headline"], **WIDE | {"stylesheets": LAYOUT})
         self.view = pn.Column(head, columns, css_classes=["page"], **FULL)
 
     def toggle(self, name: str) -> None:
@@ -73,7 +73,8 @@ class Frame:
         opening = [self._button(name) for name, each in EXTRAS.items() if name in offered and each.tab]
         self.form.show(view)
         preset = page.choice("preset")
-        preset.look["about"] += self.form.sources
+        # What it is, and its sources, are told in the form.
+        preset.look["about"] = ""
         self.header.show([_TITLE, preset, *undo, *redo, *opening])
         dark = button("Dark", partial(page.apply, _turned), pressed=view.state.dark)
         more = (each.header(page, view) for each in EXTRAS.values())
@@ -95,4 +96,4 @@ class Frame:
 
     def rest(self, view: View) -> None:
         """Show texts that wait while a slider moves, because a changed one causes a new layout."""
-        show(self.below, object="".join(extra.below(view) for extra in EXTRAS.values()))
+        show(self.below, object="".join(extra.notes(view).get("below", "") for extra in EXTRAS.values()))

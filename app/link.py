@@ -7,14 +7,12 @@ from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
 from .courses import LAST_PROGRESS
-from .extra import EXTRAS, Pairs
-from .plots import PLOTS
 from .quantities import CHOICES, QUANTITIES
-from .state import OF_EXTRAS, OPENING, State, checked, preset_state, used
+from .state import LISTS, OF_EXTRAS, OPENING, State, checked, preset_state, used
 from .tip import MAX_SAMPLES
 
-#: Most characters of a link and of a text in it, and most names in a list.
-MAX_LENGTH, _MAX_TEXT, _MAX_NAMES = 8000, 300, 12
+#: Most characters of a link and of a text in it.
+MAX_LENGTH, _MAX_TEXT = 8000, 300
 #: Names that mail programs, search engines and other sites append to links.
 _APPENDED = re.compile(
     r"utm_.*|\w*clk?id|gclsrc|[gw]braid|igsh(id)?|mc_[ce]id|_ga|_gl|_hs\w+|li_fat_id|srsltid|bokeh-.*"
@@ -27,10 +25,10 @@ def write(state: State) -> str:
     """State as a query, without the theme, which is of a browser. Raises ValueError if it is too long."""
     start = preset_state(state.preset).replace(preset=OPENING)
     names = dict.fromkeys(["preset", *CHOICES, *used(state), *OF_EXTRAS, "tiles", "at"])
-    pairs = {name: _text(state[name]) for name in names if _known(name) and state[name] != start[name]}
+    given = {name: _text(state[name]) for name in names if _known(name) and state[name] != start[name]}
     if state.shape == "sampled":
-        pairs["samples"] = " ".join(f"{r},{z}" for r, z in zip(*state.samples, strict=True))
-    query = urlencode(pairs, safe=",*")
+        given["samples"] = " ".join(f"{r},{z}" for r, z in zip(*state.samples, strict=True))
+    query = urlencode(given, safe=",*")
     if len(query) > MAX_LENGTH:
         raise ValueError("there are too many samples in this scene for a link")
     return query
@@ -42,13 +40,10 @@ def _text(value: Any) -> str:
     return str(int(value) if isinstance(value, bool) else value)
 
 
-def translated(query: str) -> Pairs:
+def pairs(query: str) -> list[tuple[str, str]]:
     """Names and values of a link, without what others appended to it."""
     given = parse_qsl(query, keep_blank_values=True)
-    found = [(name, text) for name, text in given if not _APPENDED.fullmatch(name)]
-    for extra in EXTRAS.values():
-        found = extra.translated(found)
-    return found
+    return [(name, text) for name, text in given if not _APPENDED.fullmatch(name)]
 
 
 def _known(name: str) -> bool:
@@ -57,20 +52,24 @@ def _known(name: str) -> bool:
 
 
 def unknown(query: str) -> list[str]:
-    """Names in a link that no version has."""
-    pairs = dict(translated(query))
-    tiles = pairs.get("tiles", "").split()
-    return [name for name in pairs if not _known(name)] + [tile for tile in tiles if tile not in PLOTS]
+    """Names in a link that this version does not have, and entries of its lists that are none."""
+    found = []
+    for name, text in pairs(query):
+        if not _known(name):
+            found.append(name)
+        elif name in LISTS:
+            found += [f"{name}={each}" for each in text.split() if not LISTS[name].known(each)]
+    return list(dict.fromkeys(found))
 
 
 def asks_for_theme(query: str) -> bool:
     """Whether a link says that the page is dark or light."""
-    return "dark" in dict(translated(query))
+    return "dark" in dict(pairs(query))
 
 
 def read(query: str) -> State:
     """State of a link, without what is not known in it. Raises ValueError if a value is invalid."""
-    known = [(name, text) for name, text in translated(query) if _known(name)]
+    known = [(name, text) for name, text in pairs(query) if _known(name)]
     if sum(len(text) for _, text in known) > MAX_LENGTH:
         raise ValueError("this link is too long")
     texts = dict(known)
@@ -78,16 +77,10 @@ def read(query: str) -> State:
         raise ValueError("this link sets a value twice")
     values = {name: _value(name, text) for name, text in texts.items()}
     state = preset_state(values.pop("preset", OPENING)).replace(**values)
-    for reason in (_wrong(state), *(extra.check(state) for extra in EXTRAS.values())):
-        if reason:
-            raise ValueError(reason)
-    return state
-
-
-def _wrong(state: State) -> str:
     needed = [state[name] for name in used(state)] + [state.samples] * (state.shape == "sampled")
-    missing = any(value in (None, ()) for value in needed)
-    return "this link has a shape without its numbers" * missing
+    if any(value in (None, ()) for value in needed):
+        raise ValueError("this link has a shape without its numbers")
+    return state
 
 
 def _value(name: str, text: str) -> Any:
@@ -101,13 +94,20 @@ def _value(name: str, text: str) -> Any:
         return text[:_MAX_TEXT]
     if isinstance(default, bool):
         return text == "1"
-    if isinstance(default, tuple):
-        names = text.split()[:_MAX_NAMES]
-        return tuple(each for each in names if name != "tiles" or each in PLOTS)
+    if name in LISTS:
+        return _entries(name, text)
     value = _number(name, text)
     if name == "at" and not 0 <= value <= LAST_PROGRESS:
         raise ValueError(f"at = “{text:.40}” in this link is not in 0 to {LAST_PROGRESS}")
     return value if name == "at" else checked(name, value)
+
+
+def _entries(name: str, text: str) -> tuple[str, ...]:
+    known, most = LISTS[name].known, LISTS[name].most
+    entries = text.split()
+    if len(entries) > most:
+        raise ValueError(f"this link has more than {most} entries of {name}")
+    return tuple(dict.fromkeys(each for each in entries if known(each)))
 
 
 def _samples(text: str) -> tuple[tuple[float, ...], ...]:

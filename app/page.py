@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from html import escape
+from typing import Any
 
 import panel as pn
 from bokeh.document import Document
@@ -196,7 +197,7 @@ class Page:
         `now`: the course is the same, and this the index of its present state.
         """
         course = follow(state) if now is None else replace(self.shown.course, now=now)
-        computed = {name: each.compute(state, self.shown) for name, each in EXTRAS.items()}
+        computed: dict[Any, Any] = {}
         for service in self.services:
             computed |= service.compute(state, course)
         view = View(state, course, computed, self.scales.kept(state))

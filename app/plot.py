@@ -11,7 +11,8 @@ from mdr_core.show.figures import NOTHING, Axis, Row
 from mdr_core.show.units import fitting
 
 from .courses import Course
-from .extra import EXTRAS
+from .quantities import CHOICES
+from .registry import Registry
 from .state import State
 
 _ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])
@@ -68,6 +69,10 @@ class Plot:
         """A note above the plot."""
         return ""
 
+    def options_of(self, state: State, control: str) -> list[str]:
+        """Options of one of its `controls` that apply to a state, the default first."""
+        return list(CHOICES[control].options)
+
 
 @dataclass(frozen=True, eq=False)
 class Overlay:
@@ -84,14 +89,13 @@ class Overlay:
     picture: Callable[..., Any] | None = None
 
 
-def all_overlays() -> list[Overlay]:
-    """All overlays, from the back to the front."""
-    return [overlay for extra in EXTRAS.values() for overlay in extra.overlays]
+#: Overlays of all plots, from the back to the front; extras add theirs.
+OVERLAYS: dict[tuple[str, str, int], Overlay] = Registry()
 
 
 def overlays(plot: Plot) -> list[Overlay]:
     """Those of a plot."""
-    return [each for each in all_overlays() if each.on == plot.name]
+    return [each for each in OVERLAYS.values() if each.on == plot.name]
 
 
 def rows_of(plot: Plot) -> tuple[Row, ...]:
@@ -125,7 +129,7 @@ class View:
 
     def axis(self, along: Along) -> Axis:
         if along not in self._axes:
-            spans = [along.span(self.course), *(each.reach(self, along) for each in all_overlays())]
+            spans = [along.span(self.course), *(each.reach(self, along) for each in OVERLAYS.values())]
             lowest, largest = zip(*spans, strict=True)
             self._axes[along] = axis(along.title, along.kind, max(largest), min(lowest))
         return self._axes[along]

@@ -10,6 +10,8 @@ from mdr_core._errors import InvalidArgument
 from mdr_core.show.quantities import QUANTITIES as RESULTS
 from mdr_core.show.units import KINDS, written
 
+from .registry import Registry
+
 ASSETS = Path(__file__).parents[1] / "assets"
 
 
@@ -83,8 +85,8 @@ class Readout:
 
 
 #: By their names; numbers of a shape begin with its own, as "cone_slope".
-QUANTITIES: dict[str, Quantity] = {}
-CHOICES: dict[str, Choice] = {}
+QUANTITIES: dict[str, Quantity] = Registry()
+CHOICES: dict[str, Choice] = Registry()
 #: Every number that can be read, in the order in which all of them are listed.
 READOUTS: list[Readout] = []
 

@@ -1,5 +1,6 @@
 """The state of the page: a frozen set of numbers (SI) and choices, and its presets."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from math import isclose
 from typing import Any
@@ -8,6 +9,7 @@ import mdr_core as mdr
 from mdr_core.show.units import entry, fitting, read, written
 
 from .quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
+from .registry import Registry
 
 _PRESETS = read_data(ASSETS / "presets.json")
 #: The preset that the page opens with.
@@ -16,9 +18,21 @@ OPENING = next(iter(_PRESETS["scenes"]))
 MEDIUM_CHOICES = ("elasticity", "plasticity", "damping", "adhesion")
 FOLDED_CHOICES = ("elasticity", "damping", "adhesion")
 #: What the view is like rather than the scene, with defaults: undo leaves it alone. Extras add theirs.
-VIEW: dict[str, Any] = {"at": 1.0, "tiles": (), "dark": False}
-#: Values of extras by their names, as in "sweep.swept", with their defaults.
-OF_EXTRAS: dict[str, Any] = {}
+VIEW: dict[str, Any] = Registry({"at": 1.0, "tiles": (), "dark": False})
+
+
+@dataclass(frozen=True)
+class Entries:
+    """What a list of names in a state may have: which entries, and how many of them."""
+
+    known: Callable[[str], bool]
+    most: int
+
+
+#: Of lists in the state, by name; extras add theirs.
+LISTS: dict[str, Entries] = Registry()
+#: Values of extras by their names, which have a point, with their defaults.
+OF_EXTRAS: dict[str, Any] = Registry()
 
 
 @dataclass(frozen=True)
@@ -28,7 +42,7 @@ class State:
     E* of two bodies, and q_c of a hardness at a radius, follow from these. A number of a shape that has not
     been looked at is None: it is sized when it is. `at` is the progress of the state that is seen, `tiles`
     the optional plots that are shown, `samples` radii and heights of a measured tip, `extras` the values of
-    extras that are not at their defaults: `state["sweep.swept"]` is one of them.
+    extras that are not at their defaults.
     """
 
     preset: str = OPENING

@@ -8,8 +8,6 @@ import panel as pn
 from bokeh.core.properties import AnyRef, Bool, List, Nullable, String
 from bokeh.model import DataModel
 
-from .extra import EXTRAS
-
 HERE = Path(__file__).parent
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (HERE / "js").glob("*.js")}
 CSS = (HERE / "static" / "style.css").read_text(encoding="utf-8")
@@ -48,11 +46,10 @@ def symbol(text):
 
 
 def linked(text):
-    """HTML of a text, with the links that extras have for it."""
-    html = marked(text)
-    for extra in EXTRAS.values():
-        html = extra.linked(html)
-    return html
+    """HTML of a text, with links from equations, (11), and sections, § 9, to the page of the theory."""
+    led = r'<a href="?theory={}-\1" target="theory">\g<0></a>'
+    html = re.sub(r"\(([1-9]\d?)\)", led.format("eq"), marked(text))
+    return re.sub(r"§ (\d+)", led.format("section"), html)
 
 
 def html(text="", *classes, **options):

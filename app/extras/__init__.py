@@ -7,13 +7,13 @@ from typing import Any
 
 from mdr_core.show.units import UNITS
 
-from ..changes import CONVERT, OFFERED
 from ..drives import DRIVES
 from ..extra import EXTRAS, Extra
-from ..plot import rows_of
+from ..plot import OVERLAYS, rows_of
 from ..plots import PLOTS
 from ..quantities import CHOICES, QUANTITIES, include, read_data
-from ..state import OF_EXTRAS, VIEW
+from ..registry import Registry
+from ..state import LISTS, OF_EXTRAS, VIEW, Entries
 
 _HERE = Path(__file__).parent
 
@@ -31,6 +31,7 @@ def _load() -> None:
         _register(extra, data.get(name, {}))
     for name in sorted(PLOTS, key=lambda name: PLOTS[name].order):
         PLOTS[name] = PLOTS.pop(name)
+    Registry.close_all()
 
 
 def _read(path: Path) -> dict[str, Any]:
@@ -66,10 +67,12 @@ def _register(extra: Extra, data: dict[str, Any]) -> None:
     OF_EXTRAS.update({each["name"]: QUANTITIES[each["name"]].default for each in data.get("numbers", ())})
     choices = [name for name in data.get("choices", {}) if "." in name]
     OF_EXTRAS.update({name: next(iter(CHOICES[name].options), "") for name in choices})
-    OF_EXTRAS.update(extra.values)
-    VIEW.update({name: OF_EXTRAS[name] for name in extra.of_view})
-    CONVERT.update(extra.converts)
-    OFFERED.update(extra.offers)
+    lists = {name: entries for name, entries in extra.values.items() if isinstance(entries, Entries)}
+    values = extra.values | dict.fromkeys(lists, ())
+    LISTS.update(lists)
+    OF_EXTRAS.update(values)
+    VIEW.update(values)
+    OVERLAYS.update({(extra.name, each.on, k): each for k, each in enumerate(extra.overlays)})
     DRIVES.update(extra.drives)
     PLOTS.update({plot.name: plot for plot in extra.plots})
     EXTRAS[extra.name] = extra

@@ -40,7 +40,7 @@ def step_state(step: dict[str, Any], now: State) -> State:
     """State of a step, with its plots; theme, and values of extras that it does not set, stay."""
     state = link.read(urlencode(step["set"]))
     # Also a value that is set to its default is set.
-    named = {name for name, _ in link.translated(urlencode(step["set"]))}
+    named = {name for name, _ in link.pairs(urlencode(step["set"]))}
     kept = {name: value for name, value in now.extras.items() if name not in named}
     return state.replace(dark=now.dark, **(kept | state.extras))
 
@@ -64,7 +64,7 @@ class Guide:
         self._tours, self._going = tours(), False
         self.title = field(pn.widgets.Select, label="Guided scene", options=list(self._tours))
         self.back, self.next = (button(name, width=70) for name in ("Back", "Next"))
-        self.words = html(_INTRO)
+        self.words = html(_INTRO, "said-of-step", styles={"font-size": "13px"})
         self.title.param.watch(lambda event: self.go(0), "value")
         self.back.on_click(lambda event: self.go(self.at - 1))
         self.next.on_click(lambda event: self.go(self.at + 1))

@@ -13,7 +13,7 @@ from mdr_core.show.figures import NOTHING, both, line
 from .. import link
 from ..courses import Course
 from ..drives import follow, scene_of
-from ..extra import Extra, Pairs
+from ..extra import Entries, Extra
 from ..parts import Part, button
 from ..plot import Along, Overlay, View
 from ..plots import PLOTS, P, R, X
@@ -21,6 +21,7 @@ from ..readouts import line as readout_line
 from ..readouts import text
 from ..shared import widgets
 from ..shared.once import once
+from ..shared.rest import Searching
 from ..shared.summary import with_symbol
 from ..state import MEDIUM_CHOICES, OPENING, PRESETS, State, altered, used
 from ..ui import WIDE, html, marked, show, symbol
@@ -51,20 +52,9 @@ def held_scene(query: str) -> Held:
     return Held(difference(state), follow(state), state)
 
 
-def translated(pairs: Pairs) -> Pairs:
-    """A link of which what is no scene is among its unknown names."""
-    found = []
-    for name, value in pairs:
-        if name != "held.scenes":
-            found.append((name, value))
-            continue
-        scenes = value.split()
-        # More of them than can be held are refused with the link.
-        wrong = [each for each in scenes if "=" not in each] if len(scenes) <= len(DASHES) else []
-        found += [(f"{name}={each}", "") for each in wrong]
-        if right := [each for each in scenes if each not in wrong]:
-            found.append((name, " ".join(right)))
-    return found
+def is_scene(entry: str) -> bool:
+    """Whether an entry of a link may be a scene."""
+    return "=" in entry
 
 
 def _others(state: State) -> tuple[str, ...]:
@@ -238,7 +228,7 @@ def compare(page: Any, view: View) -> Part:
     return button("Compare", lambda: page.apply(toggle_hold), pressed=pressed)
 
 
-def compute(state: State, before: View | None) -> list[Held]:
+def computed(state: State, before: View | None = None) -> list[Held]:
     """The held scenes, named by what differs from the present one; exact courses are kept."""
     shown = {} if before is None else dict(zip(before.state["held.scenes"], scenes(before), strict=True))
     kept = {query: each for query, each in shown.items() if not each.course.pending}
@@ -246,9 +236,14 @@ def compute(state: State, before: View | None) -> list[Held]:
     return [replace(each, name=difference(each.state, state)) for each in found]
 
 
-def check(state: State) -> str:
-    too_many = len(state["held.scenes"]) > len(DASHES)
-    return f"more than {len(DASHES)} scenes are held in this link" * too_many
+class Holding(Searching):
+    """Computes the held scenes, and finds their exact courses."""
+
+    def compute(self, state: State, course: Course) -> dict[str, Any]:
+        return {"held": computed(state, self.page.shown)}
+
+    def rest(self, view: View) -> None:
+        self.find_exact([each.course for each in scenes(view)])
 
 
 def told(view: View) -> list[tuple[str, str]]:
@@ -258,14 +253,10 @@ def told(view: View) -> list[tuple[str, str]]:
 EXTRA = Extra(
     "held",
     order=10,
-    values={"held.scenes": ()},
-    of_view=("held.scenes",),
+    values={"held.scenes": Entries(is_scene, len(DASHES))},
     overlays=OVERLAYS,
     place="top",
-    translated=translated,
-    check=check,
-    compute=compute,
-    courses=lambda view: [each.course for each in scenes(view)],
+    service=Holding,
     offered=lambda view: bool(view.state["held.scenes"]),
     header=compare,
     side=lambda page: Table(page.apply),

@@ -62,7 +62,6 @@ EXTRA = Extra(
     "large",
     order=35,
     values={"large.plot": None},
-    of_view=("large.plot",),
     on_plots=large,
     service=Letters,
 )

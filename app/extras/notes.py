@@ -69,4 +69,4 @@ def told(view: View) -> list[tuple[str, str]]:
     return [("Assumptions and notes", "".join(html)), ("What the numbers are", numbers)]
 
 
-EXTRA = Extra("notes", order=30, below=below, told=told)
+EXTRA = Extra("notes", order=30, notes=lambda view: {"below": below(view)}, told=told)

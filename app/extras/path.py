@@ -200,9 +200,8 @@ class Path(Drive):
         time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
         return numbers if _in_time(state) else numbers | {"path.ramp_time": time}
 
+    def converted(self, state, choice):
+        return equivalent(state, "path") if choice == "path.pattern" else {}
 
-EXTRA = Extra(
-    "path",
-    converts={"path.pattern": lambda state, wanted: equivalent(state, "path")},
-    drives={"path": Path()},
-)
+
+EXTRA = Extra("path", drives={"path": Path()})

@@ -272,7 +272,16 @@ def _notes(sweep, numbers, values, classes, inside):
             yield marked(f"Not all of the range can be solved: {in_words(error)}.")
 
 
-SWEEP = Searched(
+@dataclass(frozen=True, eq=False)
+class SweepPlot(Searched):
+    """The plot, whose choices offer what applies to the drive."""
+
+    def options_of(self, state, control):
+        offered = {"sweep.swept": swept, "sweep.against": against}
+        return offered[control](state) if control in offered else super().options_of(state, control)
+
+
+SWEEP = SweepPlot(
     "sweep", "Sweep", "one parameter varied, all others fixed  § 10, § 20", (),
     (
         *(line(name, "ink", 1.4, dash, "y") for name, dash in LINES.items()),
@@ -294,7 +303,6 @@ def e_over_v(page: Any, plot: Plot, view: View) -> Part | None:
 
 EXTRA = Extra(
     "sweep",
-    offers={"sweep.swept": swept, "sweep.against": against},
     plots=(SWEEP,),
     on_plots=e_over_v,
     service=Resting,

@@ -13,7 +13,7 @@ from mdr_core.show.figures import Axis
 
 from ..courses import Course, nearest
 from ..drives import DRIVES, EXACT
-from ..extra import EXTRAS, Service
+from ..extra import Service
 from ..plot import Plot, View
 from ..plots import PLOTS, visible
 from ..state import State
@@ -77,36 +77,18 @@ class Searched(Plot):
         return self.found(view).note
 
 
-class Resting(Service):
+class Searching(Service):
     """Searches of a session: the last one of each name."""
 
     def __init__(self, page: Any):
         super().__init__(page)
         self._keys, self._results = {}, {}
 
-    def compute(self, state: State, course: Course) -> dict[str, Found]:
-        """Results for the plots of a state; quick ones are computed."""
-        results = {}
-        for plot in (PLOTS[name] for name in state.tiles if isinstance(PLOTS[name], Searched)):
-            asked = plot.asked(state)
-            key, result = self._results.get(plot.name, (None, COMPUTING))
-            if plot.quick(asked):
-                result = plot.find(course, asked)
-            elif key != plot.key(course, asked):
-                result = replace(COMPUTING, axes=result.axes)
-            results[plot.name] = result
-        return results
-
-    def rest(self, view: View) -> None:
-        """Begin the slow searches of a view: exact courses, and those of its plots."""
-        courses = [view.course, *(course for each in EXTRAS.values() for course in each.courses(view))]
+    def find_exact(self, courses: list[Course]) -> None:
+        """Begin to find the exact courses of those that are pending."""
         for k, course in enumerate(courses):
             if course.pending:
                 self._search(f"course {k}", course.scene, _exact, course)
-        for plot in (plot for plot in visible(view) if isinstance(plot, Searched)):
-            asked = plot.asked(view.state)
-            if not plot.quick(asked):
-                self._search(plot.name, plot.key(view.course, asked), plot.find, view.course, asked)
 
     def _search(self, name, key, search, *arguments):
         """Search unless the last search of this name has the same key."""
@@ -151,6 +133,31 @@ class Resting(Service):
             self._results[name] = key, FAULT
             page.notify(page.refusal(error))
             page.draw(page.state)
+
+
+class Resting(Searching):
+    """Searches for the plots of a view, and for its exact course."""
+
+    def compute(self, state: State, course: Course) -> dict[str, Found]:
+        """Results for the plots of a state; quick ones are computed."""
+        results = {}
+        for plot in (PLOTS[name] for name in state.tiles if isinstance(PLOTS[name], Searched)):
+            asked = plot.asked(state)
+            key, result = self._results.get(plot.name, (None, COMPUTING))
+            if plot.quick(asked):
+                result = plot.find(course, asked)
+            elif key != plot.key(course, asked):
+                result = replace(COMPUTING, axes=result.axes)
+            results[plot.name] = result
+        return results
+
+    def rest(self, view: View) -> None:
+        """Begin the slow searches of a view: its exact course, and those of its plots."""
+        self.find_exact([view.course])
+        for plot in (plot for plot in visible(view) if isinstance(plot, Searched)):
+            asked = plot.asked(view.state)
+            if not plot.quick(asked):
+                self._search(plot.name, plot.key(view.course, asked), plot.find, view.course, asked)
 
 
 def _keep(course: Course) -> None:

@@ -34,7 +34,7 @@ const KINDS = {
     const help = about && `<button class="help" aria-label="What is ${label}?" popovertarget="about-${id}">?</button>${popover}`
     const el = made("div", `choice ${classes}`, radio
       ? `<div class="radio"><button class="word" popovertarget="about-${id}">${label}</button>${popover}<div class="options"></div></div>`
-      : `<div class="list"><label for="list-${id}">${label}</label><select id="list-${id}"></select>${help}</div>`)
+      : `<div class="list"><label for="list-${id}">${label}</label><select id="list-${id}" title="${label}"></select>${help}</div>`)
     const list = el.querySelector(radio ? ".options" : "select")
     let [asked, offered] = [0, ""]
     const choose = (option) => { asked = send(option) }
@@ -46,10 +46,7 @@ const KINDS = {
       return label
     }))
     if (!radio) list.onchange = () => choose(list.value)
-    const told = el.querySelector("[popover]")
-    let said = about
-    return [el, ({ options, value, about }, answered) => {
-      if (about !== said) told.innerHTML = said = about
+    return [el, ({ options, value }, answered) => {
       if (offered !== JSON.stringify(options)) filled(options)
       offered = JSON.stringify(options)
       // Also what was refused is answered: the present option stands again. Earlier answers do not touch what is asked now.

@@ -22,19 +22,19 @@ class Profile(_check.Parameters, ABC):
     """Profile of a rigid axisymmetric indenter, with its tip at the origin and its height growing outward.
 
     A profile of your own is a frozen dataclass with the first three functions below. They are not checked:
-    they take an array of lengths (m), none negative, and return an array of its shape. Solvers ask a
-    profile for these ten names and no others; a shape gives those in which it differs from the base class.
+    they take an array of lengths (m), none negative, and return an array of its shape. Besides
+    its parameters solvers ask a profile for ten names; a shape gives those that differ from the base::
 
-    ``height_at(r)``         height z (m) at radii r (m)
-    ``reduced_at(x)``        height g (m) of the equivalent 1D profile at x (m), which does not fall
-    ``reduced_slope_at(x)``  its slope g′, without unit; on a kink, that of the outer side
-    ``radius_at(depth)``     contact radius a (m) at depths (m), g(a) = depth; found from g if not given
-    ``face_radius``          radius (m) of a flat face at the tip, 0 without one
-    ``wall``                 radius (m) of a vertical wall, ∞ without one
-    ``kinks``                depths (m) at which the edge of the contact passes a kink of g, a tuple
-    ``known_depth``          depth (m) to which the shape is known, ∞ without an end
-    ``known_radius``         radius (m) to which it is known, ∞ without an end
-    ``too_deep()``           words for depths beyond `known_depth`, in refusals
+        height_at(r)          height z (m) at radii r (m)
+        reduced_at(x)         height g (m) of the equivalent 1D profile at x (m), which does not fall
+        reduced_slope_at(x)   its slope g′, without unit; on a kink, that of the outer side
+        radius_at(depth)      contact radius a (m) at depths (m), g(a) = depth; found from g if not given
+        face_radius           radius (m) of a flat face at the tip, 0 without one
+        wall                  radius (m) of a vertical wall, ∞ without one
+        kinks                 depths (m) at which the edge of the contact passes a kink of g, a tuple
+        known_depth           depth (m) to which the shape is known, ∞ without an end
+        known_radius          radius (m) to which it is known, ∞ without an end
+        too_deep()            words for depths beyond known_depth, in refusals
 
     The checked functions for users are `height`, `reduced`, `reduced_slope` and `contact_radius`.
     `body_radius` and `transition_depth` are for limits in words, and scales. Parameters may be arrays that

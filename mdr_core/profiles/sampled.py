@@ -271,14 +271,30 @@ class Sampled(Profile):
     def _first_guess(self, depth):
         """Number of the vertex inside the edge of the contact, and t = √(x − r) there to some digits.
 
-        Outside a vertex g rises by its bend, β √(2r) t, and by about C t², with C from the next vertex.
+        Between two vertices g rises about as a cubic of u, t over its value at the outer one: with the bend
+        β √(2r) t at the inner vertex, and with g and its rate at the outer one. `radius_at` then takes 2.5
+        evaluations of g for a depth, from a parabola 3.0.
         """
         zone = np.clip(np.searchsorted(self._g, depth, side="right") - 1, 0, len(self.r) - 2)
-        linear, end = self._bend * np.sqrt(2 * self._r[:-1]), np.sqrt(np.diff(self._r))
-        square = (np.diff(self._g) - linear * end) / end**2
-        linear, square, rise = linear[zone], square[zone], np.maximum(depth - self._g[zone], 0.0)
+        end = np.sqrt(np.diff(self._r))
+        first, whole = self._bend * np.sqrt(2 * self._r[:-1]) * end, np.diff(self._g)
         with np.errstate(all="ignore"):
-            return zone, 2 * rise / (linear + np.sqrt(linear**2 + 4 * square * rise))
+            last = 2 * end**2 * self._slope_inside
+            third = last + first - 2 * whole
+            first, second, third = first[zone], (whole - first - third)[zone], third[zone]
+            rise = np.maximum(depth - self._g[zone], 0.0)
+            # Newton's method from the parabola without the rate.
+            u = 2 * rise / (first + np.sqrt(first**2 + 4 * (second + third) * rise))
+            for _ in range(2):
+                u -= (u * (first + u * (second + u * third)) - rise) / (
+                    first + u * (2 * second + 3 * u * third)
+                )
+        return zone, u * end[zone]
+
+    @cached_property
+    def _slope_inside(self):
+        """g′ just inside each vertex but the first."""
+        return self.reduced_slope_at(np.nextafter(self._r[1:], 0))
 
 
 def tip_through(r, z, most, averages):

@@ -180,7 +180,7 @@ class Explorer:
 
     def open(self, tab, plot, row):
         """Open an optional plot, and wait until one of its rows is drawn."""
-        self.press(tab)
+        self.page.get_by_label("Fourth plot", exact=True).select_option(label=tab)
         self.wait("(a) => explorer.model(a[0]) && explorer.row(...a)?.[0].length > 1", [plot, row])
         # Until the address has it, its change would be taken for that of what is done next.
         self.link(f"tiles={plot}")

@@ -2,8 +2,8 @@
 
 from app import changes, link
 from app.drives import follow
-from app.extra import EXTRAS
 from app.extras.guide import TOURS, step_state
+from app.extras.held import computed
 from app.parts import Parts
 from app.plot import View
 from app.readouts import readings
@@ -32,8 +32,7 @@ def view_of(state: State, progress=1.0, *held: State) -> View:
     state = state.replace(at=progress)
     if held:
         state = state.replace(**{"held.scenes": tuple(link.write(each) for each in held)})
-    computed = {name: each.compute(state, None) for name, each in EXTRAS.items()}
-    return View(state, follow(state), computed)
+    return View(state, follow(state), {"held": computed(state)})
 
 
 def stepped(title: str) -> list:
@@ -66,8 +65,13 @@ def part(page, name: str):
 
 
 def press(page, label: str) -> None:
-    """Press a button."""
-    part(page, label).act(None)
+    """Press a button, or open or close an optional plot by its name in their list."""
+    plots = part(page, "fourth plot")
+    names = {shown: name for name, shown in plots.look["options"]}
+    if label in names:
+        plots.act("" if plots.look["value"] == names[label] else names[label])
+    else:
+        part(page, label).act(None)
 
 
 def fields_of(parts) -> list[str]:

@@ -53,8 +53,9 @@ def words(name):
     page = opened()
     buttons = extra.on_plots(page, PLOTS["force"], page.shown), extra.header(page, page.shown)
     found += [each.look.get("label") for each in buttons if each is not None]
-    found += re.findall("<summary>(.*?)</summary>", extra.below(page.shown))
-    found += extra.notes(page.shown).values()
+    notes = extra.notes(page.shown)
+    found += re.findall("<summary>(.*?)</summary>", notes.pop("below", ""))
+    found += notes.values()
     return {each for each in found if each}
 
 
@@ -82,11 +83,10 @@ def texts(page):
         if extra.side:
             page.frame.toggle(name)
             look()
-    page.frame.toggle("explore")
     for drive in dict(page.choice("drive").look["options"]):
         page.choose("drive", drive)
-        for tab in list(page.board.tabs.parts):
-            page.board.tabs.parts[tab].act(None)
+        for name, _ in page.board.others(page.shown).look["options"]:
+            page.board.others(page.shown).act(name)
             look()
     page.document.add_root(page.view.get_root(page.document))
     for model in page.document.models:
@@ -137,12 +137,9 @@ def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, n
     assert notices == []
     # Each word is there with the extra, so that it is missed without.
     shown = {word for word in words(name) if said(word, whole)}
-    assert shown or name in ("theory", "guide", "fit")
+    assert shown or name in ("guide", "fit")
     others = set().union(*(words(other) for other in EXTRAS if other != name))
     assert {word for word in shown - others if said(word, text)} == set()
-    if name == "theory":
-        assert any("?theory=" in each for each in whole)
-        assert not any("?theory=" in each for each in text)
     for query in linked(name):
         notices.clear()
         page = made.Page(f"max_depth=5e-09&{query}")
@@ -164,7 +161,7 @@ def test_the_page_with_no_extras_at_all(browser, tmp_path):
         with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
             explorer = Explorer(context.new_page(), server.url)
             assert explorer.readout("force") == "4.514 µN"
-            assert explorer.page.locator(".header .act").all_inner_texts() == ["Undo", "Redo", "Dark"]
+            assert explorer.page.locator(".header .act, .more .act").all_inner_texts() == ["Dark"]
             assert explorer.page.locator(".card").count() == 3
             assert explorer.page.locator(".tabs button").count() == 0
             explorer.change(explorer.type, "d_max", "5 nm")
@@ -189,7 +186,7 @@ def test_a_new_extra_is_a_file_of_its_own(folder):
     (extras / "area.py").write_text(code.replace("from app.", "from .."), encoding="utf-8")
     (extras / "area.json").write_text(data, encoding="utf-8")
     page = importlib.import_module("with_area.page").Page(f"preset={DROP}&tiles=area&area.of=plastic")
-    assert page.board.tabs.parts["Area"].look["pressed"]
+    assert page.board.others(page.shown).look["value"] == "area"
     states = page.shown.course.states
     plot = page.board.cards["area"].plot
     for option, radius in (("plastic", states.plastic_radius), ("contact", states.contact_radius)):

@@ -53,7 +53,7 @@ def test_a_plot_or_a_held_scene_that_fails(page, monkeypatch):
     with monkeypatch.context() as failure:
         failure.setattr(page.board, "_make", failing)
         press(page, "Surface")
-    assert (page.state.tiles, part(page, "Surface").look["pressed"]) == ((), False)
+    assert (page.state.tiles, part(page, "fourth plot").look["value"]) == ((), "")
     assert_in_use(page)
     page.notices.clear()
     made = page.choice
@@ -62,7 +62,7 @@ def test_a_plot_or_a_held_scene_that_fails(page, monkeypatch):
         return failing() if page.shown.computed["held"] else made(name)
 
     monkeypatch.setattr(page, "choice", unless_held)
-    press(page, "Hold")
+    press(page, "Compare")
     assert (page.state["held.scenes"], page.shown.computed["held"]) == ((), [])
     assert_in_use(page)
 
@@ -136,7 +136,7 @@ def test_the_indenter_is_dragged_to_a_depth_under_a_given_force_too(page):
 def rested(page):
     """What is found of the section when the input is at rest."""
     page._input_rests()
-    return page.shown.computed["section"]
+    return page.shown.computed.get("section")
 
 
 def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
@@ -340,7 +340,7 @@ def test_a_plot_is_large_while_others_have_never_been_drawn(page):
 
 
 def test_the_opening_scene_is_held_by_its_link(page):
-    press(page, "Hold")
+    press(page, "Compare")
     query, _ = page.query()
     assert len(Page(query).state["held.scenes"]) == 1
 
@@ -350,7 +350,7 @@ def test_a_scene_without_a_link_leaves_the_address(page):
     rows = "\n".join(f"{each:.6f},{each**2 / 1234.567:.6f}" for each in r)
     page.apply(lambda state: changes.take_tip(state, *read_tip(f"r (nm), z (nm)\n{rows}", "tip.csv")))
     for _ in range(3):
-        press(page, "Hold")
+        press(page, "Compare")
         put(page, "max_depth", 0.9 * page.state.max_depth)
         page._input_rests()
     query, why = page.query()

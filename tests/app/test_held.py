@@ -8,11 +8,10 @@ import pytest
 from app import link
 from app.draw import Picture, drawn, legend
 from app.drives import follow
-from app.extra import EXTRAS
-from app.extras.held import DASHES, difference, held_scene, is_held, numbers, toggle_hold
+from app.extras.held import DASHES, computed, difference, held_scene, is_held, numbers, toggle_hold
 from app.page import Page
 from app.plot import rows_of
-from app.plots import PLOTS, D, F, P, X, Z
+from app.plots import PLOTS, D, F, X, Z
 from app.state import preset_state as preset
 from mdr_core.show.units import written
 
@@ -63,24 +62,29 @@ def test_the_numbers_are_those_of_the_deepest_state_and_of_the_impact():
     assert "e" not in numbers(follow(preset()))
 
 
-def test_each_has_its_own_row_in_every_plot():
-    """Axes are those of the present scene; the legend has the names of scenes, and says what is beyond."""
+def test_each_has_its_own_row_and_colour_in_every_plot_on_common_axes():
+    """The legend has the names of scenes; nothing of them is beyond the axes."""
     states = [preset().replace(max_depth=depth) for depth in (9e-9, 3e-9, 6e-9, 12e-9)]
     view = view_of(states[0], 1.0, *states)
-    for along in (X, Z, D, F, P):
-        assert view.axis(along) == view_of(states[0]).axis(along)
+    for along, of_state in ((X, "contact_radius"), (D, "depth"), (F, "force")):
+        largest = max(float(np.max(getattr(follow(state).states, of_state))) for state in states)
+        assert view.end(along) >= largest > view_of(states[1]).end(along)
+    assert -view.axis(Z).start >= 12e-9
     rows = view.places(PLOTS["force"], 0)
     for k, held in enumerate(view.computed["held"], 1):
         np.testing.assert_array_equal(rows[f"held {k}"][1], held.course.states.force)
-        pressures = view.places(PLOTS["pressure"], view.course.now)[f"held {k}"][1]
-        assert np.isfinite(pressures).any()
-    looks = {row.look["line_dash"] for row in rows_of(PLOTS["force"]) if row.role == "held"}
-    assert len(looks) == len(states)
+        for name in ("pressure", "springs"):
+            assert np.isfinite(view.places(PLOTS[name], view.course.now)[f"held {k}"][1]).all()
+        # The springs under the tip are as deep as it.
+        low = np.min(view.places(PLOTS["springs"], view.course.now)[f"held {k}"][1])
+        assert low == pytest.approx(-float(held.course.state.depth), rel=1e-6)
+    looks = {(row.role, row.look["line_dash"]) for row in rows_of(PLOTS["force"]) if "held" in row.role}
+    assert len({role for role, _ in looks}) == len({dash for _, dash in looks}) == len(states)
     names = drawn(view, PLOTS["force"])
     text = legend(PLOTS["force"], names).replace("<i>d</i><sub>max</sub>", "d_max")
     shown = re.findall(r">([^<]+)</span>", text)
     # The first one is the present scene, which has no difference from itself.
-    expected = [f"d_max = {depth} nm" for depth in (9, 3, 6)] + ["d_max = 12 nm (partly beyond the axes)"]
+    expected = [f"d_max = {depth} nm" for depth in (9, 3, 6, 12)]
     assert [text for text in shown if "d_max" in text] == expected
     layer = next(each for each in Picture(PLOTS["force"]).layers if each.name == "lines")
     told = layer.columns(rows, PLOTS["force"].axes_of(view), False)["row"]
@@ -101,20 +105,18 @@ def test_a_held_scene_is_named_by_what_differs_from_the_present_one():
     later = drop.replace(**{"held.scenes": (link.write(gold),)})
     view = view_of(soft, 1.0, gold)
     assert [each.name for each in view.computed["held"]] == ["q_c = 100 N/m"]
-    assert [each.name for each in EXTRAS["held"].compute(later, view)] == [difference(gold, drop)]
+    assert [each.name for each in computed(later, view)] == [difference(gold, drop)]
 
 
-def test_a_scene_of_another_scale_leaves_the_axes():
-    """Gold at nanometres is a point on the axes of a drop weight, which are beyond those of gold."""
+def test_a_scene_of_another_scale_is_said_to_be_too_small():
+    """Gold at nanometres is a point on the axes of a drop weight; those of gold hold both."""
     gold, drop = preset(), preset(DROP)
-    for now, other, fits in ((drop, gold, True), (gold, drop, False)):
-        view = view_of(now, 1.0, other)
-        for name in ("force", "pressure"):
-            text = view.places(PLOTS[name], view.course.now)["held 1"][2]
-            # The pressure of gold, 5.6 GPa in the mean, is beyond that of a laminate in any case.
-            small = fits and name != "pressure"
-            assert text.endswith("(too small to be seen)" if small else "(partly beyond the axes)"), name
-            assert PLOTS[name].axes_of(view) == PLOTS[name].axes_of(view_of(now))
+    view = view_of(drop, 1.0, gold)
+    named = view.places(PLOTS["force"], view.course.now)["held 1"][2]
+    assert named.endswith("(too small to be seen)")
+    view = view_of(gold, 1.0, drop)
+    assert view.axis(D) == view_of(drop).axis(D)
+    assert not view.places(PLOTS["force"], view.course.now)["held 1"][2].endswith(")")
 
 
 def test_the_legend_of_a_saved_picture_names_held_scenes_as_the_plot_does():

@@ -221,7 +221,7 @@ def test_everything_is_reached_by_keys_and_an_equation_leads_to_the_theory(explo
             assert contrast(hexadecimal(colour), LIGHT[ground]) >= 3, name
     expected = {
         "Preset", "What is q_c, yield constant?", "q_c, yield constant", "q_c, yield constant, slider",
-        "Shape", "Share", "Guide", "Dark", "Hold", "F normal force", "▶ Play", "State along the path",
+        "Shape", "Share", "Guide", "Dark", "Compare", "F normal force", "▶ Play", "State along the path",
         "(22)", "Save", "Large", "Sweep",
     }  # fmt: skip
     assert expected <= stops

@@ -106,11 +106,14 @@ def test_links_are_read(query):
 
 #: Links with names that are gone, which are told, and what is left of each.
 GONE = {
-    "max_depth=5e-09&tiles=radii+hardness+relief": (["radii", "relief"], {"tiles": ("hardness",)}),
+    "max_depth=5e-09&tiles=radii+hardness+relief": (
+        ["tiles=radii", "tiles=relief"],
+        {"tiles": ("hardness",)},
+    ),
     "max_depth=5e-09&log=force&hold=at%3D1": (["log", "hold"], {"held.scenes": ()}),
     "max_depth=5e-09&scales.keep=1&present.on=1": (["scales.keep", "present.on"], {"dark": False}),
     "max_depth=5e-09&fit.fixed=q_c&fit_note=fit": (["fit.fixed", "fit_note"], {"tiles": ()}),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("query", GONE)

@@ -15,7 +15,7 @@ from app.state import preset_state
 from mdr_core.show.figures import SPRINGS
 
 from .conftest import DROP
-from .states import numbers, solved, state_with, view_of, viscous
+from .states import numbers, part, solved, state_with, view_of, viscous
 from .test_drives import oblique_state, path
 
 
@@ -126,7 +126,7 @@ def test_14_a_tile_is_drawn_where_a_drive_has_it_and_a_preset_stands_deepest():
     page = Page()
     page.apply(lambda state: state.replace(tiles=("forces",)))
     assert visible(page.shown) == [PLOTS[name] for name in ("springs", "pressure", "force")]
-    assert "Friction" not in page.board.tabs.parts
+    assert "Friction" not in [text for _, text in part(page, "fourth plot").look["options"]]
     page.apply(lambda state: changes.put(state, "max_depth", 5e-9))
     assert page.state.max_depth == 5e-9
     page.choose("drive", "oblique")

@@ -1,0 +1,49 @@
+// A spring that is pointed at says where it stands, its compression and its load, each beside its limit.
+const told = Object.assign(document.createElement("div"), { className: "told", hidden: true })
+told.setAttribute("role", "status")
+document.body.append(told)
+const view = Bokeh.index.find_one(figure), STATES = ["free", "elastic", "yielded", "stretched", "sticks", "slips"], VERTICES = 9
+const row = (name) => {
+  for (const { data_source: { data } } of figure.renderers) {
+    const k = data.row?.indexOf(name) ?? -1
+    if (k >= 0 && data.xs) return [data.xs[k], data.ys[k]]
+  }
+  return [[], []]
+}
+// Where a spring that carries nothing would end: at the imprint, else at the surface.
+const rest = (x) => {
+  const [xs, ys] = row("residual imprint"), k = Array.from(xs).findIndex((each) => each >= x)
+  return k > 0 ? ys[k - 1] + (ys[k] - ys[k - 1]) * (x - xs[k - 1]) / (xs[k] - xs[k - 1]) || 0 : 0
+}
+const nearest = (x) => {
+  let found = null
+  for (const state of STATES) {
+    const [xs, ys] = row(state)
+    for (let k = 0; k + VERTICES <= xs.length; k += VERTICES) {
+      const away = Math.abs(xs[k] - x)
+      if (!found || away < found.away) found = { state, away, x: xs[k], top: ys[k + 7] }
+    }
+  }
+  return found
+}
+const digits = (value) => String(Number(value.toPrecision(3))).replace("-", "−")
+const sentence = ({ state, x, top }) => {
+  const { unit, load, load_unit, caps, cap, named } = pointed.springs
+  const u = state === "free" ? 0 : rest(x) - top, limit = caps.length ? caps[Math.min(player.value, caps.length - 1)] : null
+  const beside = (value) => limit === null ? "" : ` of at most ${digits(value)}`
+  return `<b>${state === "free" ? "free" : state} spring</b> at <i>x</i> = ${digits(x)} ${unit}<br><i>u</i> = ${digits(u)}${beside(limit)} ${unit}${limit === null ? "" : ` = ${cap}`}
+    <br>${named} = ${digits(u * load)}${beside(limit * load)} ${load_unit}`
+}
+view.el.addEventListener("pointermove", (event) => {
+  const { left, top } = view.el.getBoundingClientRect(), { bbox, x_scale } = view.frame
+  const [sx, sy] = [event.clientX - left, event.clientY - top]
+  const inside = sx > bbox.left && sx < bbox.right && sy > bbox.top && sy < bbox.bottom
+  const found = inside && !event.buttons && nearest(x_scale.invert(sx))
+  // Above the springs is the indenter, which is dragged.
+  told.hidden = !found || view.frame.y_scale.invert(sy) > Math.max(found.top, 0)
+  if (told.hidden) return
+  told.innerHTML = sentence(found)
+  Object.assign(told.style, { left: `${Math.min(event.clientX + 14, innerWidth - 250)}px`, top: `${event.clientY + 14}px` })
+})
+view.el.addEventListener("pointerleave", () => { told.hidden = true })
+view.el.addEventListener("pointerdown", () => { told.hidden = true }, true)

@@ -1,0 +1,129 @@
+"""The first screen: how much there is to click, and how large plots are; zoom, springs, compared scenes."""
+
+from pathlib import Path
+
+import pytest
+
+from .conftest import DROP, Explorer
+
+CLICKABLE = Path(__file__).with_name("clickable.js").read_text(encoding="utf-8")
+#: Pixels within the axes, below which a plot is not read from the back of a room.
+LEAST = 150
+
+
+@pytest.fixture
+def projector(server, browser):
+    """The page on a projector."""
+    with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
+        explorer = Explorer(context.new_page(), server.url)
+        yield explorer
+        assert explorer.problems == []
+
+
+def heights(explorer, *names):
+    return [explorer.page.evaluate(f"explorer.model('{name}').inner_height") for name in names]
+
+
+def test_there_are_some_forty_things_to_click(projector):
+    found = projector.page.evaluate(CLICKABLE)
+    assert len(found) <= 40, "\n".join(found)
+    # What the three views need is among them.
+    for part in ("depth", "force", "impact", "Shape", "Hardness", "q_c, yield constant, slider", "▶ Play"):
+        assert any(part in name for name in found), part
+
+
+def test_plots_of_a_projector_are_at_least_150_pixels_high(projector):
+    """With optional plots of an impact, too; a further one takes the place of the last."""
+    assert min(heights(projector, "springs", "pressure", "force")) >= LEAST
+    projector.goto(f"{projector.page.url.split('?')[0]}?preset={DROP}&tiles=sweep+energy+motion")
+    cards = projector.page.locator(".card:visible")
+    assert cards.count() == 4
+    for tab in ("Sweep", "Energy", "Hardness", "Section"):
+        name = tab.lower()
+        projector.page.get_by_label("Fourth plot").select_option(label=tab)
+        projector.wait("(name) => explorer.model(name)?.inner_height > 0", name)
+        projector.wait("(name) => location.search.includes(`tiles=${name}`) && explorer.idle()", name)
+        assert cards.count() == 4
+        assert min(heights(projector, "springs", "pressure", "force", name)) >= LEAST, tab
+
+
+def test_restitution_over_speed_is_one_click(projector):
+    projector.goto(f"{projector.page.url.split('?')[0]}?preset={DROP}")
+    projector.press("e over v")
+    projector.wait("explorer.model('sweep') && explorer.row('sweep', 'this scene')?.[0].length > 1")
+    labels = projector.axis("sweep")["labels"]
+    assert [label.split(",")[0] for label in labels] == ["v₀", "e"]
+
+
+def test_a_box_with_shift_is_zoomed_to_until_a_double_click_or_another_drive(projector):
+    page, before = projector.page, projector.axis("pressure")
+
+    def zoom():
+        page.keyboard.down("Shift")
+        projector.drag("pressure", (0.2, 0.15))
+        page.keyboard.up("Shift")
+        narrow = "([a, b]) => { const { x } = explorer.axis('pressure'); return x[1] - x[0] < (b - a) / 2 }"
+        projector.wait(narrow, before["x"])
+
+    zoom()
+    within = projector.axis("pressure")
+    assert before["x"][0] < within["x"][0] < within["x"][1] < before["x"][1]
+    assert before["y"][0] < within["y"][0] < within["y"][1] < before["y"][1]
+    # It stays when a number is changed, and nothing was dragged.
+    assert projector.readout("depth") == "8.978 nm"
+    projector.change(projector.type, "q_c", "110 N/m")
+    assert projector.axis("pressure")["x"] == within["x"]
+    box = page.locator(".card.pressure canvas").first.bounding_box()
+    page.mouse.dblclick(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    projector.wait("(x) => explorer.axis('pressure').x.join() === x.join()", before["x"])
+    zoom()
+    projector.pick("force")
+    assert projector.axis("pressure")["x"][1] - projector.axis("pressure")["x"][0] > 30
+
+
+def test_a_spring_says_its_compression_and_its_load_against_their_limits(projector):
+    """On the axis it has yielded: u = d_c = π q_c/(2E*) = 1.796 nm, q = π q_c/2 = 157 N/m."""
+    page = projector.page
+    box = page.locator(".card.springs canvas").first.bounding_box()
+    page.mouse.move(box["x"] + 0.52 * box["width"], box["y"] + 0.7 * box["height"])
+    page.locator(".told").wait_for()
+    said = page.locator(".told").inner_text().split("\n")
+    assert said[0].startswith("yielded spring at x = ")
+    assert said[1] == "u = 1.8 of at most 1.8 nm = dc"
+    assert said[2] == "q = 157 of at most 157 N/m"
+    assert "1.796 nm" in page.locator(".card.springs .formula").inner_text()
+
+
+def test_a_slider_prints_both_ends_and_its_scale(projector):
+    ends = projector.number("d_max").locator(".ends span").all_inner_texts()
+    assert ends == ["299 pm", "logarithmic", "269 nm"]
+
+
+def test_numbers_that_differ_are_seen_while_a_slider_moves(projector):
+    projector.change(projector.press, "Compare")
+    projector.choose("Shape", "Paraboloid")
+    table = projector.page.locator(".held table")
+    assert "4.51 µN" in table.inner_text()
+    assert "8.98 nm" not in table.inner_text()
+    # Also beside the last slider of the form, to which one has to scroll.
+    projector.press("More about the medium")
+    projector.slider("ρ").scroll_into_view_if_needed()
+    box = table.bounding_box()
+    assert 0 <= box["y"] <= box["y"] + box["height"] <= 720
+    # The cone is drawn in the plot of the springs, too.
+    depth = projector.row("springs", "Cone")[1].min()
+    assert depth == pytest.approx(-8.978, rel=1e-3)
+
+
+def test_one_screen_of_a_phone_has_springs_force_and_slider(server, browser):
+    held = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
+    with browser.new_context(**held) as context:
+        explorer = Explorer(context.new_page(), server.url)
+        boxes = [explorer.page.locator(f".card.{name}").bounding_box() for name in ("springs", "force")]
+        boxes.append(explorer.slider("d_max").bounding_box())
+        assert all(box["y"] >= 0 and box["y"] + box["height"] <= 844 for box in boxes)
+        assert min(heights(explorer, "springs", "force")) > 100
+        tops = explorer.page.locator(".header button:visible, .header select:visible")
+        boxes = [each.bounding_box() for each in tops.all()]
+        assert len({round(box["y"] + box["height"] / 2) for box in boxes}) == 1
+        assert explorer.problems == []

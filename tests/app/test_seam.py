@@ -1,0 +1,75 @@
+"""The seam of extras: registries that are closed, no extra by name, hooks that several of them use."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from app import drives, extra, plot, plots, quantities, state
+from app.page import Page
+
+APP = Path(extra.__file__).parent
+PAGE = [path for path in APP.glob("*.py") if path.stem not in ("main", "server_lifecycle")]
+
+
+REGISTRIES = {
+    "plots": plots.PLOTS,
+    "overlays": plot.OVERLAYS,
+    "drives": drives.DRIVES,
+    "choices": quantities.CHOICES,
+    "numbers": quantities.QUANTITIES,
+    "values": state.OF_EXTRAS,
+    "view": state.VIEW,
+    "lists": state.LISTS,
+    "extras": extra.EXTRAS,
+}
+
+
+@pytest.mark.parametrize("name", REGISTRIES)
+def test_no_registry_changes_once_all_extras_are_in_it(name):
+    registry = REGISTRIES[name]
+    before = dict(registry)
+    for change in (
+        lambda: registry.update(new=1),
+        lambda: registry.__setitem__("new", 1),
+        lambda: registry.pop(next(iter(registry))),
+        lambda: registry.__delitem__(next(iter(registry))),
+        lambda: registry.setdefault("new", 1),
+        registry.clear,
+        registry.popitem,
+    ):
+        with pytest.raises(TypeError, match="does not change"):
+            change()
+    assert registry == before
+
+
+def test_the_page_knows_no_extra_by_name_and_reads_nothing_that_one_of_them_computes():
+    values = [name for name in state.OF_EXTRAS if "." in name]
+    assert "held.scenes" in values
+    for path in PAGE:
+        text = path.read_text(encoding="utf-8")
+        assert not re.search(r"computed(\[|\.get\()[\"']", text), path.name
+        assert not [name for name in values if name in text], path.name
+
+
+#: Names of what an extra may bring; `name` and `order` are its own.
+HOOKS = [name for name in extra.Extra.__dataclass_fields__ if name not in ("name", "order")]
+
+
+def brings(each, hook):
+    default = extra.Extra("none")
+    return getattr(each, hook) not in (getattr(default, hook), {}, ())
+
+
+def test_a_hook_has_more_than_one_user():
+    users = {hook: [n for n, each in extra.EXTRAS.items() if brings(each, hook)] for hook in HOOKS}
+    # Whether the part of held scenes is offered depends on there being one.
+    alone = {hook: names for hook, names in users.items() if len(names) < 2 and hook != "offered"}
+    assert alone == {}
+    assert len(HOOKS) <= 14
+
+
+def test_what_a_link_has_of_an_extra_is_of_the_state():
+    page = Page("held.scenes=max_depth%3D5e-09&tiles=sweep&sweep.swept=mass")
+    assert page.state["held.scenes"] == ("max_depth=5e-09",)
+    assert [each.name for each in page.shown.computed["held"]] == ["d_max = 5 nm"]
