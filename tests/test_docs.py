@@ -1,5 +1,6 @@
 """Examples in docstrings, in the README and on the site run, and the site is complete."""
 
+import ast
 import doctest
 import importlib
 import inspect
@@ -91,6 +92,24 @@ def test_blocks_of_code(block, tmp_path, monkeypatch):
     shutil.copy(ROOT / "assets" / "silica.csv", tmp_path)
     monkeypatch.chdir(tmp_path)
     run(block)
+
+
+def test_blocks_that_need_a_file_of_a_reader_import_what_they_use():
+    """Blocks of the page on AFM cannot be run here: their files are the reader's."""
+    blocks = re.findall(r"```py\n(.*?)```", (DOCS / "afm.md").read_text("utf-8"), re.DOTALL)
+    assert len(blocks) >= 3
+    for block in blocks:
+        tree = ast.parse(block)
+        imported = {
+            part.asname or part.name
+            for node in tree.body
+            if isinstance(node, ast.Import)
+            for part in node.names
+        }
+        used = {
+            node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and node.id in ("mdr", "np")
+        }
+        assert used <= imported, block
 
 
 def test_the_curve_of_the_readme_is_plotted_and_saved(tmp_path, monkeypatch):
