@@ -41,6 +41,13 @@ class DepthPath(_Path):
         Indentation depth (m), a number or a path.
     time : sequence of float, optional
         Increasing times (s) of a path; without them it is infinitely slow.
+
+    Examples
+    --------
+    >>> from mdr_core import Cone, DepthPath, Medium, Scene
+    >>> state = Scene(Cone(slope=1.0), Medium(E_star=1.0), DepthPath(1.0)).solve()
+    >>> print(round(state.force, 6))  # 2/π
+    0.63662
     """
 
     depth: Parameter
@@ -68,6 +75,13 @@ class ForcePath(_Path):
         Normal force (N), a number or a path; not negative.
     time : sequence of float, optional
         Increasing times (s) of a path; without them it is infinitely slow.
+
+    Examples
+    --------
+    >>> from mdr_core import Cone, ForcePath, Medium, Scene
+    >>> state = Scene(Cone(slope=1.0), Medium(E_star=1.0), ForcePath(1.0)).solve()
+    >>> print(round(state.depth, 6))  # √(π/2)
+    1.253314
     """
 
     force: Parameter
@@ -129,6 +143,13 @@ class FreeImpact:
         Mass m (kg), and speed v₀ (m/s) at first contact, positive.
     plastic_depth : float
         Plastic depth (m) after earlier impacts on the same spot; 0, the default, for a virgin surface.
+
+    Examples
+    --------
+    >>> from mdr_core import FlatPunch, FreeImpact, Medium, Scene
+    >>> hit = Scene(FlatPunch(radius=0.5), Medium(E_star=1.0), FreeImpact(1.0, 0.1)).solve()
+    >>> print(round(hit.contact_time, 6))  # half a period of a spring of 1 N/m: π
+    3.141593
     """
 
     mass: float
@@ -175,6 +196,14 @@ class FreeObliqueImpact:
         Coefficient of friction μ, not negative.
     tangential_mass : float, optional
         Mass m_t (kg) at the contact point along the surface; by default m. See `Ball.tangential_mass`.
+
+    Examples
+    --------
+    >>> from mdr_core import FlatPunch, FreeObliqueImpact, Medium, Scene
+    >>> drive = FreeObliqueImpact(1.0, 0.1, tangential_speed=1.0, friction=0.1)
+    >>> hit = Scene(FlatPunch(radius=0.5), Medium(E_star=1.0), drive).solve()
+    >>> print(round(hit.tangential_velocity, 6))  # it slips throughout: 1 − 2 μ v₀
+    0.98
     """
 
     mass: float

@@ -118,6 +118,19 @@ def read_curves(
         If there is no such file (FileNotFoundError), whatever its name ends with, or it may not be read.
     ImportError
         If the package is not installed that reads the format.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from mdr_core import read_curves
+    >>> text = "Test 1\\nDepth (nm);Load (mN)\\n0;0\\n10;1\\n20;4\\n"
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "runs.csv"
+    ...     _ = path.write_text(text + text.replace("Test 1", "Test 2"), encoding="utf-8")
+    ...     curves = read_curves(path)
+    >>> print(len(curves), round(curves[1].force.max(), 9))
+    2 0.004
     """
     path = Path(path)
     # A file that is missing or may not be read is the system's error, whatever would read it.

@@ -22,6 +22,15 @@ While a sweep of arrays in memory runs, tqdm shows its progress where it is inst
 terminal; of dask arrays ``dask.diagnostics.ProgressBar()`` does.
 
 Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; the regions on disk remain.
+
+Examples
+--------
+>>> from mdr_core import FlatPunch, sweep
+>>> import xarray as xr
+>>> depth = xr.DataArray([0.1, 0.2], dims="path")
+>>> table = sweep.indentations(FlatPunch, radius=0.5, E_star=1.0, depth=depth)
+>>> print(table.force.values.round(9))  # 2E* a d
+[0.1 0.2]
 """
 
 from collections.abc import Iterable

@@ -1,7 +1,9 @@
 """Examples in docstrings, in the README and on the site run, and the site is complete."""
 
+import ast
 import doctest
 import importlib
+import inspect
 import pkgutil
 import re
 import shutil
@@ -45,6 +47,32 @@ def test_examples_in_docstrings(module):
     assert doctest.testmod(importlib.import_module(module)).failed == 0
 
 
+def documented(name):
+    """A public name with its public methods or functions, those that have a docstring."""
+    thing = getattr(mdr, name)
+    yield name, thing
+    if inspect.isclass(thing) or inspect.ismodule(thing):
+        for part, value in vars(thing).items():
+            value = getattr(value, "__func__", getattr(value, "fget", value))
+            own = inspect.isclass(thing) or getattr(value, "__module__", "") == thing.__name__
+            if own and not part.startswith("_") and inspect.isfunction(value):
+                yield f"{name}.{part}", value
+
+
+@pytest.mark.parametrize("name", mdr.__all__)
+def test_an_example_runs_alone_as_it_is_pasted(name):
+    """In an empty namespace; every public name has one."""
+    if name == "sweep":
+        pytest.importorskip("xarray")
+    for title, thing in documented(name):
+        text = inspect.getdoc(thing) or ""
+        test = doctest.DocTestParser().get_doctest(text, {}, title, None, 0)
+        assert test.examples or title != name, f"{name} has no example"
+        said = []
+        failures, _ = doctest.DocTestRunner().run(test, out=said.append)
+        assert not failures, "".join(said)
+
+
 def test_the_example_of_a_shape_of_ones_own_is_run():
     """Examples of classes count only where their module says that they are its own."""
     profile = importlib.import_module("mdr_core.profiles.profile")
@@ -64,6 +92,24 @@ def test_blocks_of_code(block, tmp_path, monkeypatch):
     shutil.copy(ROOT / "assets" / "silica.csv", tmp_path)
     monkeypatch.chdir(tmp_path)
     run(block)
+
+
+def test_blocks_that_need_a_file_of_a_reader_import_what_they_use():
+    """Blocks of the page on AFM cannot be run here: their files are the reader's."""
+    blocks = re.findall(r"```py\n(.*?)```", (DOCS / "afm.md").read_text("utf-8"), re.DOTALL)
+    assert len(blocks) >= 3
+    for block in blocks:
+        tree = ast.parse(block)
+        imported = {
+            part.asname or part.name
+            for node in tree.body
+            if isinstance(node, ast.Import)
+            for part in node.names
+        }
+        used = {
+            node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and node.id in ("mdr", "np")
+        }
+        assert used <= imported, block
 
 
 def test_the_curve_of_the_readme_is_plotted_and_saved(tmp_path, monkeypatch):

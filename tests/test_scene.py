@@ -211,3 +211,12 @@ def test_a_file_from_before_classes_of_hardness_is_read():
     data = json.loads(scene.to_json())
     del data["medium"]["hardness"], data["medium"]["f_c"]
     assert mdr.Scene.from_json(json.dumps(data)) == scene
+
+
+def test_an_oblique_impact_without_friction_keeps_its_speed_along_the_surface():
+    """μ = 0 is no friction, not a mistake; less is one."""
+    drive = mdr.FreeObliqueImpact(1e-9, 0.1, tangential_speed=0.3, friction=0.0)
+    hit = mdr.Scene(mdr.Paraboloid(1e-3), mdr.Medium(1e9), drive).solve()
+    assert hit.tangential_velocity == 0.3
+    with pytest.raises(ValueError, match=r"friction .*must be finite and not negative"):
+        mdr.FreeObliqueImpact(1e-9, 0.1, tangential_speed=0.3, friction=-0.1)

@@ -35,6 +35,13 @@ class Indentation(Result):
     dashpots on loading, and with adhesion −E*Δl, where [d_p, D] with D = d + Δl is the live interval;
     `in_time` says whether the states belong to a motion, and `jumps` are depths (m) between which a path
     given by force jumps because the force falls there.
+
+    Examples
+    --------
+    >>> from mdr_core import Medium, Paraboloid, indent
+    >>> states = indent(Paraboloid(radius=1.0), Medium(E_star=1.0), [0.0, 0.01])
+    >>> print(round(states[1].force, 9), round(states[1].contact_radius, 9))  # Hertz
+    0.001333333 0.1
     """
 
     profile: Profile

@@ -187,6 +187,13 @@ class TimedIndentation(Result):
 
     Every quantity has the shape of `time`; `result[i]` is one state. Where the rate changes, force and
     fields are those at the end of the earlier piece.
+
+    Examples
+    --------
+    >>> from mdr_core import FlatPunch, Medium, indent_in_time
+    >>> path = indent_in_time(FlatPunch(radius=0.5), Medium(E_star=1.0), [0.0, 1.0], [0.0, 1.0])
+    >>> print(round(path[-1].force, 6))  # 2E* a d
+    1.0
     """
 
     profile: Profile

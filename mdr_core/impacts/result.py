@@ -27,6 +27,13 @@ class Impact(Entries, ImpactResult):
     `turning_point` is the state of largest depth; `plastic_depth_increase` (m) is due to this impact alone.
     A subclass is the solution by one solver, which gives `restitution`, the coefficient e, 0 for a captured
     body, and `contact_time` (s) from first contact to its loss, infinite for a captured body.
+
+    Examples
+    --------
+    >>> from mdr_core import FlatPunch, Medium, impact
+    >>> hit = impact(FlatPunch(radius=0.5), Medium(E_star=1.0), mass=1.0, speed=[0.1, 0.2])
+    >>> print(hit[1].max_depth.round(9), hit[1].restitution)  # v₀ √(m/k) with k = 1 N/m
+    0.2 1.0
     """
 
     mass: Array

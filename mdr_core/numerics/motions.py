@@ -105,6 +105,13 @@ class Motion(MotionResult):
         States of the contact at each instant, with pressure and surface; None for the chain.
     impact : Impact, ChainImpact or None
         The impact.
+
+    Examples
+    --------
+    >>> from mdr_core import FlatPunch, Medium, impact
+    >>> motion = impact(FlatPunch(radius=0.5), Medium(E_star=1.0), mass=1.0, speed=0.1).motion(5)
+    >>> print(round(motion.time[motion.turning_index], 6))  # a quarter of a period: π/2
+    1.570796
     """
 
     time: Array

@@ -126,6 +126,13 @@ class ObliqueImpact(Entries, Result):
     """Oblique impacts, one or many; made by `oblique_impact`. `result[i]` picks one of many.
 
     `normal` is the `Impact` along the normal, with all of its quantities.
+
+    Examples
+    --------
+    >>> from mdr_core import FlatPunch, Medium, oblique_impact
+    >>> hit = oblique_impact(FlatPunch(radius=0.5), Medium(E_star=1.0), 1.0, 0.1, 1.0, friction=0.1)
+    >>> print(bool(hit.slips_throughout), round(hit.velocity_change, 6))  # −2 μ v₀
+    True -0.02
     """
 
     normal: Impact

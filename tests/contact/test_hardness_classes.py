@@ -7,6 +7,7 @@ import pytest
 
 pytest.importorskip("mpmath")
 
+import mpmath
 from mpmath import mp, mpf
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
@@ -377,3 +378,20 @@ def test_smooth_shapes_are_checked_to_be_convex():
         mdr.indent(mdr.Smooth(lambda r: 1 / (1 + r / 1e-6)), glass, 1e-9)
     smooth = mdr.indent(mdr.Smooth(lambda r: r / 1e-5), glass, 1e-8)
     assert smooth.force == pytest.approx(mdr.indent(mdr.Paraboloid(1e-5), glass, 1e-8).force, rel=1e-10)
+
+
+@pytest.mark.parametrize("past", [1e-5, 4e-5, 9e-5])
+def test_plastic_work_of_a_paraboloid_just_past_the_onset(past):
+    """2E* √R d_y^(5/2) ∫ ρ √(ρ² − ρ) (2ρ − 1) dρ from 1 to r = √(d/d_y), by mpmath for the depth as it is.
+
+    The increase of the plastic depth has 16 digits less those of 1/(r − 1), which is 5 at most.
+    """
+    R, E, H = 1e-3, 7e10, 9e9
+    depth = R * (np.pi * H / (2 * E)) ** 2 * (1 + past) ** 2
+    work = mdr.indent(mdr.Paraboloid(R), mdr.Medium(E, hardness=H), depth).plastic_work
+    with mpmath.workdps(40):
+        onset = mpmath.mpf(R) * (mpmath.pi * mpmath.mpf(H) / (2 * mpmath.mpf(E))) ** 2
+        end = mpmath.sqrt(mpmath.mpf(float(depth)) / onset)
+        integral = mpmath.quad(lambda r: r * mpmath.sqrt(r * r - r) * (2 * r - 1), [1, end])
+        expected = 2 * E * mpmath.sqrt(mpmath.mpf(R)) * onset ** mpmath.mpf("2.5") * integral
+    assert work == pytest.approx(float(expected), rel=1e-10)

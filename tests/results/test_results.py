@@ -198,6 +198,24 @@ def test_speed_against_wave_speed(hit):
         hit.speed_limit(-1.0)
 
 
+@pytest.mark.parametrize(("slope", "level"), [(0.29, "good"), (0.49, "note"), (0.51, "beyond")])
+def test_slopes_are_small_to_three_tenths_and_estimates_above_a_half(slope, level):
+    assert limit(mdr.indent(mdr.Cone(slope), SOFT, 1e-6), "slope").level == level
+
+
+@pytest.mark.parametrize(("radius", "over"), [(0.49, False), (0.51, True)])
+def test_contacts_are_small_to_half_of_the_radius_of_the_body(radius, over):
+    """Under a paraboloid a² = R d."""
+    state = mdr.indent(mdr.Paraboloid(1e-3), SOFT, 1e-3 * radius**2)
+    assert limit(state, "contact radius").exceeded == over
+
+
+@pytest.mark.parametrize(("ratio", "over"), [(0.49, True), (0.5, False)])
+def test_dashpots_are_exact_for_incompressible_media_alone(ratio, over):
+    hit = mdr.impact(mdr.Paraboloid(1e-3), mdr.Medium(4e6, eta=30.0, poisson=ratio), 1e-4, 0.5)
+    assert limit(hit, "Poisson ratio").exceeded == over
+
+
 class TestCriticalDepthBelowAtoms:
     """π q_c/(2E*) against 0.1 nm; steel with its Poisson ratio for q_c has 2.2 pm."""
 
