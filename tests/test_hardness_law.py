@@ -157,6 +157,21 @@ class TestALawThatWritesTheSumOut:
         assert_same(*columns, names=["force", "plastic_depth", "plastic_work"])
 
 
+@pytest.mark.parametrize("eta", [0.0, 20.0])
+@pytest.mark.parametrize("mixture", ["H", "q", "H+q+f"])
+def test_oblique_impacts_over_a_law_of_ones_own(mixture, eta):
+    """As over the constants: the same elements in the same steps. Without viscosity to rounding, with it to
+    what the depths of its motion are solved to."""
+    arguments = 1e-9, 5.0, 2.0, 0.3
+    known, own = (
+        mdr.oblique_impact(BALL, medium, *arguments, tangential_mass=2e-9 / 7)
+        for medium in both(mixture, eta=eta)
+    )
+    assert known.plastic_work > 0
+    for name in ("tangential_velocity", "max_tangential_force", "friction_work", "restitution"):
+        assert getattr(own, name) == pytest.approx(getattr(known, name), rel=1e-7 if eta else 1e-10), name
+
+
 def test_sweeps_take_one_law_for_all():
     xr = pytest.importorskip("xarray")
     hardness, q_c, f_c = MIXTURES["H+q+f"]
