@@ -9,7 +9,7 @@ import numpy as np
 from bokeh.core.properties import field
 from bokeh.plotting import figure
 
-from mdr_core.results.figures import Axis
+from mdr_core.show.figures import Axis
 
 from .plot import Plot, View, overlays, rows_of
 from .quantities import lowered

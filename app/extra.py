@@ -45,6 +45,10 @@ class Extra:
 
     Its numbers, choices, drives and readouts are in a JSON file of its name beside it; names of numbers and
     choices begin with its own and a point. These are values of the state, in links and undone.
+
+    What it alone needs is in a class of its own: of `Service`, what it keeps or does in a session; of
+    `Drive`, numbers that keep their meaning when a choice of it changes (`converted`); of `Plot`, axes,
+    notes and options that apply to a state (`axes_of`, `note_of`, `options_of`).
     """
 
     name: str

@@ -3,8 +3,8 @@
 from functools import partial
 from typing import Any
 
-from mdr_core.profiles.samples import decoded
-from mdr_core.results.units import UNITS, Unit, entry, fitting, read, written
+from mdr_core.files.text import decoded
+from mdr_core.show.units import UNITS, Unit, entry, fitting, read, written
 
 from . import changes
 from .extra import EXTRAS

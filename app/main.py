@@ -4,7 +4,7 @@ from urllib.parse import urlencode
 
 import panel as pn
 
-from . import theory
+from . import private, theory
 from .fit import page as fit
 from .page import Address, Page
 from .ui import SHEETS
@@ -18,13 +18,7 @@ _PAGES = {
 _ADDRESS = Address.from_request(pn.state.curdoc.session_context.request)
 _GIVEN = pn.state.session_args
 _QUERY = urlencode(_GIVEN, doseq=True)
-# As wide as the screen: a phone would lay the page out for a desk. No plot is drawn with WebGL, which
-# spares the first visit 194 of 3,060 kB of scripts.
-pn.state.curdoc.template = """{% block postamble %}
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<link rel="modulepreload" href="app/static/parts.js">{% endblock %}{% block js_resources %}
-{% for line in bokeh_js.splitlines() if "bokeh-gl" not in line %}{{ line }}
-{% endfor %}{% endblock %}"""
+pn.state.curdoc.template = private.template()
 _name = next((name for name in _PAGES if name in _GIVEN), "")
 _made, _title, _sheets, _extensions = _PAGES.get(_name, (None, "Indentation explorer", [], []))
 pn.extension(*_extensions, notifications=True, css_files=[*SHEETS, *_sheets])

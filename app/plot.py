@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.results.figures import NOTHING, Axis, Row
-from mdr_core.results.units import fitting
+from mdr_core.show.figures import NOTHING, Axis, Row
+from mdr_core.show.units import fitting
 
 from .courses import Course
 from .quantities import CHOICES

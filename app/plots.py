@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.results import figures
-from mdr_core.results.figures import label, line, mark, split
-from mdr_core.results.quantities import QUANTITIES
-from mdr_core.results.units import written
+from mdr_core.show import figures
+from mdr_core.show.figures import label, line, mark, split
+from mdr_core.show.quantities import QUANTITIES
+from mdr_core.show.units import written
 
 from .courses import Course
 from .plot import Along, Plot, View

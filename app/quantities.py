@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from mdr_core._errors import InvalidArgument
-from mdr_core.results.quantities import QUANTITIES as RESULTS
-from mdr_core.results.units import KINDS, written
+from mdr_core.show.quantities import QUANTITIES as RESULTS
+from mdr_core.show.units import KINDS, written
 
 from .registry import Registry
 

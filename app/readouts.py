@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.results.units import KINDS, written
+from mdr_core.show.units import KINDS, written
 
 from .courses import Course
 from .quantities import CHOICES, READOUTS, Readout, lowered

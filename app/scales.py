@@ -7,7 +7,7 @@ from bokeh.events import DocumentReady
 from bokeh.model import DataModel
 from bokeh.models import CustomJS
 
-from mdr_core.results.figures import Axis
+from mdr_core.show.figures import Axis
 
 from .plot import Along
 from .plots import NAMED, PLOTS

@@ -6,7 +6,7 @@ from math import isclose
 from typing import Any
 
 import mdr_core as mdr
-from mdr_core.results.units import entry, fitting, read, written
+from mdr_core.show.units import entry, fitting, read, written
 
 from .quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
 from .registry import Registry

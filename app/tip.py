@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from mdr_core.files.tips import samples_of
 from mdr_core.profiles.sampled import tip_through
-from mdr_core.profiles.samples import samples_of
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 #: Most samples that are pressed without keeping everybody waiting, most that a tip is fitted to or that are
 #: taken of a curve, most rows of a tip and most bytes of a file.

@@ -5,7 +5,7 @@
 
 Radii are lognormal, speeds Weibull: random numbers are drawn chunk by chunk on the workers, every impact is
 solved, and sums and histograms are all that is kept, so that memory does not grow with the number. It needs
-`pip install mdr-core[sweep] matplotlib`.
+`pip install ".[sweep]" matplotlib`, in the folder of the project.
 
 With `--attack` one particle comes at all angles of attack: plastic and friction work on the composite, and
 beside it on a medium of constant hardness, which gives nothing back and has closed forms.

@@ -1,6 +1,7 @@
 # %% [markdown]
 # # From a first curve to an impact
-# Run it cell by cell, or as it is. It needs `pip install mdr-core xarray pandas matplotlib`.
+# Run it cell by cell, or as it is. It needs
+# `pip install ".[all]" matplotlib`, in the folder of the project.
 
 # %% A first curve: a sphere of 200 nm pressed into gold, let go, pressed again; shown, plotted, saved.
 from pathlib import Path

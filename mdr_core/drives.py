@@ -13,8 +13,8 @@ from .foundation.depth_path import check_times, indent_in_time
 from .foundation.force_path import chain_creep
 from .impacts.impact import solve_impact
 from .medium import Medium
+from .numerics.results import CHAIN, CLOSED_FORM, CREEP_LAW, SCALAR_ODE, Model
 from .oblique.oblique_impact import FRICTION, oblique_impact
-from .results.base import CHAIN, CLOSED_FORM, CREEP_LAW, SCALAR_ODE, Model
 
 
 class _Path:

@@ -3,16 +3,16 @@
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Self, overload
+from typing import Any, Self, overload
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
 from ._check import Array, frozen, number, positive_number
-from .profiles.samples import Table
-from .results.quantities import engineering
-from .results.report import Report
+from .numerics.results import Record
+from .show.quantities import engineering
+from .show.report import rows
 
 #: Shares of the ranges of depth and force: a turn of the depth; changes in a hold, and its force above the
 #: smallest one. Share of the samples, and least number of them, that a hold has.
@@ -38,7 +38,7 @@ MODALITIES = {
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class MeasuredCurve(Report):
+class MeasuredCurve(Record):
     """A measured curve, returned by `read_curve`, and how its file was understood.
 
     `approach` and `retract` are parts of it. A drift and the compliance of a frame are subtracted from the
@@ -68,11 +68,14 @@ class MeasuredCurve(Report):
     columns: dict[str, tuple[int, str] | None]
     #: Reversed signs, corrections, and lines and columns that are left out.
     remarks: tuple[str, ...]
-    table: Table
+    table: Any
     #: Depth (m), force (N) and time (s), None for a time that the file does not have.
     depth: Array
     force: Array
     time: Array | None
+    #: Contact stiffness dF/dh (N/m) where the instrument measures it, as by an oscillation on top of the
+    #: loading (continuous stiffness measurement), NaN where a cell has none; None without such a column.
+    stiffness: Array | None
     #: "approach", "hold" or "retract" for each sample, as the file names them. Where it does not, approach
     #: and retract end where the depth turns round by more than 5 % of its range, and in a hold depth and
     #: force stay within 1 % of their ranges, for 2 % of the samples or more.
@@ -254,3 +257,8 @@ class MeasuredCurves(Sequence[MeasuredCurve]):
         if isinstance(index, slice):
             return replace(self, _makers=self._makers[index], position=position)
         return replace(self._makers[index](), position=position)
+
+
+@rows.register
+def _rows_of_curve(curve: MeasuredCurve):
+    return curve._rows()

@@ -1,57 +1,21 @@
 """Measured force–depth curves from files of instruments."""
 
-import logging
 import re
-from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from . import _check
-from .measured_curve import MODALITIES, MeasuredCurve, MeasuredCurves, named_segments, segments_of
-from .profiles.samples import UNITS, Table, decoded, read_table, unit_named
-from .results.report import imported
+from .files.afm import SUFFIXES, from_afm, is_afm_text, refuse_binary
+from .files.columns import SIZES, NoCurve, UnknownColumns
+from .files.curve import curve_of, curves_of
+from .files.text import decoded, read_tables
+from .files.workbook import from_workbook
+from .measured_curve import MeasuredCurve, MeasuredCurves
 
-# Without a handler its errors would be printed beside the refusals.
-logging.getLogger("afmformats").addHandler(logging.NullHandler())
-
-#: Words in the names of the columns of each quantity.
-_WORDS = {
-    "depth": r"depth|displ|indent|tiefe|weg|\b[hdz]\b",
-    "force": r"force|load|deflection|kraft|last|\b[fp]\b",
-    "time": r"time|zeit|\bt\b",
-}
-#: Names of columns of the depth itself, not of the position of a piezo or of the depth below the contact.
-_DEPTH = re.compile("(?!.*(piezo|displ|height|contact)).*(depth|indent|tiefe)", re.I)
-#: Names of columns of the position of the piezo, in which the deflection of the cantilever is included.
-_PIEZO = re.compile("piezo|height|sens|scanner", re.I)
-#: Beginnings of the suffixes of AFM files that are no text.
-_AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
-#: Text that only files of AFM instruments have.
-_OF_AFM = re.compile(r"# afmformats |Force-Distance Curve|Device:\tChiaro")
-#: Sizes of the units of each quantity (SI); a minus turns the sign of a column.
-SIZES = {
-    each: UNITS[kind] | {f"−{unit}": -size for unit, size in UNITS[kind].items()}
-    for each, kind in {"depth": "length", "force": "force", "time": "time"}.items()
-}
-#: What to do about errors of `afmformats`.
-_REMEDIES = {
-    "MissingMetaDataError": " Give spring_constant= (N/m) and sensitivity= (m/V)",
-    "NotImplementedError": " Its forces are in N: give neither. minus_frame(1 / k) subtracts a deflection",
-    "UnicodeDecodeError": "; if it is packed, unpack it and read its files",
-}
-
-
-class UnknownColumns(ValueError):
-    """A table whose header does not tell the columns of depth and force, or their units."""
-
-    def __init__(self, message: str, table: Table) -> None:
-        super().__init__(message)
-        self.table = table
+__all__ = ["SIZES", "UnknownColumns", "curve_of", "read_curve", "read_curves"]
 
 
 def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> MeasuredCurve:
@@ -72,7 +36,7 @@ def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> Measu
 
     Raises
     ------
-    ValueError, ImportError
+    ValueError, OSError, ImportError
         As in `read_curves`.
 
     Examples
@@ -106,8 +70,15 @@ def read_curves(
     """Read all measured curves of a file of an instrument, which is opened once.
 
     Columns of a table are found by the units in its header, in brackets, after the names or in a line of
-    their own, and then by their names. Signs are found by the numbers, as force and depth are positive in
-    compression. `remarks` of a curve has what was turned round or left out. Depth counts as in the file.
+    their own, with powers of ten beside them, as in "10^-3 N", and by their names in several languages.
+    A scale that is not understood is refused. Signs are found by the numbers, as force and depth are
+    positive in compression. `remarks` of a curve has what was turned round, subtracted or left out. Depth
+    counts as in the file.
+
+    A text may have several curves: each below a header or a title of its own ("Test 2"), told apart by a
+    column of labels or numbers ("Sample", "Test"), or side by side in columns of the same names. An
+    approach and its retract side by side, and segments with a header each, are one curve. Tables of
+    results, one row a test, are left out, with a remark; a file that has nothing else is refused.
 
     Parameters
     ----------
@@ -118,15 +89,18 @@ def read_curves(
         `afmformats`. Of AFM files the depth is minus the position of the tip, −(height + F/k) with the
         stiffness k of the cantilever, and its zero is not the contact point.
     spring_constant : float, optional
-        Stiffness of the cantilever (N/m) that the file lacks. With it the deflection F/k is subtracted from
-        a column of a table that is the position of the piezo: its name has piezo, height, sens or scanner.
+        Stiffness of the cantilever (N/m) that the file lacks; the header of a text may have it. With it the
+        deflection F/k is subtracted from the depth of a table, unless the name of its column says that it
+        is a depth, an indentation, the tip or a separation. A column of the deflection (m or V) gives the
+        force.
     sensitivity : float, optional
-        Deflection (m) of the cantilever for 1 V that an AFM file lacks; m/A for NT-MDT. Its files have no
-        header: they are known by the two values that are given.
+        Deflection (m) of the cantilever for 1 V, where the file has its deflection in V; m/A for NT-MDT.
+        Its files have no header: they are known by the two values that are given.
     columns : dict, optional
         Columns of a table for "depth", "force" and "time": a name in the header, as in
         ``{"depth": "Z-Sense (nm)"}``, or a number from 0 on and a unit, as in ``{"depth": (0, "nm")}``,
-        where the header lacks them. None leaves out the time.
+        where the header lacks them. None leaves out the time. "stiffness", a column of a contact stiffness
+        and its unit, as in ``(4, "N/m")``, is found by its name, too.
 
     Returns
     -------
@@ -135,191 +109,75 @@ def read_curves(
     Raises
     ------
     ValueError
-        If most lines are no rows of numbers, or there is no column of depth or force with a unit; if a
-        stiffness or a sensitivity is needed that is not given, or given where the file has its own forces.
+        If most lines are no rows of numbers, or there is no column of depth or force with a unit that is
+        understood; if a table is one of results, or of several curves that it does not tell apart; if a
+        stiffness or a sensitivity is needed that is not given, or given where the file has its own forces;
+        if the file is binary and not read, with the export to make.
+    OSError
+        If there is no such file (FileNotFoundError), whatever its name ends with, or it may not be read.
     ImportError
         If the package is not installed that reads the format.
     """
     path = Path(path)
+    # A file that is missing or may not be read is the system's error, whatever would read it.
+    with path.open("rb"):
+        pass
     suffix, given = path.suffix.lower(), {}
     if spring_constant is not None:
         given["spring constant"] = _check.positive_number("spring_constant", spring_constant, unit="N/m")
     if sensitivity is not None:
         given["sensitivity"] = _check.positive_number("sensitivity", sensitivity, unit="m/V")
-    text = "" if suffix.startswith((*_AFM, ".xls")) else decoded(path.read_bytes())
+    options = {
+        "columns": columns,
+        "spring_constant": given.get("spring constant"),
+        "sensitivity": given.get("sensitivity"),
+    }
+    if suffix in (".xls", ".xlsx", ".xlsm"):
+        return MeasuredCurves(path.name, None, from_workbook(path, options))
+    if suffix.startswith(SUFFIXES):
+        return from_afm(path, given)
+    data = path.read_bytes()
+    refuse_binary(path, data)
+    text = decoded(data)
     of_nova = suffix == ".txt" and len(given) == 2 and not re.search("[A-Za-z]", text[:1000])
-    if suffix.startswith(_AFM) or (columns is None and (of_nova or _OF_AFM.search(text[:2000]))):
-        return _from_afm(path, given)
-    if sensitivity is not None:
-        raise ValueError(f"{path.name} is a table, with forces in units of force: leave out sensitivity")
-    options = {"columns": columns, "spring_constant": given.get("spring constant")}
-    if suffix in (".xls", ".xlsx"):
-        return MeasuredCurves(path.name, None, _sheets(path, options))
-    make = partial(curve_of, read_table(text, path.name), path.name, **options)
-    return MeasuredCurves(path.name, None, [make])
+    if columns is None and (of_nova or is_afm_text(text)):
+        return from_afm(path, given)
+    return MeasuredCurves(path.name, None, _of_text(text, path.name, options))
 
 
-def curve_of(table, name, columns=None, spring_constant=None, *, turn=True, segment=None):
-    """`MeasuredCurve` of a table with given columns, and others by their units and names.
-
-    Signs are found by the numbers unless `turn` is False.
-    """
-    columns, remarks = _columns(table, name, columns or {})
-    values = {each: table.values[column[0]] for each, column in columns.items() if column}
-    rows = np.flatnonzero(np.isfinite(list(values.values())).all(axis=0))
-    labels, segment = named_segments(table.words) if segment is None else ("", segment)
-    remarks += _omissions(table, rows, name, labels)
-    if rows.size < 2:
-        raise ValueError(f"{name} has one row of numbers: give a curve, a sample a line")
-    steps = np.diff(values["time"][rows]) if "time" in values else np.ones(1)
-    if np.all(steps <= 0) and np.any(steps):
-        rows = rows[::-1]
-    elif np.any(steps < 0) or not np.any(steps):
-        remarks.append("the time does not ascend and is left out: samples are in the order of the file")
-        columns["time"] = None
-        del values["time"]
-    values = {each: value[rows] * SIZES[each][columns[each][1]] for each, value in values.items()}
-    for each in _turned(values["depth"], values["force"]) if turn else ():
-        values[each], (column, unit) = -values[each], columns[each]
-        columns[each] = column, unit[1:] if unit[0] == "−" else f"−{unit}"
-        remarks.append(f"{each} turned round: it is positive in compression")
-    head = table.heads[columns["depth"][0]]
-    if _PIEZO.search(head) and spring_constant is not None:
-        values["depth"] = values["depth"] - values["force"] / spring_constant
-        remarks.append(f"{head!r} is of the piezo: the deflection, force over stiffness, is subtracted")
-    elif _PIEZO.search(head):
-        remarks.append(f"{head!r} includes the deflection force/stiffness: give spring_constant= (N/m)")
-    elif spring_constant is not None and "tip" not in head:
-        remarks.append(f"{head!r} is taken as the depth of the tip: no deflection is subtracted")
-    arrays = {"time": None} | {each: _check.frozen(value) for each, value in values.items()}
-    arrays["segment"] = segments_of(**values) if segment is None else _check.frozen(segment[rows])
-    return MeasuredCurve(name, spring_constant, None, columns, tuple(remarks), table, **arrays)
+def _of_text(text, name, options):
+    """Functions that make the curves of a text: of one table, or of each where there are several."""
+    tables = read_tables(text, name)
+    if len(tables) == 1:
+        return curves_of(tables[0][1], name, **options)
+    curves, left, refused = [], [], None
+    for number, (title, table) in enumerate(tables, 1):
+        which = f"{name}, {title or f'table {number}'}"
+        try:
+            curves += curves_of(table, which, **options)
+        except NoCurve as error:
+            left.append(f"table {number}, from line {table.lines[0]} on, is left out, as it is no curve")
+            refused = error
+        except ValueError as error:
+            curve = getattr(error, "named", len(table.lines) > 1)
+            if not curve:
+                left.append(
+                    f"table {number}, from line {table.lines[0]} on, is left out: no depth and force"
+                )
+            else:
+                # It does not stop the others.
+                curves.append(partial(_refuse, error))
+            refused = error
+    if all(make.func is _refuse for make in curves):
+        raise refused
+    return [partial(_said, make, tuple(left)) for make in curves]
 
 
-def _columns(table, name, given):
-    """Number and unit of the column of each quantity, None for no time, and remarks on the choice."""
-    free, columns, remarks = dict(table.heads), {}, []
-    if len(free) < 2:
-        raise ValueError(f"{name} has one column of numbers: give one of depth and one of force")
-    for each in given:
-        _check.one_of("a key of columns", each, tuple(_WORDS))
-        columns[each] = _given(table, each, given[each], free)
-        free.pop(columns[each] and columns[each][0], None)
-    for each in [each for each in ("time", "force", "depth") if each not in columns]:
-        fits = [column for column in free if table.unit(column) in SIZES[each]]
-        best = max(fits, key=lambda column: _rank(each, free[column]), default=None)
-        if best is None and each != "time":
-            raise UnknownColumns(
-                f"{name} has no column of {each} with a unit in its header, {table.heads}: give columns="
-                '{"depth": (0, "nm"), "force": (1, "mN")}, numbers and units; a deflection is no force. '
-                "NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)",
-                table,
-            )
-        others = ", ".join(repr(free[column]) for column in fits if column != best)
-        remarks += [f"{each} is taken from {free[best]!r}, not from {others}"] if others else []
-        columns[each] = None if best is None else (best, table.unit(best))
-        free.pop(best, None)
-    return {each: columns[each] for each in _WORDS}, remarks
+def _refuse(error):
+    raise error
 
 
-def _rank(each, head):
-    """Whether a column has the name of a quantity, is no raw one, and says that it is the depth."""
-    named = re.search(_WORDS[each], head, re.I)
-    return bool(named), "raw" not in head.lower(), _DEPTH.match(head) is not None
-
-
-def _given(table, each, column, free):
-    """Number and unit of one of the `free` columns that is given by its name or number."""
-    if column is None and each == "time":
-        return None
-    which, unit = column if isinstance(column, tuple | list) else (column, None)
-    number = next((k for k, head in free.items() if which in (k, head)), None)
-    if number is not None:
-        unit = unit_named(unit) or unit if unit else table.unit(number)
-    if number is None or unit not in SIZES[each]:
-        raise ValueError(
-            f"columns: {each} = {column!r} must be a number or name of {free}, and a unit where "
-            f"that has none, ({which!r}, {list(SIZES[each])[1]!r}), out of {', '.join(SIZES[each])}"
-        )
-    return number, unit
-
-
-def _omissions(table, rows, name, labels):
-    """Remarks on columns and lines that are left out; `rows` and the column of `labels` are not."""
-    lines = sorted({*table.odd, *table.lines.tolist()} - set(table.lines[rows].tolist()))
-    listed = ", ".join(map(str, lines[:3])) + f" and {len(lines) - 3} more" * (len(lines) > 3)
-    what = f"line{'s' * (len(lines) > 1)} {listed}: a cell is missing or no number"
-    if len(lines) > len(rows):
-        raise ValueError(f"most lines of {name} are no rows of numbers, as {what}")
-    named = [column for column in table.words if column != labels and " " in column.strip()]
-    words = [f"column {column}, which has no numbers, is left out" for column in named]
-    return words + [f"left out {what}"] * bool(lines)
-
-
-def _turned(depth, force):
-    """Names of the quantities that have the other sign."""
-    # Depth and force grow to the farther one of the largest and the smallest force: adhesion is nearer.
-    apart = 0.2 * np.ptp(force)
-    ends = [end for end in (force.argmax(), force.argmin()) if abs(force[end] - force[0]) >= apart]
-    peak = max(ends, key=lambda end: abs(depth[end] - depth[0]))
-    turned = ["depth"] * bool(depth[peak] < depth[0]) + ["force"] * bool(force[peak] < force[0])
-    # Both fall in an unloading alone, from the largest force on.
-    return turned if len(turned) < 2 or abs(force[peak]) > abs(force[0]) else []
-
-
-def _sheets(path, options):
-    """Functions that make the curves of the sheets of an Excel file that have depth and force."""
-    pandas = imported("pandas", f"reading {path.name}", "mdr-core[tables]")
-    try:
-        sheets = pandas.read_excel(path, sheet_name=None, header=None)
-    except Exception as error:
-        # Each engine has errors of its own for what is no Excel file.
-        raise ValueError(f"{path.name} cannot be read as an Excel file: {error}") from error
-    curves = []
-    for sheet, frame in sheets.items():
-        name = f"{path.name}, {sheet}"
-        # Sheets of results and settings are passed over.
-        with suppress(ValueError):
-            table = read_table(frame.to_csv(sep="\t", header=False, index=False), name)
-            curves.append(partial(replace, curve_of(table, name, **options)))
-    if not curves:
-        raise ValueError(f"{path.name} has no sheet with columns of depth and force and their units")
-    return curves
-
-
-@contextmanager
-def _refused(errors, name):
-    """Errors of `afmformats` as ValueErrors that say what to give."""
-    try:
-        yield
-    # Most errors of this package are none that `except Exception` would handle.
-    except (Exception, errors.AFMFileFormatError, errors.MissingMetaDataError) as error:
-        remedy = _REMEDIES.get(type(error).__name__, "")
-        raise ValueError(f"{name} is not read by afmformats: {error}{remedy}") from None
-
-
-def _from_afm(path, given):
-    """`MeasuredCurves` of a file that `afmformats` reads."""
-    afmformats = imported("afmformats", f"reading {path.name}", "mdr-core[afm]")
-    with _refused(afmformats.errors, path.name):
-        curves = sorted(afmformats.load_data(path, meta_override=given), key=lambda data: data.enum)
-        position = [[data.metadata.get(f"position {axis}", np.nan) for axis in "xy"] for data in curves]
-    position = None if np.isnan(position).any() else _check.frozen(position)
-    makers = [partial(_afm_curve, afmformats.errors, data) for data in curves]
-    return MeasuredCurves(path.name, position, makers)
-
-
-def _afm_curve(errors, data):
-    """`MeasuredCurve` of a curve in `afmformats`, approach and retract in the order of time."""
-    name = data.path.name
-    with _refused(errors, name):
-        heights = [head for head in ("tip position", "height (measured)", "height (piezo)") if head in data]
-        heads = [heights[0], "force", *(["time"] if "time" in data else [])]
-        values = {k: np.asarray(data[head], dtype=float) for k, head in enumerate(heads)}
-        number = np.asarray(data["segment"], dtype=int)
-        # Where all have one number the file does not know the segments.
-        segment = np.array(MODALITIES[data.modality])[number] if number.any() else None
-        stiffness = data.metadata.get("spring constant")
-    table = Table(dict(enumerate(heads)), values, np.arange(1, number.size + 1), {}, {})
-    columns = {"depth": (0, "−m"), "force": (1, "N"), "time": (2, "s") if 2 in values else None}
-    return curve_of(table, name, columns, stiffness, turn=False, segment=segment)
+def _said(make, left):
+    """A curve that also says which tables are left out."""
+    curve = make()
+    return replace(curve, remarks=(*curve.remarks, *left))

@@ -13,11 +13,11 @@ from .foundation.chain_impact import ChainImpact
 from .foundation.depth_path import TimedIndentation
 from .impacts.result import Impact
 from .medium import Medium, check_pair, refuse_own_law
+from .numerics.results import Model
 from .oblique.oblique_impact import ObliqueImpact
 from .profiles import power, rounded, sampled, truncated
 from .profiles.profile import Profile
-from .results.base import Model
-from .results.quantities import at_default
+from .show.quantities import at_default
 
 _PROFILES = (
     power.FlatPunch, power.Cone, power.Paraboloid, power.PowerLaw, rounded.Sphere, rounded.Hyperboloid,

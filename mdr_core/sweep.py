@@ -45,10 +45,10 @@ from .oblique.oblique_impact import ObliqueImpact, oblique_impact
 from .profiles.profile import Profile
 from .profiles.sampled import Sampled
 from .profiles.smooth import Smooth
-from .results.progress import tracked_chunks
-from .results.quantities import QUANTITIES, described
-from .results.report import imported
-from .results.sweep_arguments import InvalidParticles, check_alignment, indices, labelled
+from .show.progress import tracked_chunks
+from .show.quantities import QUANTITIES, described
+from .show.report import imported
+from .sweep_arguments import InvalidParticles, check_alignment, indices, labelled
 
 if TYPE_CHECKING:
     import xarray

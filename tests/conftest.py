@@ -62,7 +62,8 @@ def _parameters(item):
 
 
 def _is_over_shapes(item):
-    names = {value for value in dir(mdr) if isinstance(getattr(mdr, value), type)}
+    # Classes have capitals; a name is imported when it is asked for.
+    names = {value for value in dir(mdr) if value[0].isupper()}
     return any(
         isinstance(value, mdr.Profile) or getattr(value, "__name__", None) in names or key == "shape"
         for key, value in _parameters(item).items()

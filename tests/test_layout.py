@@ -2,6 +2,10 @@
 
 import ast
 import inspect
+import pickle
+import subprocess
+import sys
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import numpy as np
@@ -10,31 +14,17 @@ import pytest
 import mdr_core as mdr
 
 PACKAGE = Path(mdr.__file__).parent
-# From the bottom up; a module may import what stands before it.
-ORDER = (
-    "_errors", "_check", "numerics.stable", "numerics.blocks", "numerics.gauss", "numerics.collocation",
-    "numerics.roots", "abel", "results.units", "results.quantities", "profiles.samples", "profiles.profile",
-    "profiles.power", "profiles.radius_table", "profiles.rounded", "profiles.truncated", "profiles.sampled",
-    "profiles.smooth", "hardness", "hardness_check", "medium", "results.limits", "results.report",
-    "results.base", "results.sweep_arguments", "results.progress", "measured_curve", "reading",
-    "foundation.refinement",
-    "foundation.cap", "foundation.element", "foundation.grid", "foundation.foundation",
-    "foundation.fronts", "foundation.depth_path", "foundation.force_path", "foundation.free_body",
-    "foundation.chain_impact", "contact.live_interval", "contact.quadrature", "contact.integrals",
-    "contact.yielding", "contact.closed_forms", "contact.adhesion", "contact.onset_of_yield",
-    "contact.pressure", "contact.stress", "contact.indentation", "contact.loading",
-    "contact.unloading", "contact.creep_law", "contact.creep", "impacts.contact_time", "impacts.scaling",
-    "impacts.equation_of_motion",
-    "impacts.collocation_steps", "impacts.motion_solver", "impacts.dense_motion", "impacts.motion",
-    "impacts.result", "impacts.energy_balance", "impacts.adhesive", "impacts.viscous", "impacts.impact",
-    "oblique.depth_levels", "oblique.viscous_friction", "oblique.dry_levels", "oblique.dry_friction",
-    "oblique.oblique_motion", "oblique.tangential_motion", "oblique.oblique_impact", "oblique.ball",
-    "sweep", "fit.parameters", "fit.least_squares", "fit.errors", "fit.report", "fit.oliver_pharr",
-    "fit.hardness", "fit.measurement", "fit.model", "fit.curves", "fit.adhesion", "fit.depth_noise",
-    "fit.start", "fit.solution", "fit.classes",
-    "fit.nested", "fit.noise", "fit.remarks", "fit.quoted", "fit.figures", "fit.result",
-    "fit.indentation", "drives", "scene", "results.figures", "results.elements", "__init__",
+#: From the bottom up; what is of one folder may import what stands below it, and others of the folder.
+KERNEL = (
+    "_errors", "_check", "numerics", "abel", "profiles", "hardness", "hardness_check", "medium",
+    "foundation", "contact", "impacts",
 )  # fmt: skip
+ORDER = (
+    *KERNEL, "show", "oblique", "measured_curve", "files", "reading", "fit", "sweep_arguments", "sweep",
+    "drives", "scene", "__init__",
+)  # fmt: skip
+#: What the kernel asks for by `above` when a result is shown, or a tip is read from a file.
+DOORS = {"show.report", "show.limits", "show.plots", "files.tips"}
 # What the chain bears witness of.
 CHECKED = {
     "contact.live_interval", "contact.quadrature", "contact.integrals", "contact.yielding",
@@ -49,21 +39,14 @@ CHECKED = {
 
 def modules():
     for path in sorted(PACKAGE.rglob("*.py")):
-        name = ".".join(path.relative_to(PACKAGE).with_suffix("").parts)
-        # Folders have no content of their own.
-        if not name.endswith(".__init__"):
-            yield name, path
+        yield ".".join(path.relative_to(PACKAGE).with_suffix("").parts), path
 
 
-def imports(name, path):
-    """Modules of the package that one of them imports, those for annotations included.
-
-    Plots are left out: results import `results.elements` when they are plotted.
-    """
+def imported(name, tree):
+    """Modules of the package that the nodes of one of them import, those for annotations included."""
     here = name.split(".")[:-1]
-    tree = ast.parse(path.read_text(encoding="utf-8"))
     found = set()
-    for node in ast.walk(tree):
+    for node in tree:
         if isinstance(node, ast.Import):
             assert not any(alias.name.startswith("mdr_core") for alias in node.names), name
         if not isinstance(node, ast.ImportFrom) or not node.level:
@@ -71,21 +54,50 @@ def imports(name, path):
         base = [*here[: len(here) + 1 - node.level], *(node.module.split(".") if node.module else [])]
         parts = [".".join([*base, alias.name]) for alias in node.names]
         found |= {part if part in KNOWN else ".".join(base) for part in parts}
-    return found - {"results.figures", "results.elements"}
+    return found
+
+
+def doors(tree):
+    """Arguments of calls of `above`, the door from the kernel upward."""
+    return {
+        ast.unparse(node.args[0])
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "above"
+    }
 
 
 KNOWN = {name for name, _ in modules()}
-IMPORTS = {name: imports(name, path) for name, path in modules()}
+TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in modules()}
+IMPORTS = {name: imported(name, ast.walk(tree)) for name, tree in TREES.items()}
 
 
-def test_every_module_has_its_place():
-    assert set(ORDER) == KNOWN
-    assert len({name.split(".")[0] for name in KNOWN}) <= 27
+def place(name):
+    return ORDER.index(name.split(".")[0])
 
 
-@pytest.mark.parametrize("name", ORDER)
+def test_every_folder_has_its_place():
+    assert {name.split(".")[0] for name in KNOWN} == set(ORDER)
+
+
+@pytest.mark.parametrize("name", sorted(KNOWN))
 def test_imports_point_down(name):
-    assert IMPORTS[name] <= set(ORDER[: ORDER.index(name)])
+    assert all(place(other) <= place(name) for other in IMPORTS[name])
+
+
+def test_there_is_no_circle():
+    """Of modules; that one imports its own folder's first file does not count."""
+    TopologicalSorter(IMPORTS).prepare()
+
+
+@pytest.mark.parametrize("name", sorted(KNOWN))
+def test_modules_are_imported_at_the_top(name):
+    """Not in functions, but for optional packages, and for what shows a result."""
+    functions = (node for node in ast.walk(TREES[name]) if isinstance(node, ast.FunctionDef))
+    assert not imported(name, (node for each in functions for node in ast.walk(each)))
+    assert {ast.literal_eval(door) for door in doors(TREES[name])} <= DOORS
+    if "import_module" in (node.id for node in ast.walk(TREES[name]) if isinstance(node, ast.Name)):
+        # `above`, optional packages and public names.
+        assert name in {"numerics.results", "show.report", "sweep", "__init__"}
 
 
 def test_the_chain_imports_nothing_that_it_checks():
@@ -95,12 +107,56 @@ def test_the_chain_imports_nothing_that_it_checks():
         new = set().union(*(IMPORTS[name] for name in new)) - reached
     # The search has gone down to the bottom.
     assert {"medium", "profiles.profile", "_check"} <= reached
+    assert CHECKED <= KNOWN
     assert not reached & CHECKED
 
 
 def test_only_public_names_are_shown():
     assert dir(mdr) == sorted(mdr.__all__)
     assert all(hasattr(mdr, name) for name in mdr.__all__)
+
+
+def test_type_checkers_see_the_names_that_are_found_when_they_are_asked_for():
+    seen = {
+        (alias.name, node.module)
+        for node in ast.walk(TREES["__init__"])
+        if isinstance(node, ast.ImportFrom) and node.level and node.module != "_check"
+        for alias in node.names
+    }
+    found = {(name, module) for module, names in mdr._MODULES.items() for name in names}
+    assert seen == found | {("abel", None), ("sweep", None)}
+    assert {name for name, _ in seen} == set(mdr.__all__)
+
+
+def python(code, folder=PACKAGE.parent):
+    run = subprocess.run(
+        [sys.executable, "-c", code], cwd=folder, capture_output=True, text=True, timeout=120, check=False
+    )
+    assert run.returncode == 0, run.stderr
+    return run.stdout
+
+
+def test_a_public_name_imports_what_it_needs():
+    code = (
+        "import sys, mdr_core as mdr; mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9, 1.0), 1e-9).force; "
+        "print(*(name for name in sys.modules if name.startswith('mdr_core.')))"
+    )
+    run = {name.split(".")[1] for name in python(code).split()}
+    assert run <= set(KERNEL)
+    assert not run & {"impacts", "foundation"}
+
+
+def test_all_public_names_are_imported_by_a_star():
+    code = "from mdr_core import *; print(abel.__name__, sweep.__name__, indent.__name__)"
+    assert python(code).split() == ["mdr_core.abel", "mdr_core.sweep", "indent"]
+
+
+def test_results_are_pickled_and_read_where_nothing_was_imported_yet(tmp_path):
+    state = mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9, 1.0), 1e-9)
+    (tmp_path / "state").write_bytes(pickle.dumps(state))
+    path = str(tmp_path / "state")
+    code = f"import pickle; print(pickle.load(open({path!r}, 'rb')).force)"
+    assert float(python(code)) == state.force
 
 
 @pytest.mark.parametrize("function", [mdr.indent, mdr.indent_to_force])

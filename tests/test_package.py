@@ -8,8 +8,11 @@ import tarfile
 import tomllib
 import zipfile
 from pathlib import Path
+from urllib.request import urlopen
 
 import pytest
+
+import mdr_explorer
 
 ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -32,11 +35,90 @@ def built(tmp_path_factory):
     return wheel, sdist
 
 
-def test_the_wheel_has_the_library_and_nothing_else(built):
+@pytest.fixture(scope="module")
+def unpacked(built, tmp_path_factory):
+    """A folder with what is in the wheel, as `pip` unpacks it beside other packages."""
+    folder = tmp_path_factory.mktemp("unpacked")
     with zipfile.ZipFile(built[0]) as wheel:
-        names = {name for name in wheel.namelist() if ".dist-info/" not in name}
-    tree = {str(path.relative_to(ROOT)) for path in (ROOT / "mdr_core").rglob("*.py")}
-    assert names == tree | {"mdr_core/py.typed"}
+        wheel.extractall(folder)
+    return folder
+
+
+def files(folder):
+    """Files below a folder, but for what Python leaves there."""
+    paths = (path for path in folder.rglob("*") if path.is_file() and "__pycache__" not in path.parts)
+    return {path.relative_to(folder).as_posix() for path in paths}
+
+
+def test_the_wheel_has_the_library_and_the_explorer_and_nothing_else(unpacked):
+    assert {path.name for path in unpacked.iterdir() if path.suffix != ".dist-info"} == {
+        "mdr_core",
+        "mdr_explorer",
+    }
+    assert files(unpacked / "mdr_core") == files(ROOT / "mdr_core")
+    assert files(unpacked / "mdr_explorer" / "app") == files(ROOT / "app")
+    own = {name for name in files(unpacked / "mdr_explorer") if not name.startswith(("app/", "assets/"))}
+    assert own == files(ROOT / "mdr_explorer")
+
+
+def test_the_wheel_has_each_asset_that_the_explorer_reads(unpacked):
+    """Files of assets/ that are named in its code, and the licences of measured curves."""
+    code = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "app").rglob("*.py"))
+    named = {path.name for path in (ROOT / "assets").iterdir() if f'"{path.name}"' in code}
+    assert {"quantities.json", "presets.json", "theory.md", "silica.csv", "gel.csv"} <= named
+    licences = {path.name for path in (ROOT / "assets").glob("*.license") if path.stem in named}
+    assert files(unpacked / "mdr_explorer" / "assets") == named | licences
+
+
+@pytest.mark.slow
+def test_the_command_serves_the_explorer_from_the_wheel(unpacked, tmp_path):
+    """Its three pages, the assets with them, apart from the tree."""
+    pytest.importorskip("panel")
+    code = (
+        "from importlib.metadata import distribution; "
+        "(command,) = distribution('mdr-core').entry_points.select(group='console_scripts'); "
+        "assert command.name == 'mdr-explorer'; command.load()(['--port', '0'])"
+    )
+    environment = os.environ | {"PYTHONPATH": str(unpacked), "PYTHONUNBUFFERED": "1"}
+    output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+    server = subprocess.Popen([sys.executable, "-P", "-c", code], cwd=tmp_path, env=environment, **output)
+    try:
+        lines = []
+        # Ends where the server ends.
+        for line in server.stdout:
+            lines.append(line)
+            if found := re.search(r"running at: (http\S+/app)", line):
+                break
+        else:
+            raise AssertionError("".join(lines))
+        for query in ("", "?fit", "?theory"):
+            assert "Bokeh" in urlopen(found[1] + query, timeout=120).read().decode()
+        sheet = urlopen(found[1] + "/static/style.css", timeout=20).read()
+        assert sheet == (ROOT / "app" / "static" / "style.css").read_bytes()
+    finally:
+        server.terminate()
+        rest, _ = server.communicate(timeout=20)
+    assert "Traceback" not in "".join([*lines, rest]), rest
+
+
+def test_the_command_in_the_tree_serves_the_tree():
+    assert ROOT / "app" == mdr_explorer.APP
+
+
+def test_the_command_says_how_to_install_what_it_needs(monkeypatch):
+    monkeypatch.setitem(sys.modules, "panel.command", None)
+    with pytest.raises(SystemExit, match=r'pip install "mdr-core\[app\]"$'):
+        mdr_explorer.main([])
+
+
+def test_extras_that_a_user_chooses_from_and_the_names_they_had():
+    extras = PROJECT["optional-dependencies"]
+    assert {"app", "afm", "sweep", "all"} <= set(extras)
+    # Each of them is in "all".
+    (everything, *others) = extras["all"]
+    parts = re.search(r"mdr-core\[(.*)\]", everything)[1].split(",")
+    needed = {need for name in parts for need in extras[name]} | set(others)
+    assert needed == {need for name in set(extras) - {"all"} for need in extras[name]}
 
 
 def test_the_sdist_has_what_the_page_and_the_tests_need(built):

@@ -243,7 +243,9 @@ def test_the_deflection_is_subtracted_from_the_position_of_the_piezo(tmp_path):
     curve = mdr.read_curve(path)
     remarks = "\n".join(curve.remarks)
     assert "'Extend Z-Sense(nm)' includes the deflection force/stiffness: give spring_constant=" in remarks
-    assert "not from 'Retract Z-Sense(nm)'" in remarks
+    assert "the retract is that of the columns 'Retract Z-Sense(nm)' and 'Retract Force(nN)'" in remarks
+    assert curve.segment.tolist() == 5 * ["approach"] + 5 * ["retract"]
+    np.testing.assert_allclose(curve.approach.depth, np.array(DEPTH) * 1e-9)
     tip = mdr.read_curve(path, spring_constant=0.5)
     np.testing.assert_allclose(tip.depth, curve.depth - 2 * curve.force, rtol=1e-12)
     assert tip.spring_constant == 0.5
@@ -274,10 +276,32 @@ def test_files_that_afmformats_does_not_read_are_refused(monkeypatch, tmp_path, 
 
 
 def test_missing_packages_are_named(monkeypatch, tmp_path):
-    for package, suffix in (("afmformats", "jpk-force"), ("pandas", "xlsx")):
+    """Each with a command that works where the project is installed, though no index has it."""
+    ways = {
+        "jpk-force": ("afmformats", r'pip install "mdr-core\[afm\]"$'),
+        "xlsx": ("openpyxl", "pip install openpyxl xlrd$"),
+        "xls": ("xlrd", "pip install openpyxl xlrd$"),
+        "xlsm": ("pandas", "pip install pandas openpyxl xlrd$"),
+    }
+    for suffix, (package, install) in ways.items():
+        if package != "afmformats":
+            pytest.importorskip("pandas")
+        path = tmp_path / f"run.{suffix}"
+        path.write_bytes(b"")
         monkeypatch.setitem(sys.modules, package, None)
-        with pytest.raises(ImportError, match=f"needs {package}"):
-            mdr.read_curve(tmp_path / f"run.{suffix}")
+        with pytest.raises(ImportError, match=f"needs {package}, which is not installed: {install}"):
+            mdr.read_curve(path)
+
+
+@pytest.mark.parametrize(
+    "suffix", ["csv", "txt", "xls", "xlsx", "jpk-force", "h5", "ibw", "zip", "tab", "spm"]
+)
+def test_a_missing_file_is_one_whatever_would_read_it(suffix, tmp_path):
+    """Also where the package that would read it is not installed."""
+    path = tmp_path / f"no such curve.{suffix}"
+    for read in (mdr.read_curve, mdr.read_curves, mdr.Sampled.from_csv):
+        with pytest.raises(FileNotFoundError, match="no such curve"):
+            read(path)
 
 
 def test_a_sensitivity_is_for_files_of_instruments(read, tmp_path):
@@ -285,3 +309,26 @@ def test_a_sensitivity_is_for_files_of_instruments(read, tmp_path):
     read(text((DEPTH, FORCE), ["h (nm), F (mN)"]))
     with pytest.raises(ValueError, match=r"run\.csv is a table, .* leave out sensitivity"):
         mdr.read_curve(tmp_path / "run.csv", sensitivity=6e-8)
+
+
+@pytest.mark.parametrize(
+    ("head", "size"),
+    [
+        ("Harmonic Contact Stiffness N/m", 1.0),
+        ("Stiffness (N/m)", 1.0),
+        ("S [mN/nm]", 1e6),
+        ("Contact stiffness (µN/nm)", 1e3),
+        ("Frame Stiffness (N/m)", None),
+        ("Support Spring Stiffness N/m", None),
+    ],
+)
+def test_a_measured_contact_stiffness_is_read(read, head, size):
+    """1 mN/nm is 10⁶ N/m; the stiffness of the instrument is not that of the contact."""
+    stiffness = [1.0, 2.0, 3.0, 4.0, 5.0]
+    curve = read(text((DEPTH, FORCE, stiffness), [f"Depth (nm);Load (mN);{head}"], ";"))
+    assert_same(curve)
+    if size is None:
+        assert curve.stiffness is None
+    else:
+        np.testing.assert_allclose(curve.stiffness, np.array(stiffness) * size)
+        np.testing.assert_allclose(curve.retract.stiffness, curve.stiffness[4:])

@@ -11,7 +11,7 @@ import pytest
 
 import mdr_core as mdr
 from mdr_core import sweep
-from mdr_core.results import progress
+from mdr_core.show import progress
 
 xr = pytest.importorskip("xarray")
 

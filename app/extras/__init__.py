@@ -5,7 +5,7 @@ from pathlib import Path
 from pkgutil import iter_modules
 from typing import Any
 
-from mdr_core.results.units import UNITS
+from mdr_core.show.units import UNITS
 
 from ..drives import DRIVES
 from ..extra import EXTRAS, Extra

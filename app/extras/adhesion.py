@@ -7,8 +7,8 @@ from scipy.integrate import trapezoid
 
 from mdr_core import ForcePath
 from mdr_core.contact.unloading import AdhesiveLoop, adhesive_loop, unloading_curve
-from mdr_core.results.figures import NOTHING, area, label, line, mark
-from mdr_core.results.units import written
+from mdr_core.show.figures import NOTHING, area, label, line, mark
+from mdr_core.show.units import written
 
 from ..courses import Course
 from ..extra import Extra

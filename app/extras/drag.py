@@ -9,7 +9,7 @@ from bokeh.model import DataModel
 from bokeh.models import CustomJS
 
 import mdr_core as mdr
-from mdr_core.results.figures import mark
+from mdr_core.show.figures import mark
 
 from ..changes import shown
 from ..drives import DRIVES, scene_of

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mdr_core.results.figures import NOTHING, area, line
+from mdr_core.show.figures import NOTHING, area, line
 
 from ..courses import Course
 from ..extra import Extra

@@ -5,7 +5,7 @@ from math import atan, degrees
 
 import numpy as np
 
-from mdr_core.results.units import digits, written
+from mdr_core.show.units import digits, written
 
 from ..courses import Course, onset_depth
 from ..extra import Extra

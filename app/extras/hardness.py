@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mdr_core.results.figures import line, mark, parts, split
-from mdr_core.results.units import digits, written
+from mdr_core.show.figures import line, mark, parts, split
+from mdr_core.show.units import digits, written
 
 from ..courses import Course
 from ..extra import Extra

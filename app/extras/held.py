@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import panel as pn
 
-from mdr_core.results import figures
-from mdr_core.results.figures import NOTHING, both, line
+from mdr_core.show import figures
+from mdr_core.show.figures import NOTHING, both, line
 
 from .. import link
 from ..courses import Course

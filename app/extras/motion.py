@@ -1,6 +1,6 @@
 """The plot *In time*: depth and force over time."""
 
-from mdr_core.results.figures import line, mark
+from mdr_core.show.figures import line, mark
 
 from ..extra import Extra
 from ..plot import Plot, View

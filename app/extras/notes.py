@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 from .. import readouts
 from ..courses import Course

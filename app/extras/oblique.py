@@ -11,10 +11,10 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.impacts.motion import motion as motion_of
 from mdr_core.oblique.oblique_motion import along_surface, oblique_motion
-from mdr_core.results import figures
-from mdr_core.results.figures import label, line, mark
-from mdr_core.results.limits import friction_limits
-from mdr_core.results.units import written
+from mdr_core.show import figures
+from mdr_core.show.figures import label, line, mark
+from mdr_core.show.limits import friction_limits
+from mdr_core.show.units import written
 
 from ..courses import Course, path_progress
 from ..drives import BEFORE_YIELD, INSTANTS, Impact

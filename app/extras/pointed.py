@@ -11,7 +11,7 @@ from bokeh.model import DataModel
 from bokeh.models import CustomJS
 
 from mdr_core.contact.yielding import yield_rule
-from mdr_core.results.units import fitting
+from mdr_core.show.units import fitting
 
 from ..courses import Course, onset_depth
 from ..extra import Extra, Service

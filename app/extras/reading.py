@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mdr_core.results.figures import NOTHING, area, label
-from mdr_core.results.units import written
+from mdr_core.show.figures import NOTHING, area, label
+from mdr_core.show.units import written
 
 from ..courses import Course, onset_depth
 from ..extra import Extra

@@ -18,7 +18,7 @@ from bokeh.models import CustomJS
 from bokeh.resources import Resources
 
 import mdr_core as mdr
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 from .. import link, readouts
 from ..draw import PLACES, Picture, drawn, legend, picture_of

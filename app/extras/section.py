@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from mdr_core.results.figures import NOTHING, line, mark
-from mdr_core.results.units import written
+from mdr_core.show.figures import NOTHING, line, mark
+from mdr_core.show.units import written
 
 from ..courses import Course
 from ..extra import Extra

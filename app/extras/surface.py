@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mdr_core.results.figures import NOTHING, RADII, area, at_radii, both, line
+from mdr_core.show.figures import NOTHING, RADII, area, at_radii, both, line
 
 from ..courses import Course
 from ..extra import Extra

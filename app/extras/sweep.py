@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.results.figures import NOTHING, line, mark
-from mdr_core.results.quantities import QUANTITIES as RESULTS
-from mdr_core.results.units import KINDS, digits, in_full
+from mdr_core.show.figures import NOTHING, line, mark
+from mdr_core.show.quantities import QUANTITIES as RESULTS
+from mdr_core.show.units import KINDS, digits, in_full
 
 from ..changes import CONSTANTS, option, shown
 from ..extra import Extra

@@ -6,7 +6,7 @@ from typing import Any
 import panel as pn
 
 from mdr_core.reading import SIZES
-from mdr_core.results.units import UNITS, entry, fitting, read
+from mdr_core.show.units import UNITS, entry, fitting, read
 
 from ..ui import WIDE, html, show
 from . import words

@@ -16,9 +16,11 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.noise import jitter
+from mdr_core.fit.oliver_pharr import OliverPharr
+from mdr_core.fit.quoted import unloading
 from mdr_core.measured_curve import MeasuredCurve, MeasuredCurves
 from mdr_core.reading import UnknownColumns
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 #: Most samples that are fitted and drawn: of more, one in two, three … is taken.
 MOST = 2000
@@ -98,10 +100,20 @@ def read(path: str, given: dict[str, Any], number: int) -> Any:
         raise ValueError(f"{Path(path).name} cannot be read: {type(error).__name__}, {error}") from error
 
 
+@dataclass(frozen=True)
+class Told:
+    """What is said beside a fit, found where it does not keep others waiting."""
+
+    remarks: tuple[str, ...]
+    #: Results of Oliver and Pharr, None where there are none; the line of the report on the class.
+    unloading: OliverPharr | None
+    of_class: str
+
+
 def fit(
     profile: mdr.Profile, taken: dict[str, Any], arguments: dict[str, Any]
-) -> tuple[IndentationFit, tuple[str, ...]]:
-    """A fit, with its classes and the number to quote, and its remarks.
+) -> tuple[IndentationFit, dict[str, Any]]:
+    """A fit, with its classes and the number to quote, and the values of `Told`.
 
     The times of the samples tell a drift, which a remark names, and of which the unloading of a known
     contact is independent: where they alone leave no number to quote, the fit is the one without them.
@@ -117,9 +129,12 @@ def fit(
         other = mdr.fit_indentation(profile, depth, force, **arguments)
         if other.quoted.value is not None:
             found, remarks = other, tuple(dict.fromkeys((*remarks, *other.remarks)))
-    # Kept in the object that is sent.
-    _ = found.classes
-    return found, remarks
+    lines = (line for line in repr(found).splitlines() if "class of hardness" in line)
+    # Classes and what to quote are kept in the object that is sent.
+    told = {"remarks": remarks, "unloading": None, "of_class": next(lines, "")}
+    if found.quoted.source == "unloading":
+        told["unloading"], _ = unloading(found)
+    return found, told
 
 
 def fit_all(

@@ -16,19 +16,19 @@ from bokeh.document import Document
 from bokeh.events import ConnectionLost
 from bokeh.models import CustomJS
 
+from mdr_core.files.text import decoded
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.measured_curve import MeasuredCurve
-from mdr_core.profiles.samples import decoded
 
 from ..tip import in_line, read_tip
 from ..ui import JS, WIDE, html
 from . import words
 from .files import as_csv, as_json
 from .form import Form
-from .measurement import Samples, first_and_last, modulus_of_sample, samples
+from .measurement import Samples, Told, first_and_last, modulus_of_sample, samples
 from .results import Results
 from .samples import EXAMPLES, example_named
-from .setting import Setting
+from .setting import MEDIA, Setting
 from .worker import Here, Worker
 
 #: Beginnings of the suffixes of files that are no tables.
@@ -50,7 +50,7 @@ class Measurement:
         self.table: Any = None
         self.taken: Samples | None = None
         self.fit: IndentationFit | None = None
-        self.remarks: tuple[str, ...] = ()
+        self.told = Told((), None, "")
         self.E: tuple[float, float] | None = None
         # What is said below the file and of the fit; what a refused file needs; what is being done.
         self.about, self.refused, self.not_fitted, self.busy = "", "", "", ""
@@ -208,8 +208,15 @@ class Measurement:
         self.fit_again()
 
     def choose_medium(self, name: str) -> None:
-        """Take another kind of sample, whose parameters are free as it says."""
-        if name != self.setting.medium and not self.form._quiet:
+        """Take another kind of sample, whose parameters are free as it says.
+
+        Of one that yields, too, what is held stays.
+        """
+        if name == self.setting.medium or self.form._quiet:
+            return
+        if self.setting.medium and self.setting.kind.letter and name and MEDIA[name].letter:
+            self.take_class(name)
+        else:
             self.change(lambda s: s.with_medium(name) if name else s.replace(medium="", held={}))
 
     def take_class(self, medium: str) -> None:
@@ -323,7 +330,7 @@ class Measurement:
     def _have_fitted(self, kind: str, answer: Any) -> None:
         self.busy = ""
         if kind == "done":
-            self.fit, self.remarks = answer
+            self.fit, self.told = answer[0], Told(**answer[1])
             self._find_modulus()
         else:
             text = answer if kind == "refused" else _ENDED
@@ -408,7 +415,7 @@ class Measurement:
         """The fit as a file: "json" or "csv"."""
         write = {"json": as_json, "csv": as_csv}[name]
         told = {
-            "remarks": (*self.curve.remarks, *self.remarks), "samples": self.ends,
+            "remarks": (*self.curve.remarks, *self.told.remarks), "samples": self.ends,
             "count": len(self.curve), "E": self.E,
         }  # fmt: skip
         return StringIO(write(self.setting, self.fit, told))

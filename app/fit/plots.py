@@ -7,7 +7,7 @@ import numpy as np
 from bokeh.plotting import figure
 
 from mdr_core.fit.indentation import IndentationFit
-from mdr_core.results.units import fitting
+from mdr_core.show.units import fitting
 
 from .measurement import Samples
 
@@ -23,8 +23,10 @@ class Plots:
     def __init__(self) -> None:
         tools = {"tools": "pan,box_zoom,wheel_zoom,reset,save", "toolbar_location": "right"}
         look = {"sizing_mode": "stretch_both", "output_backend": "canvas", "y_range": (0, 1)}
-        self.force = figure(name="curve", x_range=(0, 1), **look | tools)
-        self.residual = figure(name="residuals", x_range=self.force.x_range, tools="", **look)
+        self.force = figure(name="curve", css_classes=["of-force"], x_range=(0, 1), **look | tools)
+        self.residual = figure(
+            name="residuals", css_classes=["of-residual"], x_range=self.force.x_range, tools="", **look
+        )
         self.residual.toolbar_location = None
         # The same width inside the axes, so that depths stand below each other.
         for each in (self.force, self.residual):

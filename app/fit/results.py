@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import panel as pn
 
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 from ..ui import WIDE, html, marked, show
 from . import words
@@ -33,7 +33,7 @@ _LISTED = 300
 _PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
 _WELCOME = (
     '<p class="big none">A curve in, E* out</p><p class="of">Drop a file of depth and force, or open '
-    "a sample; tell the tip and what the sample is. The fit runs at once.</p>"
+    "a sample; choose the tip and the kind of sample. The fit runs at once.</p>"
 )
 
 
@@ -57,8 +57,8 @@ class Results:
         self._map()
         self.plots = Plots()
         self.curve = pn.Column(
-            pn.pane.Bokeh(self.plots.force, css_classes=["of-force"], **_BOTH),
-            pn.pane.Bokeh(self.plots.residual, css_classes=["of-residual"], **_BOTH),
+            pn.pane.Bokeh(self.plots.force, **_BOTH),
+            pn.pane.Bokeh(self.plots.residual, **_BOTH),
             css_classes=["plots-of-fit"], visible=False, **WIDE,
         )  # fmt: skip
         self.why, self.remarks = html("", "note", "why"), html("", "note", "remarks")
@@ -172,23 +172,26 @@ class Results:
         page, fit = self._page, self._page.fit
         text = _WELCOME
         if fit is not None:
-            text = words.headline(fit, page.E)
+            text = words.headline(fit, page.told, page.E)
         elif page.busy:
             text = f'<p class="waiting" role="status">{page.busy} …</p>'
         elif page.curve is not None and page.setting.missing:
-            text = f'<p class="big none">Tell {page.setting.missing}</p>'
+            text = f'<p class="big none">Give {page.setting.missing}</p>'
             text += '<p class="of">Then the fit runs at once.</p>'
-        elif page.refused or page.not_fitted:
+        elif page.refused:
+            text = '<p class="big none">The curve is not read yet</p>'
+            text += '<p class="of">What the file lacks is asked for on the left.</p>'
+        elif page.not_fitted:
             text = '<p class="big none">No fit</p>'
         show(self.headline, object=text)
         show(self.not_fitted, object=page.not_fitted)
         show(self.cancel, visible=bool(page.busy))
         show(self.saved, visible=fit is not None)
         show(self.why, object=words.why(fit) if fit is not None else "")
-        remarks = words.remarks(fit, (*page.remarks, *page.curve.remarks)) if fit is not None else ""
+        remarks = words.remarks(fit, (*page.told.remarks, *page.curve.remarks)) if fit is not None else ""
         show(self.remarks, object=_folded(remarks))
         if fit is not None:
-            show(self._report, value=words.report(page.setting, fit, page.E, page.remarks))
+            show(self._report, value=words.report(page.setting, fit, page.told, page.E))
             try:
                 query = explorer_query(page.setting, fit)
                 text = f'<a href="?{query}">Tip and medium in the explorer</a>'
@@ -199,7 +202,7 @@ class Results:
     def _show_classes(self) -> None:
         page, fit = self._page, self._page.fit
         letter = page.setting.kind.letter if page.setting.medium else ""
-        sentence, misfits = words.verdict(fit) if fit is not None and letter else ("", {})
+        sentence, misfits = words.verdict(fit, page.told) if fit is not None and letter else ("", {})
         self._better = words.better(misfits, letter)
         show(self._right, visible=bool(misfits))
         show(self.classes, object=words.classes_table(misfits, letter) if misfits else "")

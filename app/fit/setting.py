@@ -9,7 +9,7 @@ from urllib.parse import parse_qsl, urlencode
 
 import mdr_core as mdr
 from mdr_core.fit.parameters import PARAMETERS
-from mdr_core.results.units import KINDS, written
+from mdr_core.show.units import KINDS, written
 
 #: Most characters of a link that is read, and of a text in it.
 _LINK, _TEXT = 4000, 200
@@ -177,7 +177,7 @@ class Setting:
 
     @property
     def missing(self) -> str:
-        """What is still to be told before a fit, in words; empty if nothing is."""
+        """What is still to be given before a fit, in words; empty if nothing is."""
         if not self.tip:
             return "the tip"
         if self.tip == "measured" and not self.tip_samples:

@@ -7,11 +7,11 @@ import numpy as np
 
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.parameters import PARAMETERS
-from mdr_core.fit.quoted import unloading
 from mdr_core.fit.report import with_error
-from mdr_core.results.units import KINDS, written
+from mdr_core.show.units import KINDS, written
 
 from ..ui import indexed, marked
+from .measurement import Told
 from .setting import CLASS_NAMES, CORRECTIONS, Setting, parameter
 
 #: Ratio of misfits from which another class is taken to fit clearly better.
@@ -57,7 +57,7 @@ def value_of(fit: IndentationFit, name: str) -> str:
     return amount(float(values[name]), fit.standard_errors.get(name), unit)
 
 
-def headline(fit: IndentationFit, E: tuple[float, float] | None) -> str:
+def headline(fit: IndentationFit, told: Told, E: tuple[float, float] | None) -> str:
     """The number to quote, large, and of what it is (HTML)."""
     quoted = fit.quoted
     if quoted.source is None:
@@ -72,8 +72,7 @@ def headline(fit: IndentationFit, E: tuple[float, float] | None) -> str:
         parts.append(
             f'<p class="second">E = <output>{amount(*E, "Pa")}</output>, Young’s modulus of the sample</p>'
         )
-    if quoted.source == "unloading":
-        result, _ = unloading(fit)
+    if (result := told.unloading) is not None:
         H = amount(float(result.hardness), float(result.standard_errors["hardness"]), "Pa")
         parts.append(f'<p class="second">H = <output>{H}</output>, hardness by Oliver and Pharr</p>')
     return "".join(parts)
@@ -90,17 +89,16 @@ def why(fit: IndentationFit) -> str:
     )
 
 
-def verdict(fit: IndentationFit) -> tuple[str, dict[str, float]]:
+def verdict(fit: IndentationFit, told: Told) -> tuple[str, dict[str, float]]:
     """What the samples say of the class of hardness, in a sentence, and the misfit of each class."""
     misfits = {letter: float(each.misfit) for letter, each in fit.classes.items()}
     if not misfits:
         return "", {}
-    told = next((line for line in repr(fit).splitlines() if "class of hardness" in line), "")
     best = min(misfits, key=misfits.__getitem__)
-    if "not told" in told:
+    if "cannot be told" in told.of_class:
         return "The class cannot be told from this curve.", misfits
     text = f"The curve is of class ({best}), {CLASS_NAMES[best]}."
-    if "none within" in told:
+    if "none within" in told.of_class:
         text = f"No class describes the curve within 1 %; the nearest is ({best}), {CLASS_NAMES[best]}."
     return text, misfits
 
@@ -133,11 +131,9 @@ def remarks(fit: IndentationFit, remarked: tuple[str, ...]) -> str:
     return "".join(f"<li>{text[:1].upper() + text[1:]}</li>" for text in told)
 
 
-def report(
-    setting: Setting, fit: IndentationFit, E: tuple[float, float] | None, remarked: tuple[str, ...] = ()
-) -> str:
+def report(setting: Setting, fit: IndentationFit, told: Told, E: tuple[float, float] | None) -> str:
     """A fit as lines of text, to be pasted into a report."""
-    lines = [f"{setting.file}: {_plain(headline(fit, E))}"]
+    lines = [f"{setting.file}: {_plain(headline(fit, told, E))}"]
     for name in setting.parameters(fit.time is not None):
         known = parameter(name)
         state = "" if name in fit.standard_errors else " (held)"
@@ -145,11 +141,11 @@ def report(
     for name, value in setting.corrections.items():
         known = CORRECTIONS[name]
         lines.append(f"{known.label} {known.symbol}\t{written(value, known.kind)}")
-    text, misfits = verdict(fit)
+    text, misfits = verdict(fit, told)
     if misfits:
         each = ", ".join(f"({letter}) {100 * misfit:.2g} %" for letter, misfit in misfits.items())
         lines.append(f"{text} Misfits: {each} of the largest force.")
-    lines += [in_page_words(remark) for remark in remarked]
+    lines += [in_page_words(remark) for remark in told.remarks]
     return "\n".join(lines)
 
 

@@ -96,6 +96,9 @@ class Worker:
         except (EOFError, pickle.UnpicklingError, OSError, ValueError):
             pass
         process.wait()
+        process.stdout.close()
+        with suppress(OSError):
+            process.stdin.close()
         with self._lock:
             alive, job = process is self._process and self._busy, self._job
         if alive:

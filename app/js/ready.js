@@ -30,6 +30,6 @@ document.addEventListener("keydown", (event) => {
 let before = null
 new ResizeObserver(([{ contentRect: { height } }]) => {
   const figures = [...messages.document.all_models].filter(({ type }) => type === "Figure")
-  if (before !== null) for (const figure of figures) Bokeh.index.find_one(figure)?.invalidate_layout()
+  if (before !== null) for (const figure of figures) Bokeh.index.find_one(figure)?.invalidate_layout?.()
   before = height
 }).observe(all(document).find((each) => each.shadowRoot && each.classList.contains("plots")))

@@ -5,7 +5,7 @@ from typing import Any
 import bokeh.models as bk
 import numpy as np
 
-from mdr_core.results.figures import Axis
+from mdr_core.show.figures import Axis
 
 from ..draw import Picture
 

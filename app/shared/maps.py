@@ -5,7 +5,7 @@ from typing import Any
 import bokeh.models as bk
 import numpy as np
 
-from mdr_core.results.figures import ROLES
+from mdr_core.show.figures import ROLES
 
 from ..draw import Picture
 from ..plot import View

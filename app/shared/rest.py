@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.results.figures import Axis
+from mdr_core.show.figures import Axis
 
 from ..courses import Course, nearest
 from ..drives import DRIVES, EXACT

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mdr_core.results.quantities import QUANTITIES
+from mdr_core.show.quantities import QUANTITIES
 
 from ..plot import Along, View
 

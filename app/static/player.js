@@ -16,7 +16,7 @@ export function make_player({ messages, figures, ask }) {
     sources.forEach((source, n) => { source.data = { ...source.data, ...read(places[n][value]) } })
     messages.setv({ words: words[value] }, { sync: false })
     // By itself Bokeh paints at most every second frame.
-    setTimeout(() => figures.forEach((figure) => Bokeh.index.find_one(figure).repaint()))
+    setTimeout(() => figures.forEach((figure) => Bokeh.index.find_one(figure)?.repaint?.()))
   }
   const move = (k) => {
     if (!moving) ask(null)
@@ -56,7 +56,10 @@ export function make_player({ messages, figures, ask }) {
     const told = Array.from(numbers, ([, name, number]) => `${name.replaceAll("_", " ")} ${number}`)
     range.ariaValueText = told.slice(0, 2).join(", ")
     clearTimeout(wait)
-    wait = setTimeout(() => figures.forEach((figure) => { Bokeh.index.find_one(figure).el.ariaDescription = told.join(", ") }), 300)
+    wait = setTimeout(() => figures.forEach((figure) => {
+      const el = Bokeh.index.find_one(figure)?.el
+      if (el) el.ariaDescription = told.join(", ")
+    }), 300)
   }
   button.onclick = () => {
     let begin = null

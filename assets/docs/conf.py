@@ -4,6 +4,7 @@ from pathlib import Path
 
 from docutils import nodes
 from latex2mathml.converter import convert
+from sphinx import addnodes
 
 import mdr_core
 from app.extras.scene_file import scene_file
@@ -23,9 +24,9 @@ extensions = [
 ]
 exclude_patterns = ["examples"]
 html_theme = "pydata_sphinx_theme"
-html_theme_options = {"show_prev_next": False, "header_links_before_dropdown": 8}
+html_theme_options = {"show_prev_next": False, "header_links_before_dropdown": 5}
 html_context = {"default_mode": "auto"}
-html_sidebars = {"*": []}
+html_sidebars = {"index": [], "install": [], "**": ["sidebar-nav-bs"]}
 html_title = project
 html_show_sourcelink = False
 html_math_renderer = "mathml"
@@ -60,6 +61,25 @@ def mathml(writer, node):
     raise nodes.SkipNode
 
 
+#: Pages of files that the README links where they are in the tree.
+PAGES = {
+    "assets/theory.md": "theory",
+    "assets/accuracy.md": "accuracy",
+    "CONTRIBUTING.md": "contributing",
+    "CHANGELOG.md": "changelog",
+}
+
+
+def link_pages(app, doctree):
+    """Lead links to files of the tree to their pages."""
+    for link in doctree.findall(addnodes.pending_xref):
+        file, _, anchor = link["reftarget"].partition("#")
+        if file in PAGES:
+            link.update_all_atts(
+                {"refdomain": "doc", "reftarget": PAGES[file], "reftargetid": anchor}, replace=True
+            )
+
+
 def save_scene(app, error):
     """Write the scene that stands on the first page."""
     Path(app.outdir, "scene.html").write_text(scene_file(Page().shown), encoding="utf-8")
@@ -67,4 +87,5 @@ def save_scene(app, error):
 
 def setup(app):
     app.add_html_math_renderer("mathml", (mathml, None), (mathml, None))
+    app.connect("doctree-read", link_pages)
     app.connect("build-finished", save_scene)

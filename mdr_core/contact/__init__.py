@@ -1,1 +1,1 @@
-"""The contact at rest: the rule of yield, integrals over the live interval, states and fields."""
+from . import closed_forms as closed_forms  # registers the closed forms of the shapes

@@ -33,7 +33,7 @@ def stretch(medium, radius):
 def stretch_rate(profile, radius, length):
     """Δl/g′(a) (m) for the stretch `length` (m) at a radius a (m); 0 where a wall holds the rim."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        slope = np.where(radius >= profile.wall, np.inf, profile._reduced_slope(radius))
+        slope = np.where(radius >= profile.wall, np.inf, profile.reduced_slope_at(radius))
         return length / slope
 
 
@@ -90,10 +90,11 @@ def _power_range(profile, threshold, exponent):
     if np.any(profile.wall < np.inf):
         return np.zeros(np.broadcast_shapes(np.shape(threshold), profile.shape))
     with np.errstate(all="ignore"):
-        radius = (threshold / profile._reduced_slope(np.ones(()))) ** (1 / (exponent - 0.5))
-        return np.asarray(profile._reduced(radius))
+        radius = (threshold / profile.reduced_slope_at(np.ones(()))) ** (1 / (exponent - 0.5))
+        return np.asarray(profile.reduced_at(radius))
 
 
+# For single states of a sampled tip 1.8 times as fast as without the cache.
 @lru_cache(maxsize=2**14)
 def _ranges(profile, threshold):
     """`stable_ranges` of one profile without closed forms, where √a g′(a) ≥ `threshold` (√m)."""
@@ -104,9 +105,9 @@ def _ranges(profile, threshold):
     for _ in range(60):
         middle = np.sqrt(inner) * np.sqrt(outer)
         with np.errstate(all="ignore"):
-            passed = (np.sqrt(middle) * profile._reduced_slope(middle) >= threshold) == up
+            passed = (np.sqrt(middle) * profile.reduced_slope_at(middle) >= threshold) == up
         inner, outer = np.where(passed, inner, middle), np.where(passed, middle, outer)
-    low, high = profile._reduced(inner[up]), profile._reduced(inner[~up])
+    low, high = profile.reduced_at(inner[up]), profile.reduced_at(inner[~up])
     if stable[0]:
         low = np.append(0.0, low)
     if not low.size:
@@ -114,18 +115,17 @@ def _ranges(profile, threshold):
     return np.array([low, np.append(high, np.inf)[: low.size]])
 
 
-@lru_cache(maxsize=64)
 def _rates(profile):
     """Radii x (m), ascending, and √x g′(x) there, infinite where a wall or a face holds the rim."""
     face, end = profile.face_radius, min(profile.wall, profile.known_radius)
     spaced = np.geomspace(1e-30, 1e30, 1801)
     x = [face * (1 + spaced[300:]) if face else spaced, spaced]
-    edges = profile._radius(np.asarray(profile.kinks, dtype=float)) if len(profile.kinks) else np.zeros(0)
+    edges = profile.radius_at(np.asarray(profile.kinks, dtype=float)) if len(profile.kinks) else np.zeros(0)
     near = np.geomspace(1e-12, 0.3, 24 if edges.size < 50 else 6)
     x = np.unique(np.concatenate([*x, *np.multiply.outer([*(1 - near), *(1 + near)], edges)]))
     x = x[(x > face) & (x < end)]
     with np.errstate(all="ignore"):
-        rate = np.sqrt(x) * profile._reduced_slope(x)
+        rate = np.sqrt(x) * profile.reduced_slope_at(x)
     if profile.wall < np.inf:
         x, rate = np.append(x, profile.wall), np.append(rate, np.inf)
     return x[rate == rate], rate[rate == rate]
@@ -135,14 +135,14 @@ def contact_interval(profile, medium, lower, live_depth, low, high):
     """Live interval [d_p, D] at the depth d_p + `live_depth` (m), D from `low` to `high`, and Δl (m)."""
 
     def depth(length):
-        radius = profile._radius(lower + length)
+        radius = profile.radius_at(lower + length)
         stretched = stretch(medium, radius)
         return length - stretched - live_depth, 1 - stretch_rate(profile, radius, stretched) / (2 * radius)
 
     low = np.maximum(low - lower, 0.0)
-    start = live_depth + stretch(medium, profile._radius(lower + np.maximum(live_depth, low)))
+    start = live_depth + stretch(medium, profile.radius_at(lower + np.maximum(live_depth, low)))
     length = crossing(depth, np.clip(start, low, high - lower), low, high - lower)
-    stretched = stretch(medium, profile._radius(lower + length))
+    stretched = stretch(medium, profile.radius_at(lower + length))
     # With the live depth, so that the state of loading is known as such.
     length = live_depth + stretched
     return LiveInterval.above(lower, length), stretched
@@ -165,7 +165,7 @@ def first_contacts(profile, medium, depth):
     loaded, _ = yield_rule(profile, medium).loading(np.maximum(depth, 0.0))
     lower, known = loaded.lower, profile.known_depth
     interval, stretched = contact_interval(profile, medium, lower, loaded.length, low, known)
-    _check.refuse("depth", depth, np.isnan(stretched), f"presses {profile._too_deep()}", unit="m")
+    _check.refuse("depth", depth, np.isnan(stretched), f"presses {profile.too_deep()}", unit="m")
     length = np.where(depth >= 0, interval.length, 0.0)
     load = np.where(depth >= 0, -medium.E_star * stretched, 0.0)
     return LiveInterval.above(lower, length), load
@@ -181,12 +181,12 @@ def _one_path(profile, medium, depth):
     low, high = stable_ranges(profile, medium, AT_DEPTH)
     ends = np.maximum(low[:, None], lower), np.minimum(high, profile.known_depth)[:, None]
     with np.errstate(invalid="ignore"):
-        first, last = (end - lower - stretch(medium, profile._radius(end)) for end in ends)
+        first, last = (end - lower - stretch(medium, profile.radius_at(end)) for end in ends)
     last = np.where(np.isnan(last), np.inf, last)
     first = np.where(ends[0] <= ends[1], first, np.inf)
     number = _ranges_along(live_depth, first.T.tolist(), last.T.tolist())
     touching = number >= 0
-    bound = f"presses {profile._too_deep()}, with adhesion"
+    bound = f"presses {profile.too_deep()}, with adhesion"
     _check.refuse(
         "depth", depth, touching & (live_depth > last[-1]), bound, unit="m", remedy="press less deep"
     )
@@ -237,7 +237,7 @@ def force_path(profile, medium, force):
     with np.errstate(all="ignore"):
         miss, slope = loading(upper)
         rises = (slope > 0) & (np.abs(miss) <= 1e-6 * upper * slope)
-    bound = f"presses {profile._too_deep()}, or is not reached because adhesion draws the indenter in"
+    bound = f"presses {profile.too_deep()}, or is not reached because adhesion draws the indenter in"
     _check.refuse(
         "force", force, ~((upper <= known) & rises), bound, unit="N", remedy="press to a depth instead"
     )
@@ -246,7 +246,9 @@ def force_path(profile, medium, force):
 
     def unloading(length):
         interval = LiveInterval.above(lower, length)
-        return _tension(profile, interval, stretch(medium, profile._radius(interval.upper)), target, False)
+        return _tension(
+            profile, interval, stretch(medium, profile.radius_at(interval.upper)), target, False
+        )
 
     bottom = np.maximum(low - lower, 0.0)
     lost = unloading(bottom)[0] > 0
@@ -257,7 +259,7 @@ def force_path(profile, medium, force):
     length = np.where(target == largest, limit, crossing(unloading, limit, bottom, limit))
     # Without contact the depth is that of the bottom.
     length = np.where(touches, length, 0.0)
-    stretched = np.where(touches, stretch(medium, profile._radius(lower + length)), 0.0)
+    stretched = np.where(touches, stretch(medium, profile.radius_at(lower + length)), 0.0)
     yielding = touches & (target == largest) & (lower > 0)
     depth = lower + np.where(yielding, d_c, length - stretched)
     length = np.where(yielding, d_c + stretched, length)
@@ -266,7 +268,7 @@ def force_path(profile, medium, force):
 
 def loaded_interval(profile, medium, upper, before=0.0):
     """Live interval [d_p, D] on loading up to D (m), over an imprint of depth `before` (m); and Δl (m)."""
-    stretched = stretch(medium, profile._radius(upper))
+    stretched = stretch(medium, profile.radius_at(upper))
     depth = upper - stretched
     lower = np.maximum(before, yield_rule(profile, medium).plastic_depth(depth))
     length = np.where(lower > before, medium.critical_depth + stretched, upper - before)
@@ -275,9 +277,9 @@ def loaded_interval(profile, medium, upper, before=0.0):
 
 def _tension(profile, interval, stretched, target, yielding):
     """Force over 2E* less a target (m²), and its derivative with respect to D (m)."""
-    radius = profile._radius(interval.upper)
+    radius = profile.radius_at(interval.upper)
     rate = stretch_rate(profile, radius, stretched)
-    inner = np.where(yielding, profile._radius(interval.lower) * (1 - rate / (2 * radius)), 0.0)
+    inner = np.where(yielding, profile.radius_at(interval.lower) * (1 - rate / (2 * radius)), 0.0)
     value = tension_integral(profile, interval, radius, stretched)
     return value - target, radius - 1.5 * rate - inner
 
@@ -303,7 +305,7 @@ def pull_off_integral(profile, medium, interval):
     """Pull-off force over 2E* (m²): the largest tension on unloading a state with the live interval."""
 
     def tension(interval):
-        radius = profile._radius(interval.upper)
+        radius = profile.radius_at(interval.upper)
         return -tension_integral(profile, interval, radius, stretch(medium, radius))
 
     result = tension(interval)

@@ -62,7 +62,7 @@ class ConeIntegrals(Integrals):
         return interval.length / (np.pi / 2 * self.profile.slope)
 
     def pressure_integral(self, interval, r):
-        a, c = (self.profile._radius(depth) for depth in (interval.upper, interval.lower))
+        a, c = (self.profile.radius_at(depth) for depth in (interval.upper, interval.lower))
         inside, result = (r < a) & (interval.length > 0), np.zeros_like(r)
         r = r[inside]
         root_a = root(a, r)
@@ -112,7 +112,7 @@ class ParaboloidIntegrals(Integrals):
         return np.sqrt(self.profile.radius) * interval.length / np.maximum(A + C, _TINY)
 
     def pressure_integral(self, interval, r):
-        a, c = (self.profile._radius(depth) for depth in (interval.upper, interval.lower))
+        a, c = (self.profile.radius_at(depth) for depth in (interval.upper, interval.lower))
         root_a, root_c = root(a, r), root(c, r)
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.where(
@@ -141,11 +141,11 @@ class PowerLawIntegrals(Integrals):
         # 1 − (1 − fraction)^q without cancellation.
         with np.errstate(divide="ignore"):
             drop = -np.expm1(q * np.log1p(-_fraction(interval)))
-        return self.profile._radius(interval.upper) * interval.upper / q * drop
+        return self.profile.radius_at(interval.upper) * interval.upper / q * drop
 
     def energy_integral(self, interval):
         q = 1 + 1 / self.profile.exponent
-        a = self.profile._radius(interval.upper)
+        a = self.profile.radius_at(interval.upper)
         return a * interval.upper**2 * scipy.special.betainc(2, q, _fraction(interval)) / (q * (q + 1))
 
     def radius_drop(self, interval):
@@ -155,7 +155,7 @@ class PowerLawIntegrals(Integrals):
             logarithm = np.where(
                 fraction < 0.5, np.log1p(-fraction), np.log(interval.lower / interval.upper)
             )
-        return -self.profile._radius(interval.upper) * np.expm1(logarithm / self.profile.exponent)
+        return -self.profile.radius_at(interval.upper) * np.expm1(logarithm / self.profile.exponent)
 
 
 def _fraction(interval):

@@ -15,8 +15,8 @@ from .._check import ArrayLike
 from ..foundation.depth_path import Ramps, TimedIndentation
 from ..foundation.force_path import Start, chain_creep, check_creep
 from ..medium import Medium
+from ..numerics.results import CLOSED_FORM, CREEP_LAW, Model
 from ..profiles.profile import Profile
-from ..results.base import CLOSED_FORM, CREEP_LAW, Model
 from .creep_law import Loading, Retreat
 from .integrals import integrals, tabulated
 from .live_interval import LiveInterval
@@ -76,7 +76,7 @@ def creep(
     >>> medium = Medium(E_star=1.0, eta=0.25)
     >>> state = creep(FlatPunch(1.0), medium, [0.0, 2.0, 2.0], [0.0, 1.0, 2.0])
     >>> print(round(float(state.depth[-1]), 9))
-    0.76745584
+    0.767455842
 
     A cone of slope s on a medium of constant hardness H: d² relaxes with the time τ/(κ(2 − κ)), where
     κ = H/(E* s); here to 1/(κ(2 − κ)) = 4/3 of that without yield:
@@ -153,7 +153,7 @@ class ScalarPath:
         """The `TimedIndentation` of this path."""
         edge = np.asarray(self.interval.upper)
         with np.errstate(all="ignore"):
-            radius = np.where(force > 0, self.profile._radius(edge), 0.0)
+            radius = np.where(force > 0, self.profile.radius_at(edge), 0.0)
         return TimedIndentation(
             self.profile, self.medium, time, self.depth, force, radius,
             stored_energy=self.stored_energy, plastic_work=self.plastic_work,
@@ -273,7 +273,7 @@ def _refuse_unknown(profile, pressed, force):
     """Refuses forces that press deeper than the profile is known."""
     known = pressed.depth <= min(profile.known_depth, _check.LONGEST)
     known[-1] &= not pressed.turned or pressed.turning_depth <= profile.known_depth
-    bound = f"presses {profile._too_deep()}"
+    bound = f"presses {profile.too_deep()}"
     _check.refuse("force", force[: known.size], ~known, bound, unit="N", remedy="press less")
 
 

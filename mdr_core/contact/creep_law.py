@@ -55,12 +55,12 @@ class Loading:
     def pressed(self, depth):
         """A (m²) and a (m) on a first loading to depths (m)."""
         interval, _ = self.rule.loading(depth)
-        return integrals(self.rule.profile).radius_integral(interval), self.rule.profile._radius(depth)
+        return integrals(self.rule.profile).radius_integral(interval), self.rule.profile.radius_at(depth)
 
     def elastic(self, depth):
         """∫ a ds (m²) from the tip to depths (m), and a (m)."""
         interval = LiveInterval.elastic(np.asarray(depth, dtype=float))
-        return integrals(self.rule.profile).radius_integral(interval), self.rule.profile._radius(depth)
+        return integrals(self.rule.profile).radius_integral(interval), self.rule.profile.radius_at(depth)
 
     def depth_of(self, y):
         """Depths (m) at which ∫ a ds from the tip has values y (m²); infinite below the known depth."""

@@ -9,10 +9,9 @@ import numpy as np
 from .. import _check
 from .._check import Array, ArrayLike
 from ..medium import Medium
+from ..numerics.results import CLOSED_FORM, Limit, Result, above
 from ..numerics.stable import root
 from ..profiles.profile import Profile
-from ..results.base import CLOSED_FORM, Result
-from ..results.limits import Limit, contact_limits, jump_limits
 from . import adhesion, stress
 from .integrals import integrals, tabulated
 from .live_interval import LiveInterval
@@ -69,8 +68,7 @@ class Indentation(Result):
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         """Limits of the model for these states."""
-        limits = contact_limits(self.profile, self.medium, self.contact_radius, slow=not self.in_time)
-        return (*limits, *jump_limits(self.jumps))
+        return above("show.limits").path_limits(self)
 
     @property
     def _rule(self):
@@ -107,13 +105,13 @@ class Indentation(Result):
     def contact_radius(self):
         """Contact radius a (m), Popov (2015), Eq. (16); 0 without contact."""
         touching = (self.live_interval.length > 0) | (self.uniform_load != 0)
-        return np.where(touching, self._quick._radius(np.asarray(self.live_interval.upper)), 0.0)
+        return np.where(touching, self._quick.radius_at(np.asarray(self.live_interval.upper)), 0.0)
 
     @_check.frozen_property
     def plastic_radius(self):
         """Radius c (m) of the plastic zone, Popov (2015), Eq. (21); 0 if nothing has yielded."""
         depth = np.asarray(self.plastic_depth)
-        return np.where(depth > 0, self._quick._radius(depth), 0.0)
+        return np.where(depth > 0, self._quick.radius_at(depth), 0.0)
 
     @_check.frozen_property
     def contact_area(self):
@@ -224,7 +222,7 @@ class Indentation(Result):
         """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (1), (17), (18)."""
         self._one("line_load")
         interval, x = self.live_interval, self._radii(x, "coordinate x")
-        ring = interval.upper - self.profile._reduced(np.minimum(x, self.contact_radius))
+        ring = interval.upper - self.profile.reduced_at(np.minimum(x, self.contact_radius))
         # For x < c the compression is the length of the interval, which has no rounding of a difference.
         inside = np.where(x < self.plastic_radius, interval.length, np.clip(ring, 0.0, interval.length))
         load = self.medium.E_star * inside + self.uniform_load
@@ -310,15 +308,11 @@ class Indentation(Result):
 
     def plot_pressure(self) -> Any:
         """Contact pressure p(r) of one state with a, c and the mean pressure, as HoloViews elements."""
-        from ..results.elements import plot_pressure
-
-        return plot_pressure(self)
+        return above("show.plots").plot_pressure(self)
 
     def plot_springs(self) -> Any:
         """The 1D foundation in one state, springs below the profile g(x), as HoloViews elements."""
-        from ..results.elements import plot_springs
-
-        return plot_springs(self)
+        return above("show.plots").plot_springs(self)
 
     @staticmethod
     def _radii(r, quantity="radius r"):

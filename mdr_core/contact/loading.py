@@ -122,7 +122,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     branches = _growing_branches(rule, elastic)
     largest_depth = _loading_depth(rule, branches, largest)
     known = largest_depth <= min(profile.known_depth, _check.LONGEST)
-    bound = f"presses {profile._too_deep()}"
+    bound = f"presses {profile.too_deep()}"
     if medium.has_own_law and profile.known_depth == np.inf and not np.all(known):
         carried = np.max(_carried(rule, np.minimum(branches.high, _check.LONGEST)))
         bound = f"is more than the {2 * medium.E_star * carried:g} N that the contact carries on loading"
@@ -138,17 +138,27 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
 
 
 class _Branches(NamedTuple):
-    """Depths (m) between which the force of a first loading grows, ascending; ∫ a ds (m²) at their ends."""
+    """Branches of a first loading on which its force grows: arrays with an entry for each, ascending.
 
+    Depths (m) are counted from the undeformed surface, and A = ∫ a ds = F/(2E*) (m²) stands for the force.
+    Between `high` of one branch and `low` of the next one the force falls.
+    """
+
+    #: Depths (m) at which branches begin and end; the first begins at 0, the last may be infinite.
     low: np.ndarray
     high: np.ndarray
+    #: A (m²) at these depths.
     least: np.ndarray
     most: np.ndarray
 
 
 def _loading_depth(rule, branches, area):
-    """The first depth (m) at which a first loading has ∫ a ds = `area` (m²), elementwise."""
-    # It lies on the first branch that reaches so far: between branches the force falls.
+    """The first depth (m) at which a first loading has A = ∫ a ds = `area` (m²), elementwise.
+
+    It is the root on the first branch that reaches so far. Newton's method may try shallower depths, where
+    A is taken as the straight line from 0 to the beginning of the branch. dA/ds is a − c dp/ds past the
+    onset of yield, and a before it.
+    """
     number = np.searchsorted(np.maximum.accumulate(branches.most), area)
     low, high, least, _ = (values[np.minimum(number, values.size - 1)] for values in branches)
     onset, rate = rule.onset(), least / np.maximum(low, 1e-300)
@@ -156,9 +166,9 @@ def _loading_depth(rule, branches, area):
     def loading(depth):
         interval, _ = rule.loading(depth)
         width = rule.yielding_width(interval)
-        slope = np.where(interval.lower > 0, width, rule.profile._radius(depth))
+        slope = np.where(interval.lower > 0, width, rule.profile.radius_at(depth))
         value = integrals(rule.profile).radius_integral(interval)
-        # Shallower than the branch a straight line, which stays below what was not reached before.
+        # The line stays below an area that no branch before has reached.
         return np.where(depth < low, rate * depth, value), np.where(depth < low, rate, slope)
 
     start = np.clip(onset if 0 < onset < np.inf else 1.0, low, high)
@@ -183,8 +193,10 @@ def _one_branch(end):
 def _growing_branches(rule, elastic=None):
     """The `_Branches` of a first loading.
 
-    With f_c above 0, or a law of hardness, the force may fall after the onset of yield. For a law,
-    `elastic` are the depths (m) that elastic loadings reach.
+    With f_c above 0, or a law of hardness, the force may fall after the onset of yield. Whether it grows is
+    asked at a grid of depths from the onset on; each change, between neighbours `low` and `high` of the
+    grid, is then halved down to rounding. For a law, `elastic` are the depths (m) that elastic loadings
+    reach, about which the grid is denser.
     """
     end, onset = rule.profile.known_depth, float(rule.onset())
     if not onset < end or not rule.may_fall(end):
@@ -194,7 +206,7 @@ def _growing_branches(rule, elastic=None):
     def growing(depth):
         interval, _ = rule.loading(depth)
         # Where the force goes to π f_c only the rounding of the radii is left of its slope.
-        return rule.yielding_width(interval) >= -1e-14 * rule.profile._radius(interval.upper)
+        return rule.yielding_width(interval) >= -1e-14 * rule.profile.radius_at(interval.upper)
 
     depth = onset * (1 + np.geomspace(1e-9, 1e9, 721))
     if elastic is not None:
@@ -226,7 +238,7 @@ def live_length(profile, largest, area):
 
     def unloading(length):
         interval = LiveInterval.above(largest.lower, np.minimum(length, largest.length))
-        return integrals(profile).radius_integral(interval), profile._radius(interval.upper)
+        return integrals(profile).radius_integral(interval), profile.radius_at(interval.upper)
 
     limit = np.where(largest.length > 0, largest.length, 1.0)
     return np.minimum(increasing_root(unloading, area, limit, limit), largest.length)

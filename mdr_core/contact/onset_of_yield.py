@@ -137,7 +137,7 @@ def _onset(what, profile, medium, **values):
     onset = np.broadcast_to(rule.onset(), shape)
     # Deeper than the profile is known an onset may be infinite, but the cap there is not.
     unknown = (onset > profile.known_depth) & (rule.cap(profile.known_depth) < np.inf)
-    bound = f"is {profile._too_deep()}"
+    bound = f"is {profile.too_deep()}"
     _check.refuse("yield depth", onset, unknown, bound, unit="m")
     # A law under which a sharp tip yields from first touch on is looked at next to its tip.
     check_hardness(profile, medium, np.where(onset > 0, onset, 1e-20))

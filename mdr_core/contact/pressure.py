@@ -21,7 +21,7 @@ def _punches(profile, interval):
     ends = (np.atleast_1d(end) for end in (interval.lower, interval.upper, interval.length))
     _, _, start, stop, offset = pieces(profile, *ends)
     node, weight = nodes(start, stop, offset, tanh_sinh())
-    return start, profile._radius(interval.lower + node), weight
+    return start, profile.radius_at(interval.lower + node), weight
 
 
 def pressure_integral(profile, interval, r):
@@ -38,7 +38,7 @@ def pressure_integral(profile, interval, r):
         return result
     start, radius, weight = _punches(profile, interval)
     depth = interval.lower + np.append(start, interval.length)
-    edges = profile._radius(depth)
+    edges = profile.radius_at(depth)
     # Next to a kink the rounding of r counts; between other pieces they overlap a little.
     kink = np.isclose(
         depth[:, None], [0.0, interval.lower, interval.upper, *profile.kinks], rtol=1e-9, atol=0.0
@@ -56,7 +56,7 @@ def _pressure(profile, radius, weight, edges, starts, r):
     # Number of the piece that contains r, −1 below all of them.
     own = np.searchsorted(starts, r, side="right") - 1
     with np.errstate(all="ignore"):
-        sharp = profile._reduced_slope(np.zeros(1))[0] > 0
+        sharp = profile.reduced_slope_at(np.zeros(1))[0] > 0
         # Under a tip that is not sharp the integrand has no singularity on the axis.
         own = np.where((r == 0) & (own == 0) & ~sharp, -1, own)
         for piece in range(len(radius)):
@@ -83,8 +83,8 @@ def _pressure_from(profile, r, end):
     x = np.exp(angle + np.log(r / 2)[:, None]) * (1 + np.exp(-2 * angle))
     # Not below r, and not on a kink at the end, where g′ is the slope on its other side.
     x = np.clip(x, r[:, None], np.nextafter(end, 0.0)[:, None])
-    integral = (width * weight * profile._reduced_slope(x)).sum(axis=1)
-    return np.where(np.isinf(profile._reduced_slope(r)) | (r == 0), np.inf, integral)
+    integral = (width * weight * profile.reduced_slope_at(x)).sum(axis=1)
+    return np.where(np.isinf(profile.reduced_slope_at(r)) | (r == 0), np.inf, integral)
 
 
 def displacement_integral(profile, interval, r):
@@ -95,13 +95,13 @@ def displacement_integral(profile, interval, r):
     """
     if interval.length == 0:
         return np.zeros_like(r)
-    a, c = (profile._radius(np.asarray(end)) for end in (interval.upper, interval.lower))
+    a, c = (profile.radius_at(np.asarray(end)) for end in (interval.upper, interval.lower))
     inside = r < a
     result = np.full_like(r, interval.length)
     # Under the indenter this displacement and the imprint add up to d − z(r).
     ring = inside if interval.lower == 0 else inside & (r >= c)
     if ring.any():
-        result[ring] = interval.upper - profile._height(r[ring])
+        result[ring] = interval.upper - profile.height_at(r[ring])
         if interval.lower > 0:
             result[ring] -= displacement_integral(profile, LiveInterval.elastic(interval.lower), r[ring])
         result[ring] = np.clip(result[ring], 0.0, interval.length)

@@ -181,7 +181,7 @@ def _grid(state):
     r = np.unique(np.abs(np.concatenate([a * np.linspace(0, 1.5, 31), a + ring])))
     z = np.concatenate([[0.0], width * np.geomspace(1e-3, 3, 36), np.geomspace(3 * width, 3 * a, 20)[1:]])
     kinks = np.array(profile.kinks)
-    edges = profile._radius(kinks) if kinks.size else kinks
+    edges = profile.radius_at(kinks) if kinks.size else kinks
     # The radius of a kink is known to rounding: both sides are tried.
     edges = np.concatenate(
         [[0.0, profile.face_radius, a], np.nextafter(edges, 0), edges, np.nextafter(edges, a)]
@@ -201,7 +201,7 @@ def _integrals(state, unit, r, z):
         return total
     for piece in _pieces(profile, interval):
         begin, end, _ = piece
-        low, high = profile._radius(interval.lower + piece[:2])
+        low, high = profile.radius_at(interval.lower + piece[:2])
         if low == high:
             _add(total, order, np.array([low]), np.array([end - begin]), unit, r, z)
             continue
@@ -209,7 +209,7 @@ def _integrals(state, unit, r, z):
         away = np.hypot(np.maximum(np.maximum(low / unit - r, r - high / unit), 0.0), z)[order]
         close = away < _NEAR * width
         above, weight = (part[0] for part in nodes(*piece[:, None], _WHOLE))
-        _add(total, order[~close], profile._radius(interval.lower + above), weight, unit, r, z)
+        _add(total, order[~close], profile.radius_at(interval.lower + above), weight, unit, r, z)
         close = order[close]
         for rows in chunks(close.size, 64):
             rows = close[rows]
@@ -237,16 +237,16 @@ def _cut(profile, lower, piece, low, high, cut):
     """
     begin, end, start = piece
     node, gap, share = crowded()
-    middle = np.clip(profile._reduced(cut) - lower, begin, end)
+    middle = np.clip(profile.reduced_at(cut) - lower, begin, end)
     # An empty piece at the tip has weight 0.
     start = np.full_like(middle, max(start, np.finfo(float).tiny))
     above, inner = nodes(np.full_like(middle, begin), middle, start, (gap, share))
     cut = cut[:, None]
     x = np.clip(cut + (high - cut) * node, np.nextafter(cut, high), np.nextafter(high, low))
-    outer = share * profile._reduced_slope(x)
+    outer = share * profile.reduced_slope_at(x)
     # The width of a short live interval is known better from depths than from radii.
     outer *= np.where(end > middle, (end - middle) / outer.sum(axis=1), 0.0)[:, None]
-    return np.append(profile._radius(lower + above), x, axis=1), np.append(inner, outer, axis=1)
+    return np.append(profile.radius_at(lower + above), x, axis=1), np.append(inner, outer, axis=1)
 
 
 def _add(total, rows, x, weight, unit, r, z):

@@ -92,14 +92,14 @@ def adhesive_states(profile, values, depth, contact):
     """`States` at depths (m) from first contact, arrays (R, N); without force out of contact."""
     medium, low, shortest = _end_of_contact(profile, values)
     modulus, first, known = 2 * medium.E_star, low - shortest, profile.known_depth
-    last = known - stretch(medium, profile._radius(np.asarray(known))) if known < np.inf else np.inf
+    last = known - stretch(medium, profile.radius_at(np.asarray(known))) if known < np.inf else np.inf
     # Above the known depth the states are those at it.
     clamped, at_end = depth < first, np.minimum(np.maximum(depth, first), last)
     _, length = contact_interval(profile, medium, np.zeros_like(depth), at_end, low, known)
     # There two roots meet, and D has half of its digits.
     length = np.where(clamped, shortest, length)
     interval = LiveInterval.elastic(at_end + length)
-    a = profile._radius(interval.upper)
+    a = profile.radius_at(interval.upper)
     rate = np.where(length > 0, stretch_rate(profile, a, length), 0.0)
     remainder = np.maximum(1 - np.divide(rate, 2 * a, out=np.zeros_like(a), where=a > 0), _LEAST)
     force = modulus * tension_integral(profile, interval, a, length)
@@ -129,7 +129,7 @@ def _end_of_contact(profile, values):
     """The medium, D and the stretch at the rim (m) at the end of the stable range."""
     medium = Medium(values["E_star"], work_of_adhesion=values["work_of_adhesion"])
     low = stable_ranges(profile, medium, AT_DEPTH)[0][0]
-    return medium, low, stretch(medium, profile._radius(low))
+    return medium, low, stretch(medium, profile.radius_at(low))
 
 
 def in_contact(depth, lost):

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from ..results.elements import overlay
-from ..results.figures import Axis, area, line, mark
-from ..results.report import imported
+from ..show.figures import Axis, area, line, mark
+from ..show.plots import overlay
+from ..show.report import imported
 
 _CURVE_ROWS = mark("measured", "measured", "measured", size=4), line("fit", "elastic")
 _RESIDUAL_ROWS = (

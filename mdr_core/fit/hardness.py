@@ -14,7 +14,7 @@ from ..impacts.scaling import class_of
 from ..medium import Medium, check_pair, yield_constant
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
-from ..results.quantities import engineering
+from ..show.quantities import engineering
 from .errors import covariances
 from .least_squares import least_squares
 from .parameters import CLASSES, hardness_by_default, held_values
@@ -90,7 +90,7 @@ def fit_hardness(
     E_star = _check.positive_number("effective modulus E_star", E_star, unit="Pa")
     check_pair(profile, Medium(E_star), "a fit")
     p_m, a = _measured(profile, mean_pressure, radius)
-    depth, area = profile._reduced(a), np.pi * a**2 * p_m / (2 * E_star)
+    depth, area = profile.reduced_at(a), np.pi * a**2 * p_m / (2 * E_star)
     cap, yielded = _caps(profile, depth, area)
     if not yielded.any():
         largest = engineering(p_m.max(), "Pa")
@@ -107,7 +107,7 @@ def fit_hardness(
     given = hardness_by_default(**{name: given.get(name, ...) for name in CLASSES.values()})
     held = {name: float(value[0]) for name, value in held_values(1, **given).items()}
     # ∂ ln F/∂ ln σ_c = c u_c / ∫ a ds.
-    weight = profile._radius(depth - cap) * cap / area
+    weight = profile.radius_at(depth - cap) * cap / area
     constants, minimum, covariance = _constants(a, values / a, weight, held)
     medium = Medium(E_star, **constants)
     # Refuses shapes that are not convex.
@@ -174,9 +174,9 @@ def _caps(profile, depth, area):
 
     def integral(cap):
         interval = LiveInterval(depth - cap, depth, cap)
-        return integrals(profile).radius_integral(interval), profile._radius(interval.lower)
+        return integrals(profile).radius_integral(interval), profile.radius_at(interval.lower)
 
-    cap = increasing_root(integral, area, area / profile._radius(depth), depth, quantity="cap")
+    cap = increasing_root(integral, area, area / profile.radius_at(depth), depth, quantity="cap")
     return cap, cap < depth
 
 

@@ -10,8 +10,8 @@ from ..contact.yielding import yield_rule
 from ..hardness import HardnessLaw
 from ..medium import Medium, check_pair, refuse_own_law
 from ..profiles.profile import Profile
-from ..results.progress import progress
-from ..results.quantities import engineering
+from ..show.progress import progress
+from ..show.quantities import engineering
 from .measurement import measurement, rates
 from .parameters import PARAMETERS, hardness_by_default, held_values
 from .result import IndentationFit, collected

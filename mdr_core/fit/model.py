@@ -57,8 +57,8 @@ def states(profile, values, cap_at, depth, largest, loading, rate):
     cap, rate_of_plastic_depth, cap_by_constants = cap_at(profile, values, largest)
     interval = interval_at(largest, np.minimum(depth + ahead, known), cap)
     contact = interval.length > 0
-    a = np.where(contact, profile._radius(interval.upper), 0.0)
-    c = np.where(contact & (interval.lower > 0), profile._radius(interval.lower), 0.0)
+    a = np.where(contact, profile.radius_at(interval.upper), 0.0)
+    c = np.where(contact & (interval.lower > 0), profile.radius_at(interval.lower), 0.0)
     area = integrals(profile).radius_integral(interval)
     gradient = {
         "E_star": 2 * (area - np.where(c > 0, c * cap, 0.0) - a * ahead),
@@ -90,5 +90,5 @@ def radius_cap(profile, values, largest):
     """Cap u_c (m) at the largest depths (m), dp/ds, and ∂u_c by each constant over π/2E*, by name."""
     share = np.pi / 2 / values["E_star"]
     law = SumOfClasses(*(share * values[name] for name in ("hardness", "q_c", "f_c")))
-    rule, a = RadiusCap(profile, law), profile._radius(np.maximum(largest, 0.0))
+    rule, a = RadiusCap(profile, law), profile.radius_at(np.maximum(largest, 0.0))
     return rule.cap_at(a), 1 - rule.cap_rate_at(a), {"hardness": a, "q_c": 1.0, "f_c": 1 / a}

@@ -12,7 +12,7 @@ a hold, where the force is constant.
 
 import numpy as np
 
-from ..results.quantities import engineering
+from ..show.quantities import engineering
 from .errors import SIGNIFICANT, SINGULAR, block_length, roughness
 
 #: Words for each, its unit, the factor by which the misfit falls clearly, and what follows. The misfit of

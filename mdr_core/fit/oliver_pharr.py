@@ -1,37 +1,38 @@
-"""Modulus and hardness from unloadings, by the method of Oliver and Pharr."""
+"""Modulus and hardness from unloadings or a measured stiffness, by the method of Oliver and Pharr."""
 
-from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
 from ..medium import Medium, check_pair
+from ..numerics.results import Record
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
-from ..results.quantities import QUANTITIES, Quantity, described
-from ..results.report import Report
+from ..show.quantities import QUANTITIES, Quantity, described, engineering
+from ..show.report import rows
+from . import creep as creeping
 from .errors import roughness
-from .least_squares import least_squares
+from .first_contact import FirstContact, first_contact
+from .materials import doubts
 from .report import with_error
+from .unloading import last_at_top, laws_of, parts_of
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 #: Quantities of the results, and others.
 OLIVER_PHARR = QUANTITIES | {
     "contact_depth": Quantity("h_c", "m", "contact depth"),
     "hardness": Quantity("H", "Pa", "hardness"),
     "exponent": Quantity("m", "", "exponent"),
+    "contact_point": Quantity("z₀", "m", "first contact"),
 }
-#: Bounds of force and stiffness, in units of those of the samples, and of the exponent.
-_LOWER, _UPPER = np.array([[0.1, 1e-3, 0.5]]), np.array([[10.0, 1e3, 50.0]])
-#: Shares of the largest force from and to which the unloading is fitted: those of the result, and others.
-_SHARES = (0.99, 0.5), (0.99, 0.4), (0.99, 0.3), (0.95, 0.5), (0.95, 0.4), (0.95, 0.3)
-
-
-#: Least fall and rise of the force, as shares of the peak before, that part one unloading from the next;
-#: least peak, as a share of the largest force; standard deviations of noise that they exceed.
-_FALL, _PEAK, _NOISE = 0.1, 0.01, 6.0
+#: First contact of depths that are taken as they are given.
+_GIVEN = FirstContact(0.0, 0.0, 0.0, 0.0)
 
 
 @_check.keywords_explained
@@ -40,6 +41,8 @@ def oliver_pharr(
     depth: ArrayLike,
     force: ArrayLike,
     *,
+    time: ArrayLike | None = None,
+    stiffness: ArrayLike | None = None,
     epsilon: float = 0.75,
     beta: float = 1.0,
     cycles: bool = False,
@@ -56,8 +59,14 @@ def oliver_pharr(
     profile : Profile
         The indenter.
     depth, force : array_like
-        Depths (m) from first contact on and forces (N) above the baseline, (N,), in the order of time.
-        Samples with NaN are left out.
+        Depths (m) and forces (N), (N,), in the order of time. Samples with NaN are left out. Where the
+        record begins in the air first contact and the force without contact are found and subtracted;
+        else depths count from first contact and forces from the baseline. See Notes.
+    time : array_like, optional
+        Increasing times (s) of the samples, (N,): the stiffness is corrected for creep. See Notes.
+    stiffness : array_like, optional
+        Measured contact stiffness S (N/m) at each sample, (N,), of a continuous measurement; NaN where
+        there is none. Results are then those of each sample. Not with `time` or `cycles`.
     epsilon : float, optional
         Constant ε: 1 for a flat punch, 3/4 for a paraboloid, 2 − 4/π for a cone.
     beta : float, optional
@@ -70,17 +79,32 @@ def oliver_pharr(
     Returns
     -------
     OliverPharr
+        With `stiffness` of each sample, `OverDepth`.
 
     Raises
     ------
     ValueError
         If there are no five samples of the upper half of an unloading, or they follow no power law; if the
-        contact depth is not positive, or the profile is not known to it.
+        contact depth is not positive, or the profile is not known to it; if times do not increase; if no
+        sample has a positive stiffness.
 
     Notes
     -----
     For an elastic contact and the ε of its shape E* is exact. A yielded cone in a medium of this package
     has z(a) = 2d/π, and here z(a) → d: E* is up to π/2 times smaller than the medium's, H (π/2)² times.
+
+    **First contact.** A record begins in the air where the force of its first 20 samples and more is noise
+    about a constant, over 2 % of the largest depth or more. A power law of the depth from first contact on
+    is then fitted to the beginning of the loading. Its z₀ is `contact_point`, whose error is in those of
+    the results. Otherwise depths are as given and `contact_point` is 0. A remark says which.
+
+    **Creep** at the start of an unloading makes S too large. With `time`, and a hold of the force before
+    the unloading, the depth of the unloading is reduced by creep at the rate ḣ of the end of the hold: at
+    the start of the unloading 1/S = 1/S_measured − ḣ/Ṗ, where Ṗ < 0 is the rate of the force (Feng and
+    Ngan, J. Mater. Res. 17, 2002, 660). `uncorrected` has the results without it. For made records with
+    −ḣ/Ṗ of 20 % of 1/S, E* is then within 1 % instead of 14 or 15 % too large, where the unloading takes
+    no longer than the hold; where it takes four times as long, and the rate falls meanwhile, E* is up to
+    3 % too small.
 
     Examples
     --------
@@ -98,141 +122,246 @@ def oliver_pharr(
     >>> table = oliver_pharr(Cone(slope=0.3), d, F, epsilon=2 - 4 / np.pi, cycles=True)
     >>> print((1e9 * table.contact_depth).round(3), (1e-9 * table.E_star).round(6))
     [19.099 38.197] [10. 10.]
+
+    E* and H over depth from a measured stiffness, as of a continuous measurement:
+
+    >>> d = np.linspace(10e-9, 60e-9, 6)
+    >>> state = indent(Cone(slope=0.3), Medium(E_star=10e9), d)
+    >>> F, S = state.force, state.stiffness
+    >>> over = oliver_pharr(Cone(slope=0.3), d, F, stiffness=S, epsilon=2 - 4 / np.pi)
+    >>> print((1e-9 * over.E_star).round(6))
+    [10. 10. 10. 10. 10. 10.]
     """
     check_pair(profile, Medium(1.0), "an unloading")
-    depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST, missing=True)
-    force = _check.finite_array("force", force, unit="N", most=_check.LONGEST, missing=True)
-    if depth.shape != force.shape or depth.ndim != 1:
-        raise ValueError(f"depth {depth.shape} and force {force.shape} must be of one curve, (N,) both")
-    used = np.isfinite(depth) & np.isfinite(force)
-    depth, force = depth[used], force[used]
-    if not depth.size:
-        raise ValueError("depth and force have no samples: five or more of an unloading are needed")
     constants = _check.positive_number("epsilon", epsilon, zero=True), _check.positive_number("beta", beta)
-    parts, results, remarks = _unloadings(force), [], []
-    for number, part in enumerate(parts if cycles and parts else [slice(None)], 1):
+    columns = _columns(depth, force, time, stiffness)
+    if stiffness is not None and (time is not None or cycles):
+        raise ValueError("stiffness is measured at each sample: give it without time and cycles")
+    depth, force = columns["depth"], columns["force"]
+    contact, text = _contact(profile, depth, force)
+    depth, force = depth - contact.depth, force - contact.baseline
+    if stiffness is not None:
+        values, errors, remarks = _over_depth(
+            profile, depth, force, columns["stiffness"], constants, contact
+        )
+        # Near first contact single samples may be far off.
+        middle = [np.nanmedian(values[name]) for name in ("E_star", "hardness")]
+        remarks = (*remarks, text, *doubts(*middle), *profile.remarks)
+        return OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
+    parts, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
+    numbers, pairs = zip(*parts.items(), strict=True)
+    corrected, uncorrected = zip(*pairs, strict=True)
+    numbers = _check.frozen(numbers if cycles else numbers[0])
+    result = _collected(profile, corrected, contact, numbers, (*remarks, text))
+    if time is None:
+        return result
+    return replace(result, uncorrected=_collected(profile, uncorrected, contact, numbers, ()))
+
+
+def _columns(depth, force, time, stiffness):
+    """Arrays by name of the samples in which all that is given is finite, but the stiffness."""
+    given = {
+        "depth": (depth, "m"),
+        "force": (force, "N"),
+        "time": (time, "s"),
+        "stiffness": (stiffness, "N/m"),
+    }
+    arrays = {
+        name: _check.finite_array(name, values, unit=unit, most=_check.LONGEST, missing=True)
+        for name, (values, unit) in given.items()
+        if values is not None
+    }
+    shapes = {array.shape for array in arrays.values()}
+    if len(shapes) > 1 or arrays["depth"].ndim != 1:
+        shown = " and ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        raise ValueError(f"{shown} must be of one curve, (N,) all")
+    used = np.logical_and.reduce(
+        [np.isfinite(array) for name, array in arrays.items() if name != "stiffness"]
+    )
+    arrays = {name: array[used] for name, array in arrays.items()}
+    if not arrays["depth"].size:
+        raise ValueError("depth and force have no samples: five or more of an unloading are needed")
+    if "time" in arrays:
+        # Segments of a file may share the time at which one ends and the next begins.
+        back = np.diff(arrays["time"], prepend=-np.inf) < 0
+        remedy = "sort the samples by time"
+        _check.refuse("time", arrays["time"], back, "does not increase", unit="s", remedy=remedy)
+    return arrays
+
+
+def _contact(profile, depth, force):
+    """First contact of a record, and a remark on it."""
+    parts = parts_of(force - np.median(force[:20]))
+    loading = parts[0] if parts else slice(None)
+    contact, why = first_contact(profile, depth[loading], force[loading])
+    if contact is None:
+        return _GIVEN, why
+    point = with_error(*_rounded(depth, contact.depth, contact.depth_error), "m")
+    level = with_error(*_rounded(force, contact.baseline, contact.baseline_error), "N")
+    text = f"the record begins in the air: first contact at {point} is subtracted from the depth"
+    return contact, f"{text}, {level} from the force"
+
+
+def _rounded(values, value, error):
+    """A value and its error without digits below 10⁻⁹ of the range of values, for a text."""
+    least = 1e-9 * np.ptp(values)
+    return round(value / least) * least, error if error > least else 0.0
+
+
+def _of_parts(profile, depth, force, time, constants, contact, cycles):
+    """Values and errors by unloading, with and without a correction for creep; and remarks."""
+    parts, results, remarks = parts_of(force), {}, []
+    taken = sum(part.start <= last_at_top(depth) for part in parts) or 1
+    every = cycles and parts
+    for number, part in enumerate(parts, 1) if every else [(taken, slice(None))]:
+        which = f"unloading {number} of {len(parts)}"
+        moments = None if time is None else time[part]
         try:
-            results.append(_values_and_errors(profile, depth[part], force[part], *constants))
+            both, notes = _with_creep(profile, depth[part], force[part], moments, constants, contact)
+            results[number] = both
+            remarks += [f"{which}: {each}" for each in notes] if cycles and len(parts) > 1 else notes
         except ValueError as error:
             if not cycles or len(parts) < 2:
                 raise
-            remarks.append(f"unloading {number} of {len(parts)} is left out: {error}")
+            remarks.append(f"{which} is left out: {error}")
     if not results:
         raise ValueError(remarks[0])
     if len(parts) > 1 and not cycles:
-        number = sum(part.start <= _deepest(depth) for part in parts)
-        taken = f"unloading {number} of {len(parts)} was taken, the one after the largest depth"
-        remarks.append(f"{taken}; each of them can be evaluated")
-    columns = np.array(results) if cycles else np.array(results[0])
-    values, errors = (
-        dict(zip(OliverPharr._quantities, map(_check.frozen, each.T), strict=True))
-        for each in (columns[..., 0, :], columns[..., 1, :])
+        text = f"unloading {taken} of {len(parts)} was taken, the one after the largest depth"
+        remarks.insert(0, f"{text}; each of them can be evaluated")
+    return results, remarks
+
+
+def _with_creep(profile, depth, force, time, constants, contact):
+    """Values and errors of one unloading with and without correction for creep, and remarks."""
+    rise, notes = creeping.rise_of_depth(depth, force), []
+    creep = None if time is None else creeping.creep(depth, force, time)
+    try:
+        uncorrected = _values_and_errors(profile, depth, force, constants, contact)
+    except ValueError as error:
+        if rise and creep is None:
+            raise ValueError(creeping.sentence_of_rise(rise)) from error
+        if creep is None:
+            raise
+        uncorrected = np.full((2, 5), np.nan)
+    if creep is None:
+        if rise:
+            notes.append(creeping.sentence_of_rise(rise))
+        if time is not None:
+            notes.append("no hold of the force before the unloading tells its creep: nothing is corrected")
+        return (uncorrected, uncorrected), notes
+    corrected, shifted = (
+        _values_and_errors(profile, creep.without(depth, time, n), force, constants, contact)
+        for n in (0, 1)
     )
-    return OliverPharr(profile, **values, standard_errors=errors, remarks=tuple(remarks))
+    corrected[1] = np.hypot(corrected[1], shifted[0] - corrected[0])
+    share = creeping.share_of_compliance(creep.rate, corrected[0, 0], force, time, creep.end)
+    if rise or share > creeping.COUNTS:
+        notes.append(creeping.sentence(share))
+    return (corrected, uncorrected), notes
 
 
-def _unloadings(force):
-    """Parts of a curve that end with an unloading, from the end of the one before on, as slices."""
-    least = max(_PEAK * force.max(), _NOISE * roughness(force[None])[0, 0])
-    parts, begin, peak, lowest = [], 0, 0, None
-    for i, value in enumerate(force):
-        step = max(_FALL * force[peak], least)
-        if lowest is None:
-            if value >= force[peak]:
-                peak = i
-            elif force[peak] > least and value < force[peak] - step:
-                lowest = i
-        elif value <= force[lowest]:
-            lowest = i
-        elif value > force[lowest] + step:
-            parts.append(slice(begin, lowest + 1))
-            begin, peak, lowest = lowest, i, None
-    return parts if lowest is None else [*parts, slice(begin, force.size)]
+def _values_and_errors(profile, depth, force, constants, contact):
+    """Results of one unloading and their standard errors, (2, 5), in the order of `OliverPharr`."""
+    epsilon, beta = constants
 
+    def results(F, S, m, shift=0.0):
+        contact_depth = depth.max() + shift - epsilon * F / S
+        return np.stack([S, contact_depth, *_moduli(profile, contact_depth, F, S, beta), m]).T
 
-def _deepest(depth):
-    """Index of the last sample of the largest depth."""
-    return int(np.flatnonzero(depth == depth.max())[-1])
-
-
-def _values_and_errors(profile, depth, force, epsilon, beta):
-    """Results of one unloading and their standard errors, arrays in the order of `OliverPharr`."""
-
-    def results(F, S, m):
-        contact_depth = depth.max() - epsilon * F / S
-        a = _radius_at_height(profile, contact_depth)
-        with np.errstate(all="ignore"):
-            return np.stack([S, contact_depth, S / (2 * beta * a), F / (np.pi * a**2), m]).T
-
-    solution, deviations = _power_law(*_part(depth, force, *_SHARES[0]))
-    values, *others = results(*np.column_stack([solution, solution[:, None] + deviations]))
+    solution, deviations, others = laws_of(depth, force)
+    values, *noisy = results(*np.column_stack([solution, solution[:, None] + deviations]))
     # A contact radius of 0 or ∞ makes the modulus or the hardness so.
     if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
         raise ValueError(
             f"the contact depth h − ε F/S = {values[1]:g} m must be positive and within the profile: depth "
             "counts from first contact, force from the baseline"
         )
-    choices = [values]
-    for shares in _SHARES[1:]:
-        with suppress(ValueError):
-            choices.append(results(*_power_law(*_part(depth, force, *shares))[0]))
-    spread = np.ptp([choice for choice in choices if np.isfinite(choice).all()], axis=0) / 2
-    return values, np.maximum(np.linalg.norm(np.array(others) - values, axis=0), spread)
+    parts = [values, *(results(*other) for other in others)]
+    spread = np.ptp([part for part in parts if np.isfinite(part).all()], axis=0) / 2
+    errors = np.maximum(np.linalg.norm(np.array(noisy) - values, axis=0), spread)
+    if contact.depth_error:
+        shifted = results(*solution, shift=-contact.depth_error)
+        errors = np.hypot(errors, np.where(np.isfinite(shifted), shifted - values, np.inf))
+    return np.array([values, errors])
 
 
-def _part(depth, force, upper, lower):
-    """Depths (m) minus the largest one, and forces (N), of the unloading between shares of the force."""
-    start = _deepest(depth)
-    h, F = depth[start:] - depth[start], force[start:]
-    share = F / np.abs(F).max()
-    below = np.flatnonzero(share < lower)
-    end = below[0] if below.size else np.argmin(F) + 1
-    first = np.flatnonzero(share[:end] >= upper)
-    h, F = (values[first[-1] if first.size else end : end] for values in (h, F))
-    if h.size < 5 or h.min() == 0:
+def _moduli(profile, contact_depth, force, stiffness, beta):
+    """E* and H (Pa) at contact depths (m)."""
+    a = _radius_at_height(profile, contact_depth)
+    with np.errstate(all="ignore"):
+        return stiffness / (2 * beta * a), force / (np.pi * a**2)
+
+
+def _over_depth(profile, depth, force, stiffness, constants, contact):
+    """Values and errors by name at each sample with a measured stiffness, and remarks."""
+    epsilon, beta = constants
+    with np.errstate(all="ignore"):
+        contact_depth = depth - epsilon * force / stiffness
+    used = (stiffness > 0) & (force > 0) & (contact_depth > 0)
+    used &= contact_depth < profile.known_depth
+    if not used.any():
         raise ValueError(
-            f"{h.size} samples of the upper half of an unloading, 5 or more are needed: after the largest "
-            f"depth, {depth[start]:g} m (sample {start + 1} of {depth.size}), depth and force must fall"
+            "no sample has a positive stiffness (N/m), force and contact depth h − ε F/S: depth counts "
+            "from first contact, force from the baseline"
         )
-    return h, F
+
+    def at(shift):
+        h = np.where(used, np.maximum(contact_depth + shift, 0.0), np.nan)
+        E, H = np.full((2, depth.size), np.nan)
+        E[used], H[used] = _moduli(profile, h[used], force[used], stiffness[used], beta)
+        return {"contact_depth": h, "E_star": E, "hardness": H}
+
+    values, shifted = at(0.0), at(-contact.depth_error)
+    errors = {
+        name: np.hypot(roughness(value[used][None])[0, 0], shifted[name] - value)
+        for name, value in values.items()
+    }
+    noise = np.where(used, roughness(stiffness[used][None])[0, 0], np.nan)
+    values = {"depth": depth, "stiffness": np.where(used, stiffness, np.nan), **values}
+    values["contact_point"] = np.full(depth.size, contact.depth)
+    without = np.count_nonzero(~used)
+    remarks = [f"{without} of {used.size} samples have no contact or no stiffness: NaN"] if without else []
+    frozen = {name: _check.frozen(value) for name, value in values.items()}
+    errors = {"stiffness": noise} | errors
+    if contact.depth_error:
+        errors["contact_point"] = np.full(depth.size, contact.depth_error)
+    return frozen, {name: _check.frozen(error) for name, error in errors.items()}, remarks
 
 
-def _power_law(h, force):
-    """Force, stiffness and exponent at h = 0 of F (1 + S h/(m F))^m, and their independent deviations."""
-    size = np.array([force[0], force[0] / -h.min(), 1.0])
-    x, y = h / -h.min(), force / force[0]
-
-    def function(parameters, _):
-        F, S, m = parameters.T[:, :, None]
-        u = np.maximum(1 + S * x / (m * F), 1e-9)
-        power = u ** (m - 1)
-        columns = power * (u - S * x / F), power * x, F * power * (u * np.log(u) + 1 - u)
-        return F * u * power - y, np.stack(columns, axis=-1)
-
-    start = np.array([[1.0, np.polyfit(x, y, 1)[0], 1.5]])
-    minimum = least_squares(function, start, _LOWER, _UPPER)
-    if minimum.at_bound.any():
-        raise ValueError("the upper half of the unloading is no power law: check the order of the samples")
-    _, s, vt = np.linalg.svd(minimum.jacobian[0], full_matrices=False)
-    scatter = np.sqrt(minimum.squares[0] / (h.size - 3))
-    return minimum.x[0] * size, size[:, None] * vt.T * scatter / s
+def _collected(profile, results, contact, numbers, remarks):
+    """An `OliverPharr` of the values and errors of unloadings by number, or of one where that is one."""
+    columns = np.array(results) if numbers.ndim else np.array(results[0])
+    names = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
+    values, errors = (
+        dict(zip(names, map(_check.frozen, each.T), strict=True))
+        for each in (columns[..., 0, :], columns[..., 1, :])
+    )
+    shape = columns.shape[:-2]
+    values |= {"contact_point": _check.frozen(np.full(shape, contact.depth)), "unloading": numbers}
+    if contact.depth_error:
+        errors["contact_point"] = _check.frozen(np.full(shape, contact.depth_error))
+    remarks = [*remarks, *doubts(values["E_star"], values["hardness"]), *profile.remarks]
+    return OliverPharr(profile=profile, **values, standard_errors=errors, remarks=tuple(remarks))
 
 
 def _radius_at_height(profile, height):
     """Radius (m) of the profile at heights (m): 0 below its tip, infinite where it is not known."""
     known = np.minimum(profile.wall, profile.known_radius)
     # Without a slope the search is by bisection.
-    radius = increasing_root(lambda r: (profile._height(r), np.inf), height, np.abs(height), known)
+    radius = increasing_root(lambda r: (profile.height_at(r), np.inf), height, np.abs(height), known)
     return np.maximum(np.minimum(radius, profile.wall), profile.face_radius)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class OliverPharr(Report):
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class OliverPharr(Record):
     """Results for one unloading, or for each of a curve, returned by `oliver_pharr`.
 
     The standard errors, by name, are those of the scatter about the power law, and not less than half the
     range of the results for six parts of the unloading: from 99 or 95 % of the largest force down to 50, 40
-    or 30 %. With ``cycles=True`` all are arrays (U,), and `result[i]` is one unloading.
+    or 30 %; with those of first contact and of the rate of creep where these were found. With
+    ``cycles=True`` all are arrays (U,), and `result[i]` is one unloading, i from 0 on. Its number in the
+    record, from 1 on, is `unloading`; remarks, print and tables have the same number.
     """
 
     profile: Profile
@@ -242,34 +371,92 @@ class OliverPharr(Report):
     E_star: Any
     hardness: Any
     exponent: Any
+    #: First contact z₀ (m) that was subtracted from the depth, 0 where depths are as given.
+    contact_point: Any
     standard_errors: dict[str, Any]
-    #: Which unloading was taken of several, and which were left out.
+    #: How first contact was found, creep, which unloading was taken of several, and which were left out.
     remarks: tuple[str, ...] = ()
+    #: Results without the correction for creep, where times were given; NaN where these are no power law.
+    uncorrected: "OliverPharr | None" = None
+    #: Number of the unloading in the record, from 1 on; those that are left out are counted.
+    unloading: Any = None
 
     _dimensions = ("unloading",)
-    _quantities = _shown = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
+    _quantities = ("stiffness", "contact_depth", "E_star", "hardness", "exponent", "contact_point")
+    _shown = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
 
     def __getitem__(self, index: Any) -> "OliverPharr":
         if not self.shape:
             return super().__getitem__(index)
         errors = {name: error[index] for name, error in self.standard_errors.items()}
         values = {name: getattr(self, name)[index] for name in self._quantities}
-        return replace(self, **values, standard_errors=errors)
+        if self.unloading is not None:
+            values["unloading"] = self.unloading[index]
+        uncorrected = None if self.uncorrected is None else self.uncorrected[index]
+        return replace(self, **values, standard_errors=errors, uncorrected=uncorrected)
 
     def to_dict(self) -> dict[str, Any]:
         """Values by name, in SI units, and their standard errors, whose names end in `_error`."""
         return super().to_dict() | {f"{name}_error": error for name, error in self.standard_errors.items()}
 
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A table in SI units, one row for each unloading by its number in the record, or each sample."""
+        table = super().to_pandas()
+        if self.shape and self.unloading is not None:
+            table = table.set_index(np.asarray(self.unloading)).rename_axis("unloading")
+        return table
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """A dataset, with the numbers of the unloadings in the record as coordinate."""
+        dataset = super().to_xarray()
+        return dataset if self.unloading is None else dataset.assign_coords(unloading=self.unloading)
+
     def _rows(self):
         yield "indenter", described(self.profile)
         for i in range(len(self) if self.shape else 0):
             texts = [f"{OLIVER_PHARR[name].symbol} {text}" for name, text in self[i]._texts()]
-            yield f"unloading {i + 1}", ", ".join(texts)
+            yield f"unloading {self.unloading[i]}", ", ".join(texts)
         for name, text in () if self.shape else self._texts():
             yield f"{OLIVER_PHARR[name].long_name} {OLIVER_PHARR[name].symbol}", text
+        if self.uncorrected is not None and not self.shape:
+            texts = dict(self.uncorrected._texts())
+            text = f"E* {texts['E_star']}, H {texts['hardness']}"
+            yield "uncorrected for creep", text
         yield from (("remark", remark) for remark in self.remarks)
 
     def _texts(self):
         """Names of the quantities of one unloading, and their values with errors."""
         for name, error in self.standard_errors.items():
             yield name, with_error(getattr(self, name), error, OLIVER_PHARR[name].unit)
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class OverDepth(OliverPharr):
+    """Results at each sample of a curve with a measured stiffness, arrays (N,), NaN without contact.
+
+    Standard errors are the scatter of neighbouring samples, with that of first contact where it was found.
+    """
+
+    exponent: Any = None
+    #: Depth (m) from first contact on.
+    depth: Any = None
+
+    _dimensions = ("sample",)
+    _quantities = ("depth", "stiffness", "contact_depth", "E_star", "hardness", "contact_point")
+    _shown = ("stiffness", "contact_depth", "E_star", "hardness")
+
+    def _rows(self):
+        if not self.shape:
+            yield from super()._rows()
+            return
+        yield "indenter", described(self.profile)
+        for name in ("depth", *self._shown):
+            quantity, values = OLIVER_PHARR[name], getattr(self, name)
+            text = engineering(values[np.isfinite(values)], quantity.unit)
+            yield f"{quantity.long_name} {quantity.symbol}", text
+        yield from (("remark", remark) for remark in self.remarks)
+
+
+@rows.register
+def _rows_of_unloading(result: OliverPharr):
+    return result._rows()

@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import _check
 from ..medium import Medium
-from ..results.quantities import QUANTITIES, Quantity
+from ..show.quantities import QUANTITIES, Quantity
 
 #: The contact point is searched down to so many ranges of depth below the record.
 REACH = 30.0
@@ -118,7 +118,7 @@ class Addend(Parameter):
 
 def _viscosity(curves):
     """Viscosity (Pa·s) with which the dashpots carry the range of force at the largest speed."""
-    radius = curves.profile._radius(np.minimum(curves.length, curves.profile.known_depth))
+    radius = curves.profile.radius_at(np.minimum(curves.length, curves.profile.known_depth))
     return curves.load / (8 * radius * curves.speed)
 
 
@@ -126,7 +126,7 @@ def _pressed_radius(curves):
     """Radius (m) of the contact under the largest force, about, from the depths with half of it."""
     pressed = curves.force > curves.force.max(axis=1, keepdims=True) - curves.load / 2
     depth = 3 * np.ptp(np.where(pressed, curves.depth, curves.top), axis=1, keepdims=True)
-    return curves.profile._radius(np.clip(depth, 1e-3 * curves.length, curves.profile.known_depth))
+    return curves.profile.radius_at(np.clip(depth, 1e-3 * curves.length, curves.profile.known_depth))
 
 
 #: The constants of the hardness σ_c = H + q_c/a + f_c/a², by the letters of their classes.

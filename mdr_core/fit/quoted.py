@@ -5,10 +5,18 @@ from typing import Literal
 
 import numpy as np
 
+from .creep import COUNTS
+from .errors import SIGNIFICANT, roughness
 from .oliver_pharr import OliverPharr, oliver_pharr
 from .remarks import DOUBTS
 from .report import with_error
 
+#: Remarks that say that a model which is elastic does not describe the curve, or that E* is not determined.
+NOT_COMPARABLE = DOUBTS | {"unloading", "outliers", "second minimum", "bound", "undetermined"}
+#: Remarks that say that the force is not that of the contact, whatever the medium.
+OF_THE_FORCE = {"units", "no contact", "tilt", "drag", "drift"}
+#: Share of the largest depth and force, below which those of the first sample are those of first contact.
+_SMALL = 1e-3
 #: Words for the sources of a number.
 _SOURCES = {"fit": "by the fit", "unloading": "by Oliver and Pharr"}
 
@@ -50,53 +58,89 @@ class Quoted:
 def quoted(fit):
     """`Quoted` of one curve."""
     if fit.invalid:
-        return Quoted("E_star", None, None, None, fit.invalid[0])
+        return _none(fit.invalid[0])
     if fit.medium.q_c == np.inf:
         return _of_the_fit(fit)
-    result, reason = unloading(fit)
+    result, contact = unloading(fit)
     if result is None:
-        return Quoted("E_star", None, None, None, reason)
+        return _none(contact)
+    reason = f"the medium yields; first contact {contact}"
     value, error = float(result.E_star), float(result.standard_errors["E_star"])
-    reason = "the medium yields, and the unloading does not depend on how"
     return Quoted("E_star", value, error, "unloading", reason)
+
+
+def _none(reason):
+    return Quoted("E_star", None, None, None, reason)
 
 
 def _of_the_fit(fit):
     """`Quoted` of a medium that is elastic."""
-    if doubts := _doubts(fit):
-        return Quoted("E_star", None, None, None, f"the model does not fit: {doubts[0]}")
+    if doubts := _doubts(fit, NOT_COMPARABLE):
+        return _none(f"the elastic model does not fit: {doubts[0]}")
     if "E_star" not in fit.standard_errors:
-        return Quoted("E_star", None, None, None, "E_star is held")
+        return _none("E_star is held")
     value, error = float(fit.medium.E_star), float(fit.standard_errors["E_star"])
     if not error < np.inf:
-        return Quoted("E_star", None, None, None, "the data do not determine E*")
+        return _none("the data do not determine E*")
     return Quoted("E_star", value, error, "fit", "the medium is elastic")
 
 
-def _doubts(fit):
-    """Remarks that say that the model does not fit."""
-    return [text for kind, text in fit._remarks[0].items() if kind in DOUBTS]
+def _doubts(fit, kinds):
+    """Remarks of some kinds on one curve."""
+    return [text for kind, text in fit._remarks[0].items() if kind.partition(":")[0] in kinds]
 
 
 def unloading(fit) -> tuple[OliverPharr | None, str]:
-    """Results of Oliver and Pharr for one fitted curve, and why there are none.
+    """Results of Oliver and Pharr for one fitted curve, and what first contact is; or None, and why.
 
-    Depth counts from the contact point of the fit, whose error is in those of the results.
+    First contact is that of the record where it begins in the air, or at its own zero; else that of the
+    fit, with its error, unless the model does not fit.
     """
     for name, text in (("eta", "viscous"), ("work_of_adhesion", "adhesive")):
         if name in fit.standard_errors or getattr(fit.medium, name) > 0:
             return None, f"the medium is {text}: its unloading is no power law of the depth"
-    if doubts := _doubts(fit):
-        return None, f"the model does not fit, so that its contact point is none: {doubts[0]}"
+    # Beside a law of hardness that does not fit, these are of the law, not of the force.
+    if not _doubts(fit, {"misfit"}) and (doubts := _doubts(fit, OF_THE_FORCE)):
+        return None, f"the force of the contact is not known: {doubts[0]}"
     # Without background the measured force is that of the contact plus the residual.
-    force, shift = fit.path.force + fit.residuals, fit.standard_errors.get("contact_point", 0.0)
+    force = fit.path.force + fit.residuals
     try:
-        result = oliver_pharr(fit.profile, fit.path.depth, force)
-        shifted = oliver_pharr(fit.profile, fit.path.depth + shift, force)
+        result = _evaluated(fit, fit.path.depth, force)
+        if "contact_point" in result.standard_errors:
+            return result, "is that of the record, which begins in the air"
+        if "contact_point" not in fit.standard_errors:
+            return result, "is held"
+        if _begins_at_contact(fit.depth, force):
+            return _evaluated(fit, fit.depth, force), "is the zero of the depths"
+        if doubts := _doubts(fit, DOUBTS):
+            return (
+                None,
+                f"the model does not fit, so that its contact point is not first contact: {doubts[0]}",
+            )
+        shift = fit.standard_errors["contact_point"]
+        shifted = _evaluated(fit, fit.path.depth + shift, force)
     except ValueError as error:
         return None, str(error)
     errors = {
         name: np.hypot(error, getattr(shifted, name) - getattr(result, name))
         for name, error in result.standard_errors.items()
     }
-    return replace(result, standard_errors=errors), ""
+    return replace(result, standard_errors=errors), "is that of the fit"
+
+
+def _evaluated(fit, depth, force):
+    """Results of Oliver and Pharr, corrected for creep where times are given and it is not small."""
+    increases = fit.time is not None and not np.any(np.diff(fit.time[np.isfinite(fit.time)]) < 0)
+    result = oliver_pharr(fit.profile, depth, force, time=fit.time if increases else None)
+    if increases and abs(result.stiffness / result.uncorrected.stiffness - 1) <= COUNTS:
+        return result.uncorrected
+    return result
+
+
+def _begins_at_contact(depth, force):
+    """Whether the first sample has no depth and no force within the noise, which is small."""
+    used = np.isfinite(depth) & np.isfinite(force)
+    depth, force = depth[used], force[used]
+    noise = SIGNIFICANT * roughness(force[None])[0, 0]
+    small = noise < _SMALL * force.max()
+    return small and abs(depth[0]) < _SMALL * np.ptp(depth) and abs(force[0]) <= _SMALL * force.max()

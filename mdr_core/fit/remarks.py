@@ -4,8 +4,9 @@ from itertools import chain
 
 import numpy as np
 
-from ..results.quantities import engineering
+from ..show.quantities import engineering
 from .errors import SIGNIFICANT
+from .materials import is_modulus
 from .nested import nested_tests
 from .noise import tests_of_noise
 from .parameters import PARAMETERS, TOGETHER
@@ -14,7 +15,7 @@ from .parameters import PARAMETERS, TOGETHER
 KINDS = (
     "invalid", "units", "order", "no contact", "adhesion", "bound", "second minimum", "undetermined",
     "tilt", "drag", "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "few", "loading",
-    "vague", "contact", "constants", "elastic", "hardly yields", "noisy", "rest", "inviscid", "missing",
+    "vague", "contact", "constants", "elastic", "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
 DOUBTS = {"units", "order", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "noisy"}
@@ -71,7 +72,11 @@ def _units(solved, i):
     if _is_enormous(solved, i):
         reached = engineering(np.ptp(curves.depth[i]), "m")
         text = f"the depths of this record differ by {reached}, which is no indentation by this tip"
-        yield "units", f"{text}: give depth in m and force in N"
+        columns = curves.depth[i], curves.force[i]
+        swapped = _shares_of_others(*columns).get(_SWAPPED, 0.0) >= max(
+            _EXPLAINED, _share_of_contact(*columns)
+        )
+        yield "units", f"{text}: {_SWAPPED if swapped else 'give depth in m and force in N'}"
         return
     if "E_star" not in curves.free:
         return
@@ -80,7 +85,7 @@ def _units(solved, i):
     variance = np.sum((force - force.mean()) ** 2)
     line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
     straight = not curves.adhesive and line < 1.1 * squares
-    plausible = 1.0 <= E <= 1e13
+    plausible = is_modulus(E)
     if plausible and not straight:
         return
     shares, own = _shares_of_others(depth, force), _share_of_contact(depth, force)
@@ -109,7 +114,7 @@ def _is_enormous(solved, i):
     """Whether depths are evidently in another unit than m."""
     profile, values = solved.curves.profile, solved.values_and_states[0]
     reached = float(np.ptp(solved.curves.depth[i]))
-    radius = profile._radius(np.minimum(reached, profile.known_depth))
+    radius = profile.radius_at(np.minimum(reached, profile.known_depth))
     soft = reached > _LARGE and values["E_star"][i, 0] < _SOFTEST
     return reached > _ENORMOUS or soft or bool(radius > _BEYOND_TIP * profile.body_radius)
 
@@ -238,12 +243,6 @@ def _undetermined(solved, i):
     if solved.elastic[i] and constants:
         yield "elastic", f"nothing has yielded within the noise: {_hardest(solved, i)}"
         return
-    if solved.hardly_yields[i]:
-        symbols = " and ".join(PARAMETERS[name].quantity.symbol for name in constants)
-        text = (
-            f"an elastic medium fits about as well: yield and {symbols} are hardly determined; press deeper"
-        )
-        yield "hardly yields", text
     if len(constants) > 1:
         yield from _constants(solved, i, constants)
     unloading = np.count_nonzero((state.live_interval.length[i] > 0) & ~state.loading[i])
@@ -276,7 +275,7 @@ def _hardest(solved, i):
     if solved.curves.constants == ("q_c",):
         stands = f"q_c = ∞ stands for a critical depth of more than about {engineering(depth, 'm')}"
         return f"{stands}; press deeper"
-    radius = solved.curves.profile._radius(np.minimum(depth, solved.curves.profile.known_depth))
+    radius = solved.curves.profile.radius_at(np.minimum(depth, solved.curves.profile.known_depth))
     least = engineering(2 * values["E_star"][i, 0] * depth / (np.pi * radius), "Pa")
     return f"the medium is elastic, and harder than about {least} in the largest contact"
 

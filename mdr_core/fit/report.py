@@ -8,10 +8,10 @@ import numpy as np
 
 from .._check import Array
 from ..medium import Medium
+from ..numerics.results import Model, Record
 from ..profiles.profile import Profile
-from ..results.base import Model
-from ..results.quantities import described, engineering, unit_of
-from ..results.report import Report
+from ..show.quantities import described, engineering, unit_of
+from ..show.report import limit_rows, rows
 from .parameters import CLASSES, MEDIUM, PARAMETERS
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def with_error(value, error, unit):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Fit(Report):
+class Fit(Record):
     """Base class of fits: values and standard errors of the parameters by name, and their report.
 
     Attributes
@@ -106,6 +106,7 @@ class Fit(Report):
 
     def _rows(self):
         yield "indenter", described(self.profile)
+        yield from self._comparable()
         for name, value in self._values().items():
             free = name in self.standard_errors
             if free or np.any(value) or name not in self._zero_unless_asked:
@@ -122,10 +123,21 @@ class Fit(Report):
             return f"{engineering(np.extract(~np.isnan(value), value), unit)} (held)"
         return with_error(value, self.standard_errors[name], unit)
 
+    def _comparable(self):
+        """Rows on what is comparable with tables."""
+        yield from ()
+
     def _quality(self):
         """Rows on how well the model fits."""
         yield from ()
 
-    def _limit_rows(self, most):
-        yield from (("remark", remark) for remark in self.remarks)
-        yield from super()._limit_rows(most)
+
+@rows.register
+def _rows_of_fit(fit: Fit):
+    return fit._rows()
+
+
+@limit_rows.register
+def _limit_rows_of_fit(fit: Fit, most):
+    yield from (("remark", remark) for remark in fit.remarks)
+    yield from limit_rows.dispatch(Record)(fit, most)

@@ -11,9 +11,11 @@ from .._check import Array, ArrayLike
 from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..medium import Medium
-from ..results.quantities import described, engineering
-from ..results.report import imported
+from ..show.quantities import described, engineering
+from ..show.report import attributes as attributes_of
+from ..show.report import dimensions, imported
 from .classes import ClassFit, fits_of_classes, verdict
+from .figures import plot_fit
 from .measurement import Measurement
 from .oliver_pharr import OLIVER_PHARR
 from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
@@ -162,8 +164,6 @@ class IndentationFit(Fit):
         The band of the residuals is one standard deviation of their noise, √(σ_F² + (S σ_d)²), S the
         stiffness. Drawn are measured depths and forces, with offset and background.
         """
-        from .figures import plot_fit
-
         self._one("plot")
         self._refuse_invalid("plot")
         return plot_fit(self)
@@ -179,7 +179,7 @@ class IndentationFit(Fit):
         """
         xarray = imported("xarray", "to_xarray()")
         # Zarr has no specification of texts of fixed length.
-        dims, parameters = self._dims(), np.array(list(self.standard_errors), object)
+        dims, parameters = dimensions(self), np.array(list(self.standard_errors), object)
         variables = {}
         for name, value in self.to_dict().items():
             variables[name] = dims, value, PARAMETERS[name.removesuffix("_error")].quantity.attributes
@@ -193,7 +193,7 @@ class IndentationFit(Fit):
             units = {"depth": "m", "time": "s"}.get(name, "N")
             variables[name] = (*dims, "sample"), values, {"units": units}
         variables["covariance"] = (*dims, "parameter", "other_parameter"), self.covariance
-        attributes = self._attributes() | {"indenter": described(self.profile), "model": str(self.model)}
+        attributes = attributes_of(self) | {"indenter": described(self.profile), "model": str(self.model)}
         attributes["remarks"] = "\n".join(self.remarks)
         attributes["depth_noise"] = self.depth_noise
         if self.invalid:
@@ -228,20 +228,35 @@ class IndentationFit(Fit):
             text = f"{engineering(mean, 'Pa')} over the model's a = {engineering(a, 'm')}"
             yield "mean pressure F/(π a²)", f"{text}, {yielded} where all of it yields"
 
+    def _comparable(self):
+        """Rows on the number to quote of one curve, and why that of the model differs."""
+        if self.shape or self.invalid:
+            return
+        quote = self.quoted
+        if quote.source is None:
+            yield "to quote", f"no E*: {quote.reason}"
+            return
+        value = with_error(quote.value, quote.standard_error, "Pa")
+        yield "to quote", f"E* {value} of the {quote.source}: {quote.reason}"
+        if quote.source == "unloading":
+            yield (
+                "the model's",
+                "its contact sinks in elastically, and is smaller: E* and hardness are larger",
+            )
+
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
         result, _ = unloading(self)
-        if result is None:
+        if result is None or {"misfit", "jitter", "noisy"} & set(self._remarks[0]):
             return
-        names = ("E_star", "hardness")
+        errors = result.standard_errors
         texts = [
-            f"{OLIVER_PHARR[n].symbol} {with_error(getattr(result, n), result.standard_errors[n], 'Pa')}"
-            for n in names
+            f"{OLIVER_PHARR[name].symbol} {with_error(getattr(result, name), errors[name], 'Pa')}"
+            for name in ("E_star", "hardness")
         ]
         force = self.path.force + self.residuals
         a = engineering(np.sqrt(np.nanmax(force) / (np.pi * result.hardness)), "m")
-        model = "; the model's contact has elastic sink-in" * self._yields
-        yield "Oliver and Pharr", f"{', '.join(texts)} over a = {a}{model}"
+        yield "Oliver and Pharr", f"{', '.join(texts)} over a = {a}"
 
     def _limits(self):
         return self.path.limits

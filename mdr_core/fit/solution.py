@@ -18,13 +18,13 @@ from .start import first_guesses
 
 #: Constant of the hardness, in any unit, that stands for infinity.
 _NO_YIELD = 1e130
-#: Gain in squares of the noise below which an elastic medium fits as well, and about as well.
-_AS_WELL, _ABOUT_AS_WELL = 2.0, 9.0
+#: Gain in squares of the noise below which an elastic medium fits as well.
+_AS_WELL = 2.0
 
 
 @dataclass(frozen=True)
 class Solution:
-    """Solution of the curves `rows` of a measurement, and whether media are elastic (R,), or nearly so.
+    """Solution of the curves `rows` of a measurement, and whether media are elastic (R,).
 
     `rival` is the second-best minimum in scaled parameters (R, P), with its sum of squares (R,), which is
     infinite where there is none.
@@ -36,7 +36,6 @@ class Solution:
     rival: np.ndarray
     rival_squares: np.ndarray
     elastic: np.ndarray
-    hardly_yields: np.ndarray
     noise_known: bool
 
     @cached_property
@@ -144,10 +143,10 @@ def solved(rows, curves, noise_known):
         curves = replace(curves, contact=curves.contact_of_data(minimum.x))
         minimum = curves.minimum(minimum.x)
     if set(curves.free) & set(CLASSES.values()):
-        minimum, elastic, hardly_yields = _compared_with_elastic(curves, minimum, noise_known)
+        minimum, elastic = _compared_with_elastic(curves, minimum, noise_known)
     else:
-        elastic, hardly_yields = np.isinf(curves.held["q_c"]), np.zeros(len(rows), bool)
-    return Solution(rows, curves, minimum, *rival, elastic, hardly_yields, noise_known)
+        elastic = np.isinf(curves.held["q_c"])
+    return Solution(rows, curves, minimum, *rival, elastic, noise_known)
 
 
 def _best_minimum(curves):
@@ -169,16 +168,16 @@ def _best_minimum(curves):
 
 
 def _compared_with_elastic(curves, minimum, noise_known):
-    """The minimum or the elastic one where that is nearer, and whether it is, or about as near.
+    """The minimum or the elastic one where that is nearer, and whether it is.
 
     In an elastic medium the hardness has no derivative: a second search starts with less.
     """
-    elastic, hardly_yields = np.zeros((2, len(minimum.x)), bool)
+    elastic = np.zeros(len(minimum.x), bool)
     values, state = curves.states(minimum.x)
     share = state.cap[:, -1] / state.depth.max(axis=1)
     rows = np.flatnonzero(share > 0.5)
     if not rows.size:
-        return minimum, elastic, hardly_yields
+        return minimum, elastic
     subset = curves.rows(rows)
     values = subset.values(minimum.x[rows])
     constants = [name for name in subset.constants if name in subset.free]
@@ -193,6 +192,5 @@ def _compared_with_elastic(curves, minimum, noise_known):
     gain = (third - least) / np.maximum(noise, 1e-300)
     nearer = (gain <= _AS_WELL) | (third <= 1e-24 * minimum.residual.shape[1])
     elastic[rows] = nearer
-    hardly_yields[rows] = (gain <= _ABOUT_AS_WELL) & ~nearer
     minimum = minimum.replaced(rows, yielding, (second < first) & ~nearer)
-    return minimum.replaced(rows, unyielding, nearer), elastic, hardly_yields
+    return minimum.replaced(rows, unyielding, nearer), elastic

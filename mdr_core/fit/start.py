@@ -38,7 +38,7 @@ def first_guesses(curves):
     """
     largest = min((1 + REACH) * float(curves.length.max()), curves.profile.known_depth)
     depths = largest * np.append(0.0, np.geomspace(1e-7, 1, 600))
-    radius = curves.profile._radius(depths)
+    radius = curves.profile.radius_at(depths)
     table = depths, integrals(curves.profile).radius_integral(LiveInterval.elastic(depths)), radius
     turning_depth = curves.first_turning_depth()
     count = len(curves.depth)
@@ -88,7 +88,7 @@ def _media(curve, held, depth):
     known = curve.held_elastic or {"E_star", *names} <= set(held)
     mixtures = _MIXTURES[1 if known else len(names)]
     caps = (depth if known else depth * _SHARES)[:, :, None] * np.ones(len(mixtures))
-    radius = curve.profile._radius(np.minimum(depth, curve.profile.known_depth))[:, :, None]
+    radius = curve.profile.radius_at(np.minimum(depth, curve.profile.known_depth))[:, :, None]
     of_one = {"hardness": 1 / radius, "q_c": 1.0, "f_c": radius}
     media = {}
     for name, shares in zip(names, mixtures.T, strict=True):
@@ -114,7 +114,7 @@ def _adhesive_media(curve, held, depth):
     if {"E_star", "work_of_adhesion"} <= set(held):
         kappa = np.full_like(depth, held["work_of_adhesion"] / held["E_star"])
     else:
-        radius = curve.profile._radius(np.minimum(depth, curve.profile.known_depth))
+        radius = curve.profile.radius_at(np.minimum(depth, curve.profile.known_depth))
         kappa = (depth * _STRETCHES) ** 2 / (2 * np.pi * radius)
     return {"q_c": np.full_like(kappa, np.inf), "tau": np.zeros_like(kappa), "kappa": kappa}
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from .. import _check
 from ..medium import Medium, check_hardness, check_pair, refuse_adhesion
+from ..numerics.motions import ImpactResult, Motion, instants
+from ..numerics.results import CHAIN, Limit, above
 from ..profiles.profile import Profile
-from ..results.base import CHAIN, ImpactResult, Motion, instants
-from ..results.limits import Limit, contact_limits
 from .cap import plastic_depth
 from .foundation import Foundation, element_count
 from .free_body import ImpactSolver, foundation_before, impact_depth_bound
@@ -92,7 +92,7 @@ def chain_impact(
 
     def solve(elements, depth, steps):
         foundation = foundation_before(profile, medium, history, count or elements, depth)
-        return ImpactSolver(foundation, mass, speed, steps, bound)
+        return ImpactSolver(foundation, mass, speed, steps, bound).solved()
 
     # A first run determines the largest depth, at whose radius the next one has an edge.
     runs = [solve(_ELEMENTS, bound, _STEPS / 2)]
@@ -177,7 +177,7 @@ class ChainImpact(ImpactResult):
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         """Limits of the model's assumptions for this impact."""
-        return contact_limits(self.profile, self.medium, self.contact_radius)
+        return above("show.limits").contact_limits(self.profile, self.medium, self.contact_radius)
 
     def motion(self, n: int | None = None) -> Motion:
         """The `Motion` of the finest run at every step, or interpolated at n equally spaced instants.

@@ -10,9 +10,8 @@ import numpy as np
 from .. import _check, abel
 from .._check import Array, ArrayLike
 from ..medium import Medium, check_hardness, check_pair, refuse_adhesion
+from ..numerics.results import CHAIN, Limit, Model, Result, above
 from ..profiles.profile import Profile
-from ..results.base import CHAIN, Model, Result
-from ..results.limits import Limit, contact_limits
 from . import element
 from .cap import elastic_limit, plastic_depth
 from .element import Elements, Ramp
@@ -229,7 +228,7 @@ class TimedIndentation(Result):
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         """Limits of the model's assumptions along this path."""
-        return contact_limits(self.profile, self.medium, self.contact_radius)
+        return above("show.limits").contact_limits(self.profile, self.medium, self.contact_radius)
 
     def __getitem__(self, index: Any) -> "TimedIndentation":
         return replace(self, **{name: getattr(self, name)[index] for name in self._state_fields})

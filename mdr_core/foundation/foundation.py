@@ -10,8 +10,8 @@ import numpy as np
 from .. import _check
 from ..medium import Medium, check_hardness, check_pair, refuse_adhesion
 from ..numerics.gauss import gauss_legendre
+from ..numerics.results import above
 from ..profiles.profile import Profile
-from ..results.quantities import described, engineering
 from . import element
 from .cap import elastic_limit, onset_depth
 from .element import Elements, Ramp
@@ -124,14 +124,7 @@ class Foundation:
         _check.store(self, n=n, half_width=half_width, nodes=tuple(nodes.tolist()), _current=current)
 
     def __repr__(self) -> str:
-        width, moves = engineering(self.half_width, "m"), len(self.history)
-        return (
-            f"Foundation: {self.n} elements to ±{width}, after {moves} moves\n"
-            f"  indenter                 {described(self.profile)}\n"
-            f"  medium                   {described(self.medium)}\n"
-            f"  depth d                  {engineering(self.depth, 'm')}\n"
-            f"  force F                  {engineering(self.force, 'N')}"
-        )
+        return above("show.report").foundation_text(self)
 
     def advance(self, depth: float, dt: float = np.inf) -> "Foundation":
         """Move the indenter along a straight ramp of depth in time.

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..numerics.motions import Motion
 from ..numerics.roots import root_in_bracket
-from ..results.base import Motion
 from . import element
 from .cap import elastic_limit, plastic_depth
 from .element import Elements, Exchange, Ramp
@@ -67,7 +67,10 @@ class BodyStep(NamedTuple):
 
 
 class ImpactSolver:
-    """Time integration of one impact: `motion`, `foundation` at the end of contact, and `quantities`."""
+    """Time integration of one impact.
+
+    `solved()` has its `motion`, the `foundation` at the end of contact, and `quantities`.
+    """
 
     def __init__(self, foundation, mass, speed, steps, bound):
         self.foundation, self.steps, self.bound = foundation, steps, bound
@@ -80,10 +83,9 @@ class ImpactSolver:
         limit = elastic_limit(foundation.profile, medium, bound)
         self.precision = 1e-12 * min(speed, min(bound, limit) / tau)
         self._record()
-        self._solve()
 
-    def _solve(self):
-        """Integrate from the start to the loss of contact."""
+    def solved(self):
+        """The solver itself, after it has integrated from the start to the loss of contact."""
         self._approach()
         first, untouched = len(self.records), self.foundation
         self._advance_until(lambda: self.velocity <= self.precision, self.bound / self.speed)
@@ -107,6 +109,7 @@ class ImpactSolver:
             # The energy that relaxing elements store at the end is dissipated afterwards.
             "viscous_work": viscous[-1] - viscous[0] + stored[-1] - stored[0],
         }
+        return self
 
     def _approach(self):
         """Move freely up to the surface at the axis, within 1e-9 of the depth bound."""

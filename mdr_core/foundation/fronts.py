@@ -3,6 +3,11 @@
 A front is a radius at which contact or yield ends. At a contact front the line load jumps by 4ηḋ, at a
 yield front it has a kink. On a virgin surface the contact front is the contact radius; on a relaxing one it
 is where the gap between indenter and surface closes, extrapolated from the gaps of the free elements.
+
+Everything is on one side of the axis. Radii x (m) are counted from the axis, those of the elements are
+their midpoints, and `width` (m) is the length of an element; `load` is the line load q (N/m) at the
+midpoints, 0 out of contact, and corrections are ∫ q dx minus the sum Σ q Δx over elements (N). Elements
+have numbers from the axis outward: 0 is the one without width on the axis itself.
 """
 
 import numpy as np
@@ -26,11 +31,17 @@ def force_and_radius(foundation):
 
 def _virgin_radius(foundation, depth):
     """Contact radius (m) at a depth on a virgin surface."""
-    return float(foundation.profile._radius(np.asarray(max(depth, 0.0))))
+    return float(foundation.profile.radius_at(np.asarray(max(depth, 0.0))))
 
 
 def _yield_correction(foundation, load):
-    """Load (N) of the element with the yield front, minus that of its midpoint."""
+    """∫ q dx over the element with the yield front, minus that of its midpoint (N).
+
+    The load is constant inside the front and falls linearly outside it, with the `slope` from the two
+    elements outside the `last` one with a plastic part. The line reaches the load of that one at the
+    `kink`; the part of the element between the kink and its nearer edge, of a `length`, is a triangle that
+    the midpoint misses.
+    """
     elements, x, width = foundation._elements, foundation._elements.x, foundation._elements.width
     last = int(np.count_nonzero(elements.plastic)) - 1
     if not 0 < last < len(x) - 3 or not elements.contact[last + 3]:
@@ -46,7 +57,12 @@ def _yield_correction(foundation, load):
 
 
 def _narrow_ring(foundation, load, last, front):
-    """Correction (N) where yield ends within three elements of a virgin contact front, else None."""
+    """Correction (N) where yield ends within three elements of a virgin contact front, else None.
+
+    There are too few elements for a slope. The load is constant up to the `kink`, the radius at which
+    g = d − u_c, and falls linearly from there to that of the dashpots, E* τḋ, at the `front`; the sum over
+    elements from the edge of the last one that yielded on gives way to the integral of this.
+    """
     elements, x, width = foundation._elements, foundation._elements.x, foundation._elements.width
     yielded = int(np.count_nonzero(elements.plastic)) - 1
     virgin = elements.elastic[last + 1] == 0 == elements.plastic[last + 1]
@@ -64,7 +80,11 @@ def _narrow_ring(foundation, load, last, front):
 
 
 def _contact_correction(foundation, load, last, step, front):
-    """Load (N) between the edge of the last element in contact and the front, on a straight line load."""
+    """∫ q dx (N) from the edge of the last element in contact to the front, negative if that is inside.
+
+    `step` is 1 where the contact lies inside the front, −1 where it lies outside, as around a released
+    centre. The load is extrapolated from the last two elements in contact to the middle of the piece.
+    """
     inner, x = last - step, foundation._elements.x
     edge = float(x[last] + step * foundation._elements.width[last] / 2)
     slope = 0.0
@@ -78,7 +98,12 @@ def _contact_correction(foundation, load, last, step, front):
 
 
 def _contact_front(foundation, load, last, step):
-    """Radius (m) of the front between the element `last` in contact and its free neighbour."""
+    """Radius (m) of the front between the element `last` in contact and its free neighbour.
+
+    On a virgin surface the contact radius; at release where the line through the last two loads is zero;
+    else where the line through the gaps of the first two free elements is zero. Always between the two
+    midpoints, and halfway if none of these is.
+    """
     elements, x = foundation._elements, foundation._elements.x
     free, inner, outer = last + step, last - step, last + 2 * step
     lower, upper = sorted((float(x[last]), float(x[free])))

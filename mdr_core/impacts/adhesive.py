@@ -39,6 +39,9 @@ from .result import Impact
 #: Gauss nodes of the contact time in each piece.
 _NODES = 32
 
+#: Gauss nodes of the contact time in each piece.
+_NODES = 32
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AdhesiveImpact(Impact):
@@ -93,7 +96,7 @@ def adhesive_impact(profile, medium, mass, speed, imprint_depth):
 
 
 def _energy(profile, medium, interval):
-    radius = profile._radius(interval.upper)
+    radius = profile.radius_at(interval.upper)
     return tension_and_energy(profile, interval, radius, stretch(medium, radius))[1]
 
 
@@ -114,7 +117,7 @@ def pull_off(profile, medium, lower):
 def _loading(profile, medium, upper, before):
     """E + W_p (m³) on loading up to D = `upper` (m), and its derivative (m²)."""
     interval, stretched = loaded_interval(profile, medium, upper, before)
-    radius = profile._radius(upper)
+    radius = profile.radius_at(upper)
     tension, energy = tension_and_energy(profile, interval, radius, stretched)
     plastic = yield_rule(profile, medium).plastic_integral(before, interval.lower - before)
     rate = 1 - stretch_rate(profile, radius, stretched) / (2 * radius)
@@ -131,7 +134,7 @@ def adhesive_turning_interval(profile, medium, target, before):
     start, energy = touching(profile, medium, before)
     # The springs at the rim take some more than the jump into contact gives: four steps instead of ten.
     guess, _ = turning_interval(yield_rule(profile, medium), target - 3 * energy, before)
-    guess = guess.upper + stretch(medium, profile._radius(np.minimum(guess.upper, profile.known_depth)))
+    guess = guess.upper + stretch(medium, profile.radius_at(np.minimum(guess.upper, profile.known_depth)))
     arrays = (target + energy, np.maximum(guess, start.upper), start.upper, before)
     arrays = [np.broadcast_to(array, shape).ravel() for array in arrays]
     upper, too_deep = np.empty(target.size), np.zeros(target.size, bool)
@@ -221,7 +224,7 @@ def _passage(profile, medium, inertia, kinetic_energy, low, turn, kinks, breaks)
 
 def _step(profile, medium, upper, kinetic, inertia):
     """dt/dD (s/m) at D = `upper` (m) with a kinetic energy (m³)."""
-    radius = profile._radius(upper)
+    radius = profile.radius_at(upper)
     rate = 1 - stretch_rate(profile, radius, stretch(medium, radius)) / (2 * radius)
     with np.errstate(all="ignore"):
         return np.where(kinetic > 0, rate * np.sqrt(inertia / (2 * kinetic)), 0.0)
@@ -277,7 +280,7 @@ def capture_speeds(profile: Profile, medium: Medium, mass: ArrayLike) -> tuple[A
         # The imprint holds a body where Δl(c) is about d_c.
         radius = medium.E_star * d_c**2 / (2 * np.pi * medium.work_of_adhesion)
         with np.errstate(all="ignore"):
-            scales += [d_c, float(profile._reduced(np.asarray(min(radius, profile.known_radius))))]
+            scales += [d_c, float(profile.reduced_at(np.asarray(min(radius, profile.known_radius))))]
     spaced = np.geomspace(1e-6, 1e6, 601)
     upper = np.unique(np.concatenate([scale * spaced for scale in scales if scale < np.inf]))
     upper = start.upper + upper[start.upper + upper <= known]

@@ -11,9 +11,9 @@ import numpy as np
 
 from ..numerics.collocation import collocate, last_coefficient
 from ..numerics.gauss import gauss_integrals, gauss_legendre
+from ..numerics.results import Entries
 from ..numerics.roots import largest_value
 from ..numerics.stable import cube_rise, cube_way
-from ..results.base import Entries
 from .equation_of_motion import Equation, MotionState
 
 _NODES, _WEIGHTS = gauss_legendre(24)

@@ -1,9 +1,11 @@
 """Motion of one impact: the solution of its equation of motion, at any time."""
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
+from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..numerics.gauss import gauss_integrals
@@ -84,17 +86,29 @@ class DenseState(NamedTuple):
     viscous_work: np.ndarray
 
 
+@dataclass(frozen=True, eq=False)
 class DenseMotion:
-    """Motion of one `Impact` to the loss of contact: two branches, and the times (s) of their ends."""
+    """Motion of one impact to the loss of contact: its two branches.
 
-    def __init__(self, hit):
-        self._turning_point, self._increase = hit.turning_point, hit.plastic_depth_increase
-        self._imprint_depth = np.asarray(hit.plastic_depth - self._increase)
-        self._penetration = self._turning_point.live_interval.length + self._increase
-        arguments = hit.mass, hit.speed, self._imprint_depth, self._penetration
-        solution = solve(Bodies.of(hit.profile, hit.medium, *arguments), 1e-10)
-        self.loading, self.unloading = Branch(solution.loading), Branch(solution.unloading)
-        self.turning_time, self.end_time = self.loading.end.time, self.unloading.end.time
+    `turning_point` is the state of largest depth, `imprint_depth` the plastic depth (m) before the impact,
+    and `increase` (m) what the impact adds to it. `dense_motion` makes it.
+    """
+
+    turning_point: Indentation
+    imprint_depth: np.ndarray
+    increase: np.ndarray
+    loading: Branch
+    unloading: Branch
+
+    @property
+    def turning_time(self):
+        """Time (s) of the turning point."""
+        return self.loading.end.time
+
+    @property
+    def end_time(self):
+        """Time (s) at which contact is lost."""
+        return self.unloading.end.time
 
     def at(self, time):
         """The `DenseState` at an array of times (s) since first contact."""
@@ -103,15 +117,31 @@ class DenseMotion:
         for branch, rows in ((self.loading, pressed), (self.unloading, ~pressed)):
             state.store(rows, branch.at(time[rows]))
         # The penetration at the turning point is that of the impact, to the last digit.
-        largest = self._penetration
+        largest = penetration_of(self.turning_point, self.increase)
         y = np.where(time < self.turning_time, np.minimum(state.depth, largest), largest)
-        medium, final = self._turning_point.medium, self._turning_point.live_interval
-        rule = yield_rule(self._turning_point.profile, medium)
-        interval, increase = rule.loading(y, self._imprint_depth)
+        medium, final = self.turning_point.medium, self.turning_point.live_interval
+        rule = yield_rule(self.turning_point.profile, medium)
+        interval, increase = rule.loading(y, self.imprint_depth)
         lower = np.where(pressed, interval.lower, final.lower)
         length = np.where(pressed, interval.length, state.depth)
         upper = np.where(pressed, interval.upper, lower + length)
         unloading_depth = upper - medium.relaxation_time * np.minimum(state.velocity, 0.0)
-        depth = np.where(pressed, self._imprint_depth + y, unloading_depth)
-        increase = np.where(pressed, increase, self._increase)
+        depth = np.where(pressed, self.imprint_depth + y, unloading_depth)
+        increase = np.where(pressed, increase, self.increase)
         return DenseState(depth, state.velocity, LiveInterval(lower, upper, length), increase, state.work)
+
+
+def dense_motion(hit):
+    """The `DenseMotion` of one `Impact`, by its equation of motion."""
+    increase = hit.plastic_depth_increase
+    imprint_depth = np.asarray(hit.plastic_depth - increase)
+    penetration = penetration_of(hit.turning_point, increase)
+    bodies = Bodies.of(hit.profile, hit.medium, hit.mass, hit.speed, imprint_depth, penetration)
+    solution = solve(bodies, 1e-10)
+    loading, unloading = Branch(solution.loading), Branch(solution.unloading)
+    return DenseMotion(hit.turning_point, imprint_depth, increase, loading, unloading)
+
+
+def penetration_of(turning_point, increase):
+    """Depth (m) from the imprint to a state, with the increase (m) of its plastic depth."""
+    return turning_point.live_interval.length + increase

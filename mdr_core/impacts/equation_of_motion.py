@@ -20,8 +20,8 @@ import numpy as np
 from ..contact.integrals import integrals, tabulated
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import YieldRule, yield_rule
+from ..numerics.results import Entries
 from ..profiles.profile import Profile
-from ..results.base import Entries
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ class Equation(Entries):
     def load(self, depth):
         """Φ (m²) and contact radius a (m) at depths q (m)."""
         interval, profile = self.interval(depth), self.bodies.profile
-        return integrals(profile).radius_integral(interval), profile._radius(interval.upper)
+        return integrals(profile).radius_integral(interval), profile.radius_at(interval.upper)
 
 
 @dataclass(frozen=True)
@@ -122,10 +122,10 @@ class Loading(Equation):
         interval = self.interval(depth)
         yields = interval.lower > self.bodies.imprint_depth
         if yields.any():
-            c = profile._radius(interval.lower)
+            c = profile.radius_at(interval.lower)
             slope = np.where(yields, radius - c * rule.rate(interval.upper), radius)
         # At a wall the contact no longer grows.
-        spread = np.where(radius < profile.wall, 1 / profile._reduced_slope(radius), 0.0)
+        spread = np.where(radius < profile.wall, 1 / profile.reduced_slope_at(radius), 0.0)
         return slope + self.bodies.relaxation_time * velocity * spread
 
 

@@ -79,7 +79,7 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, *, in_time=False):
     imprint_depth = _check.positive("plastic_depth", plastic_depth, unit="m", zero=True)
     shape = shape_with("impact", profile, medium, mass=mass, speed=speed, plastic_depth=imprint_depth)
     mass, speed, imprint_depth = (np.broadcast_to(values, shape) for values in (mass, speed, imprint_depth))
-    too_deep = profile._too_deep()
+    too_deep = profile.too_deep()
     outside = imprint_depth > profile.known_depth
     _check.refuse("plastic_depth", imprint_depth, outside, f"is {too_deep}", unit="m")
     hit = _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time)

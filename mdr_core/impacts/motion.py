@@ -5,7 +5,7 @@ import numpy as np
 from ..contact.indentation import Indentation
 from ..contact.yielding import yield_rule
 from ..medium import refuse_adhesion
-from ..results.base import Motion, instants
+from ..numerics.motions import Motion, instants
 
 
 def motion(hit, n, before_yield=0):
@@ -58,7 +58,7 @@ def _released_energy(hit, dense, time):
     finer = np.unique(np.concatenate([time, even, dense.unloading.nodes(33).time]))
     finer = finer[(finer >= dense.turning_time) & (finer <= dense.end_time)]
     state = dense.unloading.at(finer)
-    radius = hit.profile._radius(hit.plastic_depth + state.depth)
+    radius = hit.profile.radius_at(hit.plastic_depth + state.depth)
     density, decay = (tau * state.velocity) ** 2 / 2, 2 * np.diff(finer) / tau
     remaining = np.exp(-decay)
     # Means of s and 1 − s with the weight exp(−decay (1 − s)).

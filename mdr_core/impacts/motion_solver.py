@@ -67,8 +67,9 @@ def _load(bodies, tolerance):
     for edge in [*edges, end]:
         # Behind a kink the radius is a power of the distance from it, else of that from the kink above.
         root = np.cbrt(np.where((base == 0) | (base == onset), below, 0.0))
-        leg = _LoadingLeg(equation[rows], DepthCoordinate(base, root)[rows], edge[rows], state[rows])
-        leg.length = np.minimum(cube_way(root, 0.65 * bodies.dry_penetration)[rows], leg.edge_delta)
+        coordinate, first = DepthCoordinate(base, root), cube_way(root, 0.65 * bodies.dry_penetration)
+        first = np.minimum(first, coordinate.delta(edge))
+        leg = _LoadingLeg(equation[rows], coordinate[rows], edge[rows], state[rows], first[rows])
         leg.run(tolerance, rows, steps)
         state.store(rows, leg.state)
         rows, base = rows[~leg.turned], edge
@@ -95,16 +96,34 @@ def _unload(bodies, turning_state, tolerance):
 class _Leg:
     """One leg of impacts, from a `state` to a depth `edge` (m) or to the turning point, one impact a row.
 
+    Depths q are penetrations below the bottom of the imprint before on loading, and live depths on
+    unloading. Steps in depth go by the coordinate δ of q, counted from the `base` of the
+    `DepthCoordinate`; steps in velocity by v (m/s). The leg is where this state is kept, so that each
+    step changes the rows of the impacts that take it:
+
+    `state`
+        Depth q (m), velocity (m/s), time (s) and work (m³) that are reached, of shape (N, 1).
+    `delta`, `edge_delta`
+        δ there, and δ of the edge (m^(1/3)): the end of a step in depth is known in it without rounding.
+    `in_depth`
+        Whether the last step that was tried was one in depth.
+    `length`
+        Largest length of the next step, in the variable of that last one: δ or v. Given up when the
+        variable changes.
+    `to_edge`
+        Impacts that may take only steps in depth, up to the edge: one in velocity would pass it.
+    `turned`
+        Impacts that have reached the turning point.
+
     A subclass gives the sign of steps in depth, the kind of steps that run towards zero, the rounding by
     which a depth may pass the edge, and `_room`: the distance to the end, and the longest step.
     """
 
-    def __init__(self, equation, coordinate, edge, state):
+    def __init__(self, equation, coordinate, edge, state, first=np.inf):
         self.equation, self.coordinate, self.edge, self.state = equation, coordinate, edge, state
         self.edge_delta, self.delta = coordinate.delta(edge), coordinate.delta(state.depth)
-        self.length = np.full_like(edge, np.inf)
+        self.length = np.array(np.broadcast_to(first, edge.shape))
         self.in_depth = np.ones(len(edge), bool)
-        #: Impacts that have to move in depth up to the edge, and those that have turned round.
         self.to_edge, self.turned = np.zeros((2, len(edge)), bool)
 
     def run(self, tolerance, numbers, steps):

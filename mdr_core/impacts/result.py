@@ -12,12 +12,12 @@ from ..contact.indentation import Indentation
 from ..contact.integrals import tabulated_for
 from ..contact.yielding import yield_rule
 from ..medium import Medium
+from ..numerics.motions import ImpactResult, Motion
+from ..numerics.results import CLOSED_FORM, Entries, Limit, Model, above
 from ..profiles.profile import Profile
-from ..results.base import CLOSED_FORM, Entries, ImpactResult, Model, Motion
-from ..results.limits import Limit, contact_limits
-from .dense_motion import DenseMotion
+from .dense_motion import dense_motion
 from .motion import motion
-from .scaling import FastLimit, fast_limit, how_fast
+from .scaling import FastLimit, fast_limit
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -51,12 +51,11 @@ class Impact(Entries, ImpactResult):
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         """Where the model's assumptions end for these impacts, and the fast limit (23), (24), as data."""
-        limits = contact_limits(self.profile, self.medium, self.contact_radius)
-        return (*limits, *how_fast(self))
+        return above("show.limits").impact_limits(self)
 
     @cached_property
     def _dense_motion(self):
-        return DenseMotion(self)
+        return dense_motion(self)
 
     @property
     def max_depth(self) -> Array:

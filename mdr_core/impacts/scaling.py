@@ -14,14 +14,12 @@ from .._check import Array, ArrayLike
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
 from ..medium import refuse_other_classes
+from ..numerics.results import Entries, Record
 from ..numerics.roots import increasing_root
-from ..results.base import Entries
-from ..results.limits import Limit
-from ..results.report import Report
 
 _FORCE_POWER = {"a": 2, "b": 1, "c": 0}
 #: Largest relative error at which the fast limit holds.
-_MAX_ERROR = 0.1
+MAX_ERROR = 0.1
 
 
 @dataclass(frozen=True)
@@ -125,7 +123,7 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
         bound = "must be of the same shape, with at least two different energies"
         raise ValueError(f"energy {energy.shape} and radius {radius.shape} {bound}")
     laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
-    expected = {name: (law.radius, _MAX_ERROR * law.radius) for name, law in laws.items()}
+    expected = {name: (law.radius, MAX_ERROR * law.radius) for name, law in laws.items()}
     return HardnessClass(laws=laws, **class_of(expected, x, y, "energies"))
 
 
@@ -164,7 +162,7 @@ def _straight_line(x, y):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FastLimit(Entries, Report):
+class FastLimit(Entries, Record):
     """Impact in the limit of a fully yielded contact, and its errors against the exact solution.
 
     Popov (2015), Eqs. (23), (24): the work is π q_c ∫ a dd, for a cone q_c d²/s, and the whole contact
@@ -188,25 +186,31 @@ class FastLimit(Entries, Report):
     _dimensions = ("impact",)
 
 
+def depth_in_fast_limit(hit):
+    """Depth (m) at which π q_c ∫ a dd is the energy of an `Impact`; ∞ below the known depth."""
+    profile, energy = hit.profile, hit.mass * hit.speed**2 / 2
+    target = np.broadcast_to(energy / (np.pi * hit.medium.q_c), np.shape(hit.max_depth))
+
+    def work(depth):
+        return integrals(profile).radius_integral(LiveInterval.elastic(depth)), profile.radius_at(depth)
+
+    return increasing_root(work, target, hit.max_depth, profile.known_depth)
+
+
 def fast_limit(hit):
     """The `FastLimit` of an `Impact`."""
     profile, medium = hit.profile, hit.medium
     refuse_other_classes(medium, "the fast limit", "ScalingLaw has the powers of each class")
-    energy = hit.mass * hit.speed**2 / 2
     d_c = np.asarray(medium.critical_depth)
     _check.refuse("critical depth", d_c, np.isinf(d_c), "m: nothing yields", remedy="give q_c")
-    target = np.broadcast_to(energy / (np.pi * medium.q_c), np.shape(hit.max_depth))
-
-    def work(depth):
-        return integrals(profile).radius_integral(LiveInterval.elastic(depth)), profile._radius(depth)
-
-    depth = increasing_root(work, target, hit.max_depth, profile.known_depth)
+    depth = depth_in_fast_limit(hit)
     known = np.min(profile.known_depth, initial=_check.LONGEST)
     bound = f"presses deeper than the known depth of the profile, {known:g} m, in this limit"
     speed = np.asarray(hit.speed)
     _check.refuse("speed", speed, np.isinf(depth), bound, unit="m/s", remedy="reduce the speed")
-    a = profile._radius(depth)
+    a = profile.radius_at(depth)
     area = np.pi * a**2
+    energy = hit.mass * hit.speed**2 / 2
     restitution = np.sqrt(medium.E_star * a * d_c**2 / energy)
     # A body that adhesion holds has no restitution.
     with np.errstate(divide="ignore"):
@@ -218,30 +222,3 @@ def fast_limit(hit):
             contact_area_error=_check.frozen(area / (np.pi * hit.contact_radius**2) - 1),
             restitution_error=_check.frozen(restitution / hit.restitution - 1),
         )
-
-
-def how_fast(hit):
-    """`Limit`s of the fast limit (23), (24) for an `Impact`, from its errors; none without yield."""
-    if not (hit.medium.inverse_to_radius and np.any(hit.plastic_depth_increase > 0)):
-        return ()
-    if np.any(np.isinf(hit.medium.critical_depth)):
-        return ()
-    equations, first = "Eqs. (23), (24)", np.all(hit.plastic_depth == hit.plastic_depth_increase)
-    try:
-        limit = hit.fast_limit
-    except ValueError as error:
-        text = f"{equations} do not hold: {error}."
-        return (Limit("fast limit", np.inf, _MAX_ERROR, True, text, equations),)
-    errors = limit.contact_area_error, limit.max_depth_error
-    area, depth = (float(np.ravel(error)[np.argmax(np.abs(error))]) for error in errors)
-    # Without yield errors may cross zero by chance, hence the share of the viscous work is a criterion too.
-    viscous = float(np.max(hit.viscous_work / (hit.mass * hit.speed**2 / 2)))
-    value = max(abs(area), abs(depth), viscous)
-    exceeded = value > _MAX_ERROR or not first
-    errors = f"{100 * area:+.3g} % of the area, {100 * depth:+.3g} % of the depth".replace("-", "−")
-    text = f"The fast limit, {equations}, {'does not hold and ' * exceeded}is off by {errors}"
-    if viscous > _MAX_ERROR:
-        text += f", and viscosity takes {100 * viscous:.3g} % of the energy"
-    if not first:
-        text += ", because it is for the first impact on a spot"
-    return (Limit("fast limit", value, _MAX_ERROR, exceeded, f"{text}.", equations),)

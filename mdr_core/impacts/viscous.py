@@ -9,7 +9,7 @@ from .._check import Array
 from ..contact.indentation import Indentation
 from ..contact.yielding import yield_rule
 from ..numerics.blocks import chunks
-from ..results.base import SCALAR_ODE
+from ..numerics.results import SCALAR_ODE
 from .energy_balance import dry_impact
 from .equation_of_motion import Bodies
 from .motion_solver import solve

@@ -53,7 +53,7 @@ def levels(hit, inertia, halvings, instants=()):
 def _even_times(hit, branch, lower, inertia):
     """Times (s) at equal shares of all change on a branch whose depths count from `lower` (m)."""
     state = branch.nodes(25)
-    radius = hit.profile._radius(np.clip(lower + state.depth, 0.0, hit.max_depth))
+    radius = hit.profile.radius_at(np.clip(lower + state.depth, 0.0, hit.max_depth))
     # Stick relaxes on springs and dashpots at these rates (1/s).
     stick = np.sqrt(inertia * radius) + inertia * hit.medium.relaxation_time * radius
     rates = 1 / np.ptp(state.time) + stick

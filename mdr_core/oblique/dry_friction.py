@@ -37,11 +37,11 @@ class DryRun:
 
     def __init__(self, motions, inertia, velocity, counts, depths=()):
         self.levels = motions.levels(*counts, depths)
-        edge = motions.profile._radius(self.levels.depth[: self.levels.turn + 1])
+        edge = motions.profile.radius_at(self.levels.depth[: self.levels.turn + 1])
         edge = np.maximum.accumulate(edge, axis=0)
         width = np.diff(edge, axis=0)
         x = (edge[:-1, None] + width[:, None] * _POINTS).reshape(-1, velocity.size)
-        depth = motions.profile._reduced(x)
+        depth = motions.profile.reduced_at(x)
         # The first element is the flat face, if there is one. There are no elements behind a wall.
         self.width = np.vstack([edge[:1], np.repeat(width / 2, 2, axis=0)])
         self.depth = np.where(self.width > 0, np.vstack([0 * edge[:1], depth]), 0.0)
@@ -71,7 +71,20 @@ class DryRun:
         return self
 
     def _step(self, i, count, pressed):
-        """The step from instant i, with `count` elements; the last two are covered or released."""
+        """The step from instant i to i + 1, Nyström's, with the first `count` elements from the axis.
+
+        The last two of these are the cell that is covered (`pressed`) or released in the step. With the
+        displacement U, its rate W and F = ∫Q dx, so that Ẇ = −C F, over a time h
+
+            U(h/2) = U + h W/2 − h² C F/8
+            U(h) = U + h W − h² C (F + 2 F(h/2))/6
+            W(h) = W − h C (F + 4 F(h/2) + F(h))/6
+
+        An element that is covered has for its origin the U of the instant at which the depth d is that of
+        its reduced profile: from a line in d through U(0) and U(h/2) for F(h/2), then from the parabola in
+        d through all three. `half` and `share` are counted from the start of the step: parts of its change
+        of depth up to its middle, and up to where d reaches these two elements.
+        """
         levels, C, U, W, F = self.levels, self.inertia, self.displacement, self.velocity, self.force
         h = levels.step[i]
         start, middle, end = levels.depth[i], levels.middle[i], levels.depth[i + 1]
@@ -85,10 +98,12 @@ class DryRun:
             middle_F += self._edge(count - 2, middle_U, middle, end, 1 - half)
         end_U = U + h * W - h**2 / 6 * C * (F + 2 * middle_F)
         if pressed:
+            # U = U(0) + share (U(h) − U(0)) + share (1 − share) bend is U(h/2) at half.
             bend = _ratio(middle_U - U - half * (end_U - U), half * (1 - half))
             self.origin[last] = U + share * (end_U - U) + share * (1 - share) * bend
         end_F = self._slip(count, end_U, end, levels.plastic_depth[i + 1])
         if not pressed and i + 1 < len(levels.step):
+            # These two are released, and the next cell is at the edge, all of it in contact.
             end_F += self._edge(count - 4, end_U, end, levels.depth[i + 2], 1.0)
         self.velocity = W - h / 6 * C * (F + 4 * middle_F + end_F)
         self.displacement, self.force = end_U, end_F
@@ -96,7 +111,13 @@ class DryRun:
         self.forces += [middle_F, end_F]
 
     def _slip(self, count, U, depth, plastic_depth):
-        """Moves origins of elements by slip, and gives F (m²)."""
+        """F (m²) at a displacement U, a depth d and a plastic depth p (m) after slip, which moves origins.
+
+        The first `count` elements are in contact. The bound of the load is B = d − `zero` with
+        zero = max(g, p), at most d for the two at the edge; |U − O| ≤ B for O between `low`
+        and `high`. All are lengths along the surface, in units of μ/κ, or depths (m). They are changed in
+        place: rows that are released keep their last values.
+        """
         zero = np.maximum(self.depth[:count], plastic_depth, out=self.zero[:count])
         np.minimum(zero[-2:], depth, out=zero[-2:])
         low = np.add(zero, U - depth, out=self.low[:count])
@@ -153,7 +174,7 @@ def first_counts(motions, inertia):
     """Numbers of levels below and above the imprint to begin with, of few different values."""
     levels = motions.levels(8, 8)
     # How far elements that all stick oscillate in a step (rad).
-    angle = np.sqrt(inertia * motions.profile._radius(levels.middle)) * levels.step
+    angle = np.sqrt(inertia * motions.profile.radius_at(levels.middle)) * levels.step
     imprint = 2 * levels.turn - len(angle)
     parts = angle[:imprint], angle[imprint : levels.turn], angle[levels.turn :]
     below, loading, unloading = (part.sum(axis=0) for part in parts)

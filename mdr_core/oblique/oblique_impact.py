@@ -12,9 +12,9 @@ from ..contact.yielding import yield_rule
 from ..impacts.impact import impact
 from ..impacts.result import Impact
 from ..medium import Medium, check_pair, refuse_adhesion, shape_with
+from ..numerics.results import Entries, Model, Result
 from ..profiles.profile import Profile
-from ..results.base import Entries, Model, Result
-from ..results.limits import Limit, friction_limits, stick_limits
+from ..show.limits import Limit, friction_limits, stick_limits
 from .oblique_motion import ObliqueMotion, oblique_motion
 from .tangential_motion import EXACT, SurfaceSolution, solve_surface
 

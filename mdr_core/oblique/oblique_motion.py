@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._check import Array
-from ..results.base import Motion, MotionResult
+from ..numerics.motions import Motion, MotionResult
 from .depth_levels import levels
 from .dry_friction import DryRun, first_counts
 from .dry_levels import NormalMotions

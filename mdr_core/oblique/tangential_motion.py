@@ -2,7 +2,7 @@
 
 The normal motion does not depend on the tangential one, which has a closed form where all elements slip
 throughout. Else it is solved by runs, each with steps half as long as the last one: many impacts without
-viscosity at a time by `dry_friction`, viscous ones one by one by `friction`.
+viscosity at a time by `dry_friction`, viscous ones one by one by `viscous_friction`.
 """
 
 from dataclasses import dataclass, fields
@@ -11,8 +11,8 @@ import numpy as np
 
 from .. import _check
 from .._check import Array
-from ..results.base import Entries
-from ..results.progress import tracked_chunks
+from ..numerics.results import Entries
+from ..show.progress import tracked_chunks
 from .depth_levels import MOST_LEVELS, levels
 from .dry_friction import solve_dry
 from .dry_levels import NormalMotions

@@ -48,7 +48,7 @@ class SurfaceElements(NamedTuple):
     @classmethod
     def of(cls, profile, depth):
         """Elements with their edges at the contact radii of levels of depth (m)."""
-        edge = np.maximum.accumulate(profile._radius(depth))
+        edge = np.maximum.accumulate(profile.radius_at(depth))
         width, rise = np.diff(edge), np.diff(depth)
         area = integrals(profile).radius_integral(LiveInterval(depth[:-1], depth[1:], rise))
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -67,7 +67,7 @@ def _partly_yielded(profile, elements, levels, plastic_depth):
     area = integrals(profile).radius_integral(LiveInterval(plastic_depth, top, top - plastic_depth))
     number = np.minimum(number, elements.width.size - 1)
     with np.errstate(divide="ignore", invalid="ignore"):
-        mean = (profile._radius(top) * (top - plastic_depth) - area) / elements.width[number]
+        mean = (profile.radius_at(top) * (top - plastic_depth) - area) / elements.width[number]
     return number, np.where(np.isfinite(mean), np.maximum(mean, 0.0), 0.0)
 
 

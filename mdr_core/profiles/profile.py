@@ -1,6 +1,7 @@
 """Base class of profiles: height z(r), reduced height g(x), its slope g′(x) and its kinks."""
 
 from abc import ABC, abstractmethod
+from typing import Any
 
 import numpy as np
 
@@ -8,15 +9,36 @@ from .. import _check
 from .._check import Array, ArrayLike
 from ..numerics.roots import increasing_root
 
+#: Names that functions of a shape had before, and those that they have now.
+_FORMER = {
+    "_height": "height_at",
+    "_reduced": "reduced_at",
+    "_reduced_slope": "reduced_slope_at",
+    "_radius": "radius_at",
+}
+
 
 class Profile(_check.Parameters, ABC):
     """Profile of a rigid axisymmetric indenter, with its tip at the origin and its height growing outward.
 
-    Lengths are in m. A profile of your own is a frozen dataclass with the methods
-    `_height`, `_reduced` and `_reduced_slope` for arrays of radii r ≥ 0. Where it has a flat face, a wall,
-    kinks or an end it also gives `face_radius`, `wall`, `kinks`, `known_depth` and `known_radius`.
-    Parameters may be arrays that broadcast with each other, with radii and with depths: an ensemble of
-    indenters for `impact`.
+    A profile of your own is a frozen dataclass with the first three functions below. They are not checked:
+    they take an array of lengths (m), none negative, and return an array of its shape. Solvers ask a
+    profile for these ten names and no others; a shape gives those in which it differs from the base class.
+
+    ``height_at(r)``         height z (m) at radii r (m)
+    ``reduced_at(x)``        height g (m) of the equivalent 1D profile at x (m), which does not fall
+    ``reduced_slope_at(x)``  its slope g′, without unit; on a kink, that of the outer side
+    ``radius_at(depth)``     contact radius a (m) at depths (m), g(a) = depth; found from g if not given
+    ``face_radius``          radius (m) of a flat face at the tip, 0 without one
+    ``wall``                 radius (m) of a vertical wall, ∞ without one
+    ``kinks``                depths (m) at which the edge of the contact passes a kink of g, a tuple
+    ``known_depth``          depth (m) to which the shape is known, ∞ without an end
+    ``known_radius``         radius (m) to which it is known, ∞ without an end
+    ``too_deep()``           words for depths beyond `known_depth`, in refusals
+
+    The checked functions for users are `height`, `reduced`, `reduced_slope` and `contact_radius`.
+    `body_radius` and `transition_depth` are for limits in words, and scales. Parameters may be arrays that
+    broadcast with each other, with radii and with depths: an ensemble of indenters for `impact`.
 
     Examples
     --------
@@ -31,13 +53,13 @@ class Profile(_check.Parameters, ABC):
     ...     slope: float
     ...     radius: float
     ...
-    ...     def _height(self, r):
+    ...     def height_at(self, r):
     ...         return self.slope * r + r**2 / (2 * self.radius)
     ...
-    ...     def _reduced(self, x):
+    ...     def reduced_at(self, x):
     ...         return np.pi / 2 * self.slope * x + x**2 / self.radius
     ...
-    ...     def _reduced_slope(self, x):
+    ...     def reduced_slope_at(self, x):
     ...         return np.pi / 2 * self.slope + 2 * x / self.radius
     >>> state = indent(Pencil(0.1, 1e-6), Medium(E_star=1e9, q_c=1.0), 20e-9)
     >>> print(f"a = {state.contact_radius * 1e9:.3f} nm, F = {state.force * 1e6:.4f} µN")
@@ -57,25 +79,39 @@ class Profile(_check.Parameters, ABC):
     kinks = ()
     #: Depth (m) at which g changes from one power of x to another, None if it is not known.
     transition_depth = None
+    #: Sentences on what was changed when the profile was made, as of a concave area function.
+    remarks = ()
     #: Words for the end of the known depth.
     _last = "the shape is known"
 
-    @abstractmethod
-    def _height(self, r): ...
+    def __init_subclass__(cls, **keywords: Any):
+        super().__init_subclass__(**keywords)
+        for old, new in _FORMER.items():
+            if old in vars(cls):
+                raise TypeError(
+                    f"{cls.__name__} gives {old}, a former name of a function of a shape: call it {new}; a "
+                    f"shape gives {', '.join(_FORMER.values())}, the last one only in closed form"
+                )
 
     @abstractmethod
-    def _reduced(self, x): ...
+    def height_at(self, r: np.ndarray) -> np.ndarray:
+        """Height z (m) at radii r ≥ 0 (m), an array; unchecked."""
 
     @abstractmethod
-    def _reduced_slope(self, x): ...
+    def reduced_at(self, x: np.ndarray) -> np.ndarray:
+        """Height g (m) of the equivalent 1D profile at x ≥ 0 (m), an array; unchecked."""
+
+    @abstractmethod
+    def reduced_slope_at(self, x: np.ndarray) -> np.ndarray:
+        """Slope g′ at x ≥ 0 (m), an array; unchecked."""
 
     def height(self, r: ArrayLike) -> Array:
         """Height z(r) (m) above the tip at radii r (m); even in r."""
-        return self._of_radius("radius r", r, self._height)
+        return self._of_radius("radius r", r, self.height_at)
 
     def reduced(self, x: ArrayLike) -> Array:
         """Height g(x) (m) of the equivalent 1D profile, Popov (2015), Eq. (3); even in x."""
-        return self._of_radius("coordinate x", x, self._reduced)
+        return self._of_radius("coordinate x", x, self.reduced_at)
 
     def reduced_slope(self, x: ArrayLike) -> Array:
         """Slope g′(x) (dimensionless) of the equivalent 1D profile; on a kink, that of its outer side.
@@ -83,7 +119,7 @@ class Profile(_check.Parameters, ABC):
         Odd in x; infinite at the sharp edge of a flat face, and at the radius of a wall and outside.
         """
         sign = np.where(_check.finite_array("coordinate x", x, unit="m") < 0, -1.0, 1.0)
-        slope = self._of_radius("coordinate x", x, self._reduced_slope)
+        slope = self._of_radius("coordinate x", x, self.reduced_slope_at)
         return (sign * np.where(np.abs(x) >= self.wall, np.inf, slope))[()]
 
     def contact_radius(self, depth: ArrayLike) -> Array:
@@ -92,15 +128,14 @@ class Profile(_check.Parameters, ABC):
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
         depth = self._known(depth)
         with np.errstate(all="ignore"):
-            radius = self._radius(depth)
+            radius = self.radius_at(depth)
         _check.refuse("depth", depth, np.isinf(radius), "has a contact beyond double precision", unit="m")
         return radius[()]
 
-    def _radius(self, depth):
-        """Contact radius (m) at depths (m) from 0 to the known depth."""
-
+    def radius_at(self, depth):
+        """Contact radius (m) at depths (m) from 0 to the known depth, an array; unchecked."""
         root = increasing_root(
-            lambda x: (self._reduced(x), self._reduced_slope(x)), depth, 1.0, self.known_radius
+            lambda x: (self.reduced_at(x), self.reduced_slope_at(x)), depth, 1.0, self.known_radius
         )
         return np.maximum(root, self.face_radius)
 
@@ -124,9 +159,9 @@ class Profile(_check.Parameters, ABC):
         if np.all(self.known_depth == np.inf):
             return depth
         too_deep = depth > self.known_depth
-        bound = f"is {self._too_deep()}"
+        bound = f"is {self.too_deep()}"
         return _check.refuse("depth", depth, too_deep, bound, unit="m", remedy="press less deep")
 
-    def _too_deep(self):
+    def too_deep(self):
         """Text for a refusal of depths below `known_depth`."""
         return f"deeper than {self._last}, {np.min(self.known_depth, initial=_check.LONGEST):g} m"

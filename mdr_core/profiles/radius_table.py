@@ -38,11 +38,7 @@ class RadiusTable:
         edges = np.asarray(edges) / unit
         self.unit, (self.start, self.end), self._function = unit, edges[[0, -1]], radius
         low, powers = _panels(lambda depth: radius(depth * unit), edges)
-        face, half, a = radius(edges[0] * unit * np.array([0.0, 0.5, 1.0]))
-        p = np.log2((a - face) / (half - face)) if half > face else 1.0
-        first = np.array([1 - 3 / (2 + p), 2 / (2 + p) - 0.5, 0.0]) * 12 / (1 + p) * (a - face)
-        first[2] = face
-        first = np.append(np.zeros(_COUNT - 3), first / edges[0] ** np.array([2, 1, 0]))
+        first = _tip_panel(lambda share: radius(edges[0] * unit * share), edges[0])
         self._radius = scipy.interpolate.PPoly(
             np.column_stack([first, powers]), np.concatenate([[0.0], low, edges[-1:]])
         )
@@ -93,6 +89,20 @@ class RadiusTable:
         return [(np.log(integral(depth)), np.log(depth)) for integral in (self.area, self.volume)]
 
 
+def _tip_panel(radius, edge):
+    """Coefficients of the panel from the tip to the first edge (m), highest power first.
+
+    `radius` is a (m) at shares t of the edge. There a = face + (whole − face) tᵖ, with p from the middle.
+    Of this panel only the integrals at its end are used: it is the parabola face + b t + c t² that has the
+    same ∫ a dt and ∫ (1 − t) a dt.
+    """
+    face, half, whole = radius(np.array([0.0, 0.5, 1.0]))
+    p = np.log2((whole - face) / (half - face)) if half > face else 1.0
+    area = (whole - face) / (1 + p)
+    c, b = np.linalg.solve([[1 / 3, 1 / 2], [1 / 12, 1 / 6]], [area, area / (2 + p)])
+    return np.append(np.zeros(_COUNT - 3), [c / edge**2, b / edge, face])
+
+
 def _panels(radius, edges):
     """Lower edges of panels, ascending, and coefficients of their polynomials, highest power first."""
     low, high, panels = edges[:-1], edges[1:], []
@@ -136,19 +146,19 @@ class OneLength(Profile):
     #: The `RadiusTable` of the unit profile.
     table = property(lambda self: _unit_table(type(self)))
 
-    def _height(self, r):
+    def height_at(self, r):
         return self._depth * self._Z(r / self._length)
 
-    def _reduced(self, x):
+    def reduced_at(self, x):
         return self._depth * self._G(x / self._length)
 
-    def _reduced_slope(self, x):
+    def reduced_slope_at(self, x):
         u = x / self._length
         # Radii outside an edge must stay outside after rounding.
         u = np.where(x > self._length, np.maximum(u, np.nextafter(1.0, 2.0)), u)
         return self._depth / self._length * self._G_slope(u)
 
-    def _radius(self, depth):
+    def radius_at(self, depth):
         # Rounding must not lead out of the range of u.
         u = np.minimum(np.maximum(self.table.radius(depth / self._depth), self._edge), self._end)
         return self._length * u
@@ -196,9 +206,9 @@ class Tabulated(Profile):
     wall = property(lambda self: self.profile.wall)
     face_radius = property(lambda self: self.profile.face_radius)
     known_radius = property(lambda self: self.profile.known_radius)
-    _height = property(lambda self: self.profile._height)
-    _reduced = property(lambda self: self.profile._reduced)
-    _reduced_slope = property(lambda self: self.profile._reduced_slope)
+    height_at = property(lambda self: self.profile.height_at)
+    reduced_at = property(lambda self: self.profile.reduced_at)
+    reduced_slope_at = property(lambda self: self.profile.reduced_slope_at)
 
     @cached_property
     def table(self):
@@ -206,8 +216,8 @@ class Tabulated(Profile):
         edges = np.append(np.ldexp(kinks[0], np.arange(-64, 0)), kinks)
         with np.errstate(all="ignore"):
             return RadiusTable(
-                lambda s: self.profile._radius(np.minimum(s, self.known_depth)), edges, self.known_depth
+                lambda s: self.profile.radius_at(np.minimum(s, self.known_depth)), edges, self.known_depth
             )
 
-    def _radius(self, depth):
+    def radius_at(self, depth):
         return self.table.radius(depth)

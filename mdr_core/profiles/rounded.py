@@ -141,6 +141,6 @@ class ParabolicPunch(OneLength):
     _G = staticmethod(lambda u: np.where(u <= 1, u * u, np.inf))
     _G_slope = staticmethod(lambda u: np.where(u <= 1, 2 * u, np.inf))
 
-    def _radius(self, depth):
+    def radius_at(self, depth):
         # At the wall the radius is exactly that of the cylinder.
         return np.minimum(np.sqrt(self.radius * depth), self.cylinder_radius)

@@ -3,16 +3,16 @@
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
-from pathlib import Path
 
 import numpy as np
 
 from .. import _check
 from .._check import ArrayLike, Parameter
 from ..numerics.blocks import chunks
+from ..numerics.results import above
 from ..numerics.stable import root
 from .profile import Profile
-from .samples import area_samples, axis_of_symmetry, convex_fit, decoded, samples_of
+from .samples import area_samples, axis_of_symmetry, convex_fit
 
 #: Largest number of samples: time and memory grow with its square.
 _MOST_SAMPLES = 5000
@@ -63,7 +63,8 @@ class Sampled(Profile):
     def __repr__(self) -> str:
         if len(self.r) <= 6:
             return f"Sampled(r={self.r!r}, z={self.z!r})"
-        return f"Sampled({len(self.r)} samples to r = {self.r[-1]:g} m, z = {self.z[-1]:g} m)"
+        remarks = "".join(f"; {remark}" for remark in self.remarks)
+        return f"Sampled({len(self.r)} samples to r = {self.r[-1]:g} m, z = {self.z[-1]:g} m{remarks})"
 
     @classmethod
     def from_csv(cls, path: str | PathLike[str], unit: str | None = None) -> "Sampled":
@@ -83,8 +84,7 @@ class Sampled(Profile):
         ValueError
             If a row is not two numbers, or no unit is given, or two that differ.
         """
-        text, remedy = decoded(Path(path).read_bytes()), "; or give unit='nm'"
-        return cls(*samples_of(text, str(path), unit, _MOST_SAMPLES, remedy))
+        return cls(*above("files.tips").samples_in(path, unit, _MOST_SAMPLES))
 
     @classmethod
     def fit(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":
@@ -128,6 +128,7 @@ class Sampled(Profile):
         The area function of instrumented indentation (Oliver and Pharr 1992). The profile is a polygon;
         where it is slightly concave, as calibrated ones are, neighbouring slopes are averaged. Near the
         tip, up to 5 % of the height, the function may fall or be negative: the profile is a cone there.
+        ``tip.remarks`` says by how much heights were changed, and so does its text.
 
         Parameters
         ----------
@@ -155,7 +156,10 @@ class Sampled(Profile):
         >>> print(round(profile.height(1e-6) / 1e-6, 6))
         0.35809
         """
-        return cls(*area_samples(coefficients, height, samples, _MOST_SAMPLES, unit))
+        r, z, remarks = area_samples(coefficients, height, samples, _MOST_SAMPLES, unit)
+        profile = cls(r, z)
+        _check.store(profile, remarks=remarks)
+        return profile
 
     def _refuse_concave(self):
         slope, concave = self._slope, self._bend < 0
@@ -178,7 +182,7 @@ class Sampled(Profile):
     _slope = cached_property(lambda self: np.diff(self._z) / np.diff(self._r))
 
     #: Reduced height at the vertices (m).
-    _g = cached_property(lambda self: self._reduced(self._r))
+    _g = cached_property(lambda self: self.reduced_at(self._r))
 
     @cached_property
     def _bend(self):
@@ -207,14 +211,14 @@ class Sampled(Profile):
             return self.kinks[0] if self.kinks else None
         return float(self._slope[np.argmax(self._slope > 0)] * self.face_radius)
 
-    def _height(self, r):
+    def height_at(self, r):
         outside = np.maximum(r - self._r[-1], 0.0)
         return np.interp(r, self._r, self._z) + self._slope[-1] * outside
 
-    def _reduced(self, x):
+    def reduced_at(self, x):
         return self._reduced_and_slope(x)[0]
 
-    def _reduced_slope(self, x):
+    def reduced_slope_at(self, x):
         return self._reduced_and_slope(x)[1]
 
     def _reduced_and_slope(self, x):
@@ -233,7 +237,7 @@ class Sampled(Profile):
             result[:, rows] = flat[rows] * (angle @ bend), rate @ bend
         return result.reshape(2, *np.shape(x))
 
-    def _radius(self, depth):
+    def radius_at(self, depth):
         # Outside a vertex g starts as a square root, and is smooth in t = √(x − r).
         depth, shape = np.ravel(depth), np.shape(depth)
         zone, guess = self._first_guess(depth)
@@ -259,34 +263,16 @@ class Sampled(Profile):
         return np.where(depth <= self.known_depth, radius, np.inf).reshape(shape)
 
     def _first_guess(self, depth):
-        """Number of the vertex inside the edge of the contact, and t there to some digits."""
-        g, t, rate = self._table
-        zone = np.clip(np.searchsorted(self._g, depth, side="right") - 1, 0, len(self.r) - 2)
-        cell = np.clip((g[zone] <= depth[..., None]).sum(axis=-1) - 1, 0, 7)
-        low, high = (zone, cell), (zone, cell + 1)
-        width, rise = g[high] - g[low], t[high] - t[low]
-        # Hermite's cubic; without meaning on a flat face.
-        u = np.divide(depth - g[low], width, out=np.zeros_like(width), where=width > 0)
-        bow = (1 - u) * (width * rate[low] - rise) - u * (width * rate[high] - rise)
-        # Next to the vertex g is its bend, β √(2r) t, and a term in t².
-        bend, y = (self._bend * np.sqrt(2 * self._r[:-1]))[zone], np.maximum(depth - g[zone, 0], 0.0)
-        with np.errstate(all="ignore"):
-            square = (g[zone, 1] - g[zone, 0] - bend * t[zone, 1]) / t[zone, 1] ** 2
-            near = 2 * y / (bend + np.sqrt(bend**2 + 4 * square * y))
-        return zone, np.where(cell == 0, near, t[low] + u * (rise + (1 - u) * bow))
+        """Number of the vertex inside the edge of the contact, and t = √(x − r) there to some digits.
 
-    @cached_property
-    def _table(self):
-        """g, t and dt/dg at nine values of t from each vertex to the next one."""
-        t = np.linspace(0, 1, 9) * np.sqrt(np.diff(self._r))[:, None]
+        Outside a vertex g rises by its bend, β √(2r) t, and by about C t², with C from the next vertex.
+        """
+        zone = np.clip(np.searchsorted(self._g, depth, side="right") - 1, 0, len(self.r) - 2)
+        linear, end = self._bend * np.sqrt(2 * self._r[:-1]), np.sqrt(np.diff(self._r))
+        square = (np.diff(self._g) - linear * end) / end**2
+        linear, square, rise = linear[zone], square[zone], np.maximum(depth - self._g[zone], 0.0)
         with np.errstate(all="ignore"):
-            x = np.minimum(self._r[:-1, None] + t * t, np.nextafter(self._r[1:, None], 0))
-            g, slope = self._reduced_and_slope(x)
-            rate = 1 / (2 * t * slope)
-            # On the vertex itself g is its bend times √(2r) t.
-            rate[:, 0] = 1 / (self._bend * np.sqrt(2 * self._r[:-1]))
-        rate = np.where(np.isfinite(rate), rate, np.append(rate[:, 1:], rate[:, -1:], axis=1))
-        return g, t, rate
+            return zone, 2 * rise / (linear + np.sqrt(linear**2 + 4 * square * rise))
 
 
 def tip_through(r, z, most, averages):

@@ -69,7 +69,7 @@ class Smooth(Profile):
         end = self._mean_slope.x[-1]
         return float(np.exp(end) * self._mean_slope(end))
 
-    def _too_deep(self):
+    def too_deep(self):
         end = np.exp(self._mean_slope.x[-1])
         return (
             f"deeper than the Smooth shape is known: beyond r = {end:g} m, at g = {self.known_depth:g} m, "
@@ -105,7 +105,7 @@ class Smooth(Profile):
 
         def mean_slope(logarithm):
             x = np.exp(logarithm)
-            return self._reduced(x) / x
+            return self.reduced_at(x) / x
 
         try:
             series = Chebyshev.interpolate(mean_slope, _DEGREE, [low, high])
@@ -118,13 +118,13 @@ class Smooth(Profile):
         power = series.convert(kind=Polynomial, domain=[low, high], window=[0, high - low]).coef
         return np.pad(power, (0, _DEGREE + 1 - power.size))[::-1]
 
-    def _height(self, r):
+    def height_at(self, r):
         return abel.height_from_slope(self.slope_function, r)
 
-    def _reduced(self, x):
+    def reduced_at(self, x):
         return abel.reduce_slope(self.slope_function, x)
 
-    def _reduced_slope(self, x):
+    def reduced_slope_at(self, x):
         return self._height_and_slope(x)[1]
 
     def _height_and_slope(self, x):
@@ -135,10 +135,10 @@ class Smooth(Profile):
         value, rate = mean(inside), mean(inside, 1)
         # Between the tip and the first panel g is a power of x.
         power = 1 + rate / value
+        # On the axis the slope is that of a cone, whose power is 1 to rounding, or 0.
+        on_axis = np.where(power > 1 + _ROUNDED, 0.0, value * power)
         value = value * np.exp((logarithm - inside) * (power - 1))
-        slope = value * power
-        # On the axis it is the slope of a cone, or 0, also where the power is 1 to rounding.
-        return x * value, np.where((x == 0) & (power > 1 + _ROUNDED), 0.0, slope)
+        return x * value, np.where(x == 0, on_axis, value * power)
 
-    def _radius(self, depth):
+    def radius_at(self, depth):
         return increasing_root(self._height_and_slope, depth, 1e-6, np.exp(self._mean_slope.x[-1]))

@@ -8,7 +8,7 @@ from scipy.integrate import trapezoid
 
 import mdr_core as mdr
 from app.state import PRESETS
-from mdr_core.results.units import UNITS
+from mdr_core.show.units import UNITS
 
 from .conftest import DROP, GOLD, Explorer
 from .states import table

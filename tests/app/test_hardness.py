@@ -17,7 +17,7 @@ from app.plots import PLOTS
 from app.quantities import ASSETS
 from app.shared.rest import Searched
 from app.state import PRESETS, altered, medium, preset_state, profile
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 from .conftest import DROP, GOLD, PUNCH
 from .states import fields_of, linked_state, numbers, part, solved, state_with, stepped, view_of

@@ -13,7 +13,7 @@ from app.page import Page
 from app.plot import rows_of
 from app.plots import PLOTS, D, F, X, Z
 from app.state import preset_state as preset
-from mdr_core.results.units import written
+from mdr_core.show.units import written
 
 from .conftest import DROP
 from .states import linked_state, view_of

@@ -96,11 +96,11 @@ def test_the_gel_is_one_click_and_its_number_is_that_of_hertz():
 def test_tip_and_sample_are_asked_for_one_after_the_other():
     page = page_of()
     page.take_file("run.csv", curve_file())
-    assert headline(page).startswith("Tell the tip")
+    assert headline(page).startswith("Give the tip")
     page.change(lambda setting: setting.replace(tip="paraboloid"))
-    assert headline(page).startswith("Tell the tip radius R")
+    assert headline(page).startswith("Give the tip radius R")
     page.change(lambda setting: setting.replace(tip="berkovich"))
-    assert headline(page).startswith("Tell the sample")
+    assert headline(page).startswith("Give the sample")
     assert page.fit is None
     page.form.medium.value = "constant"
     assert page.fit.medium.E_star == pytest.approx(80e9, rel=1e-4)
@@ -109,7 +109,7 @@ def test_tip_and_sample_are_asked_for_one_after_the_other():
     assert page.fit.contact_point == pytest.approx(5e-9, abs=1e-12)
     page.take_sample("gel")
     page.take_file("run.csv", curve_file())
-    assert headline(page).startswith("Tell the tip")
+    assert headline(page).startswith("Give the tip")
 
 
 @pytest.mark.parametrize(
@@ -146,6 +146,12 @@ def test_a_class_that_cannot_be_told_is_not_offered():
 
 def test_what_is_held_stays_and_what_is_freed_is_found():
     page = opened(curve_file(offset=4e-9))
+    # Another class of hardness leaves what is held as it is; another kind of sample does not.
+    page.hold("contact_point", 1e-9)
+    page.choose_medium("composite")
+    assert page.fit.contact_point == 1e-9
+    page.choose_medium("gel")
+    page.choose_medium("constant")
     assert page.fit.contact_point == pytest.approx(4e-9, abs=1e-12)
     page.hold("E_star", 70e9)
     assert page.fit.medium.E_star == 70e9

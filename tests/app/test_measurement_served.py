@@ -77,14 +77,17 @@ def test_a_sample_is_one_click_and_all_of_it_is_in_sight(measurement):
 def test_a_file_is_dropped_and_a_handle_takes_fewer_samples(measurement, tmp_path):
     page = measurement.page
     drop(measurement, curve(tmp_path / "run.csv", mdr.Medium(80e9, hardness=14e9)))
-    page.get_by_text("Tell the tip").wait_for()
+    page.get_by_text("Give the tip", exact=True).wait_for()
     page.get_by_label("Tip", exact=True).select_option(label="Berkovich or Vickers (cone of 70.3°)")
-    page.get_by_text("Tell the sample").wait_for()
+    page.get_by_text("Give the sample", exact=True).wait_for()
     page.get_by_label("Sample", exact=True).select_option(label="Composite, PDMS: hardness ∝ 1/a")
     # The class that fits is a click away.
     page.get_by_role("button", name="Take class (a), constant hardness").click()
     page.get_by_text("14 GPa").or_(page.get_by_placeholder("14 GPa")).first.wait_for()
     handle = page.locator(".ends .noUi-handle-upper")
+    # The handles are at both ends of a line that can be seen.
+    lower = page.locator(".ends .noUi-handle-lower").bounding_box()
+    assert handle.bounding_box()["x"] - lower["x"] > 200
     handle.focus()
     page.keyboard.press("ArrowLeft")
     page.get_by_text(re.compile("Fitted: samples 1 .* to 399 ")).wait_for()

@@ -7,7 +7,7 @@ import pytest
 
 from app.draw import drawn, legend
 from app.plots import PLOTS
-from mdr_core.results.figures import ROLES
+from mdr_core.show.figures import ROLES
 
 from .conftest import DROP, Explorer
 from .states import state_with, view_of
@@ -63,7 +63,7 @@ def saved(request, server, context):
     pictures = {}
     for name in ("springs", "pressure", "force", "sweep", "section"):
         with explorer.page.expect_download() as download:
-            explorer.page.locator(f".card.{name}").get_by_role("button", name="Save").click()
+            explorer.save(name)
         pictures[name] = download.value.path().read_bytes()
     yield pictures, dark
     assert explorer.problems == []

@@ -25,8 +25,8 @@ from app.plots import NAMED, PLOTS, D, F, P, R, X, force, pressure
 from app.quantities import CHOICES, lowered
 from app.shared.logarithmic import ticks
 from app.state import medium, preset_state, profile
-from mdr_core.results.figures import SPRINGS, line, mark, radii
-from mdr_core.results.units import written
+from mdr_core.show.figures import SPRINGS, line, mark, radii
+from mdr_core.show.units import written
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH
 from .states import numbers, solved, state_with, view_of, viscous

@@ -14,7 +14,7 @@ from app.fields import Field
 from app.page import Page
 from app.state import PRESETS, preset_state
 from app.tip import read_tip
-from mdr_core.results.units import UNITS
+from mdr_core.show.units import UNITS
 
 from .conftest import DROP, GOLD
 from .states import state_with, table, view_of

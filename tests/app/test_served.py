@@ -11,12 +11,13 @@ from bokeh.document import Document
 from bokeh.protocol import Protocol
 from bokeh.server.connection import ServerConnection
 from bokeh.server.session import ServerSession
-from panel.io.document import init_doc
+from panel.io.document import dispatch_tornado, init_doc
+from panel.io.server import WSHandler
 from panel.io.state import set_curdoc
 from tornado.locks import Lock
 
 from app.parts import Parts
-from app.server_lifecycle import PromptHandler
+from app.private import prompt_handler
 from app.state import preset_state
 
 from .conftest import ROOT, Explorer, Server, deployed, free_port
@@ -117,7 +118,8 @@ def test_an_answer_does_not_wait_until_another_message_is_written():
         session = ServerSession("session", document)
         context = SimpleNamespace(id="session", session=session)
         document._session_context = lambda: context
-        handler = PromptHandler.__new__(PromptHandler)
+        kind = prompt_handler(WSHandler, dispatch_tornado)
+        handler = kind.__new__(kind)
         handler.write_lock = Lock()
         handler.ws_connection = SimpleNamespace(is_closing=lambda: False, write_message=write_message)
         handler.connection = ServerConnection(Protocol(), handler, None, session)

@@ -12,7 +12,7 @@ from app.plots import PLOTS, D, F, P, X, force, springs, visible
 from app.quantities import CHOICES, QUANTITIES
 from app.shared.summary import summary
 from app.state import preset_state
-from mdr_core.results.figures import SPRINGS
+from mdr_core.show.figures import SPRINGS
 
 from .conftest import DROP
 from .states import numbers, part, solved, state_with, view_of, viscous

@@ -61,7 +61,7 @@ class Visitor:
         patience = {"connect_timeout": PATIENCE, "request_timeout": PATIENCE}
         page = await AsyncHTTPClient().fetch(url, **patience)
         token = re.search(r'"token":"([^"]+)"', page.body.decode())[1]
-        address = url.replace("http", "ws", 1) + "/ws"
+        address = url.partition("?")[0].replace("http", "ws", 1) + "/ws"
         # The cookie is that of a proxy, which may have set one.
         told = {"Sec-WebSocket-Protocol": f"bokeh, {token}", "Cookie": page.headers.get("Set-Cookie", "")}
         request = HTTPRequest(address, headers=told, **patience)
@@ -170,10 +170,9 @@ class Fitter(Visitor):
     async def open(self, url):
         """Load the page for measurements, and find the button of the sample."""
         await super().open(f"{url}?fit")
-        found = (each for each in objects(self.document) if each.get("name") == "Button")
-        self.button = next(
-            e["id"] for e in found if dig(e, "attributes", "label") == "Sample: fused silica"
-        )
+        labelled = (each for each in objects(self.document) if dig(each, "attributes", "label"))
+        sample = "Sample: fused silica"
+        self.button = next(each["id"] for each in labelled if each["attributes"]["label"] == sample)
         return self
 
     async def work(self, done):
@@ -187,11 +186,13 @@ class Fitter(Visitor):
             while "of the unloading" not in content and "from the unloading" not in content:
                 _, content = await self._message()
             count += 1
+            # Who changes something looks at the number first.
+            await asyncio.sleep(0.5)
         return count
 
 
 async def beside_a_fit(url):
-    """Moves of a slider alone, and beside a person who fits without a pause, in turn; medians (ms)."""
+    """Moves of a slider alone, and beside a person who fits again and again, in turn; medians (ms)."""
     client, fitter = await Client().open(url), await Fitter().open(url)
     found, fits = {False: [], True: []}, 0
     for _ in range(3):

@@ -29,13 +29,13 @@ def test_closed_forms_are_those_of_quadrature(profile):
 class Wide(mdr.Profile):
     """A cone of the slope 1/2, and no entry."""
 
-    def _height(self, r):
+    def height_at(self, r):
         return r / 2
 
-    def _reduced(self, x):
+    def reduced_at(self, x):
         return np.pi / 4 * x
 
-    def _reduced_slope(self, x):
+    def reduced_slope_at(self, x):
         return np.pi / 4 + 0 * x
 
 

@@ -100,3 +100,16 @@ def test_dashpots_press_as_a_flat_punch(shape):
     assert state.force - slow.force == pytest.approx(2 * a * load, rel=1e-12)
     assert state.pressure(a) == math.inf
     assert state.pressure(1.001 * a) == 0.0
+
+
+@pytest.mark.parametrize("shape", [mdr.Smooth(lambda r: r / 1e-6), *SHAPES], ids=name)
+def test_pressure_within_a_rounding_of_the_plastic_radius(shape):
+    """Between its values at c (1 ± 10⁻⁸): a node may round to r, and the tangent at r = c is vertical."""
+    for deep in np.random.default_rng(3).uniform(1.5, 40.0, 40):
+        s = mdr.indent(shape, MEDIUM, deep * D_C)
+        c = s.plastic_radius
+        if c == s.contact_radius or c == shape.face_radius:
+            continue
+        near = [np.nextafter(c, 0), np.nextafter(np.nextafter(c, 0), 0), np.nextafter(c, 1)]
+        # √(2·10⁻⁸) of the pressure, times a slope of some units.
+        assert s.pressure(near) == pytest.approx(s.pressure(c * (1 + 1e-8)), rel=1e-3)

@@ -262,7 +262,8 @@ class TestVerdict:
             "force_noise": 1e-7,
         }
         fit = mdr.fit_indentation(self.PROFILE, depth, force, hardness=None, **given)
-        own, load = fit.classes["a"], (fit.force - fit.baseline[:, None]).max(axis=1)
+        # With a free baseline over the range of the record, which is the same for all classes.
+        own, load = fit.classes["a"], np.ptp(fit.force, axis=1)
         # The same problem twice.
         assert own.medium.hardness == pytest.approx(fit.medium.hardness, rel=1e-9)
         assert own.misfit == pytest.approx(np.sqrt(np.mean(fit.residuals**2, axis=1)) / load, rel=1e-9)
@@ -270,6 +271,20 @@ class TestVerdict:
         for letter, each in fit.classes.items():
             # The minimum is known to the square root of rounding.
             assert single[letter].misfit == pytest.approx(each.misfit[1], rel=1e-6)
+
+    @pytest.mark.parametrize(
+        "free", [{"baseline": None}, {"baseline": None, "tilt": None}], ids=" and ".join
+    )
+    def test_a_baseline_that_runs_off(self, free):
+        """The fit of a class may have a baseline of many times the force: it divides no misfit."""
+        force = made(self.PROFILE, ALONE["a"], 1, seed=8, noise=0.01)[0]
+        fit = mdr.fit_indentation(self.PROFILE, OUT + 3e-9, force, hardness=None, **free)
+        for each in fit.classes.values():
+            residuals = np.sqrt(np.mean(fit.residuals**2))
+            # The best minimum of each class is not better than the noise, known to 5 %.
+            assert each.misfit > 0.8 * residuals / np.ptp(force)
+        assert min(fit.classes, key=lambda letter: fit.classes[letter].misfit) == "a"
+        assert "% of the range of the force" in repr(fit)
 
     def test_curves_of_different_lengths(self):
         curves = [

@@ -5,6 +5,7 @@ import pytest
 
 import mdr_core as mdr
 
+from .test_creep import record
 from .test_fit import silica
 
 E, CONE = 10e9, mdr.Cone(0.3)
@@ -63,3 +64,30 @@ def test_silica_with_the_contact_of_its_file():
     assert fit.quoted.source == "unloading"
     assert fit.quoted.value == pytest.approx(69.62e9, abs=0.1e9)
     assert 0.1e9 < fit.quoted.standard_error < 0.3e9
+
+
+def test_silica_in_any_class_has_one_number():
+    """Its own zero is first contact: the contact points of the fits, 106 and −27 nm, are not."""
+    depth, F, _ = silica()
+    for hardness in ({}, {"hardness": None}):
+        quoted = mdr.fit_indentation(mdr.Cone.berkovich(), depth, F, **hardness).quoted
+        assert quoted.value == pytest.approx(69.62e9, abs=0.1e9)
+        assert quoted.standard_error == pytest.approx(0.14e9, abs=0.03e9)
+
+
+def test_a_yielded_curve_that_is_held_elastic_has_none():
+    """Of 16 % more force on loading than on unloading: the fit of an elastic medium has 60.6 GPa."""
+    depth, F, _ = silica()
+    quoted = mdr.fit_indentation(mdr.Cone.berkovich(), depth, F, q_c=np.inf).quoted
+    assert quoted.value is None
+    assert "does not fit" in quoted.reason
+
+
+def test_creep_is_corrected_where_it_is_not_small():
+    time, depth, F = record(0.2, "viscous")
+    fits = [
+        mdr.fit_indentation(mdr.Cone.berkovich(), depth, F, time=t, hardness=None, contact_point=0.0)
+        for t in (None, time)
+    ]
+    assert fits[0].quoted.value > 1.1 * 70e9
+    assert fits[1].quoted.value == pytest.approx(70e9, rel=0.01)

@@ -25,16 +25,16 @@ class Told(mdr.Profile):
     face_radius = property(lambda self: self.known.face_radius)
     kinks = property(lambda self: self.known.kinks)
 
-    def _height(self, r):
-        return self.known._height(r)
+    def height_at(self, r):
+        return self.known.height_at(r)
 
-    def _reduced(self, x):
-        return self.known._reduced(x)
+    def reduced_at(self, x):
+        return self.known.reduced_at(x)
 
-    def _reduced_slope(self, x):
+    def reduced_slope_at(self, x):
         # Infinite at a sharp edge.
         with np.errstate(divide="ignore"):
-            return self.known._reduced_slope(x)
+            return self.known.reduced_slope_at(x)
 
 
 @dataclass(frozen=True)
@@ -44,13 +44,13 @@ class Pencil(mdr.Profile):
     slope: float
     radius: float
 
-    def _height(self, r):
+    def height_at(self, r):
         return self.slope * r + r**2 / (2 * self.radius)
 
-    def _reduced(self, x):
+    def reduced_at(self, x):
         return np.pi / 2 * self.slope * x + x**2 / self.radius
 
-    def _reduced_slope(self, x):
+    def reduced_slope_at(self, x):
         return np.pi / 2 * self.slope + 2 * x / self.radius
 
 
@@ -123,7 +123,7 @@ class TestPencil:
         def punches(t):
             # x = max(r, c) + t² takes out the root at its lower end.
             x = max(r, c) + t * t
-            return 2 * t * self.shape._reduced_slope(x) / np.sqrt((x - r) * (x + r))
+            return 2 * t * self.shape.reduced_slope_at(x) / np.sqrt((x - r) * (x + r))
 
         pressure = (
             MEDIUM.E_star / np.pi * quad(punches, 0, np.sqrt(a - max(r, c)), epsabs=0, epsrel=1e-12)[0]
@@ -163,7 +163,7 @@ def test_a_shape_that_may_change_is_refused():
     @dataclass
     class Loose(Pencil.__base__):
         slope: float
-        _height = _reduced = _reduced_slope = Pencil._height
+        height_at = reduced_at = reduced_slope_at = Pencil.height_at
 
     for use in (
         lambda: mdr.indent(Loose(0.1), MEDIUM, 1e-9),
@@ -182,7 +182,7 @@ class Polygon(mdr.Profile):
 
     @property
     def kinks(self):
-        return tuple(self._reduced(self._radii[1:-1]))
+        return tuple(self.reduced_at(self._radii[1:-1]))
 
     @property
     def _radii(self):
@@ -198,14 +198,14 @@ class Polygon(mdr.Profile):
         )
         return change, np.arctan(tangent), tangent
 
-    def _height(self, r):
+    def height_at(self, r):
         return np.interp(r, *np.transpose(self.vertices))
 
-    def _reduced(self, x):
+    def reduced_at(self, x):
         change, angle, _ = self._changes(x)
         return x * (angle @ change)
 
-    def _reduced_slope(self, x):
+    def reduced_slope_at(self, x):
         change, angle, tangent = self._changes(x)
         return (angle + np.where(angle > 0, 1 / tangent, 0.0)) @ change
 
@@ -219,8 +219,8 @@ def test_a_polygon_has_a_contact_radius_at_any_depth():
     radius = polygon.contact_radius(depth)
     with np.errstate(divide="ignore"):
         # The rounding of the depth, and of the radius by the slope of g.
-        close = 8 * np.finfo(float).eps * (depth + radius * polygon._reduced_slope(radius))
-    assert np.all(np.abs(polygon._reduced(radius) - depth) <= close)
+        close = 8 * np.finfo(float).eps * (depth + radius * polygon.reduced_slope_at(radius))
+    assert np.all(np.abs(polygon.reduced_at(radius) - depth) <= close)
     alone = polygon.contact_radius(3.5575617283436532e-06)
     assert alone == pytest.approx(radius[-1], rel=1e-14)
 
@@ -237,3 +237,36 @@ def test_scales_of_a_class_are_one_where_its_parameters_are():
 
     with pytest.raises(TypeError, match=r"Ball with parameters of 1 has the length 0\.5"):
         _ = mdr.indent(Ball(1.0), mdr.Medium(1.0), 0.1).stiffness
+
+
+@pytest.mark.parametrize(
+    ("former", "name"),
+    [
+        ("_height", "height_at"),
+        ("_reduced", "reduced_at"),
+        ("_reduced_slope", "reduced_slope_at"),
+        ("_radius", "radius_at"),
+    ],
+)
+def test_a_shape_with_a_former_name_is_told_the_new_one(former, name):
+    with pytest.raises(TypeError, match=f"Dull gives {former}, .*: call it {name}"):
+        type("Dull", (Pencil,), {former: lambda self, x: x})
+
+
+def test_an_error_in_a_shape_is_no_limit_of_the_fast_limit():
+    """The fast limit presses deeper than the impact; an error of the shape there is nobody's limit."""
+
+    @dataclass(frozen=True)
+    class Fails(Pencil):
+        end: float = np.inf
+
+        def reduced_at(self, x):
+            if np.any(x > self.end):
+                raise ValueError("a mistake in the shape")
+            return super().reduced_at(x)
+
+    deep = mdr.impact(Pencil(0.3, 1e-5), MEDIUM, MASS, SPEED)
+    hit = mdr.impact(Fails(0.3, 1e-5), MEDIUM, MASS, SPEED)
+    object.__setattr__(hit.profile, "end", 1.0001 * float(deep.contact_radius))
+    with pytest.raises(ValueError, match="a mistake in the shape"):
+        _ = hit.limits

@@ -149,6 +149,20 @@ def test_cone_from_its_half_angle(degrees, slope):
     assert mdr.Cone.from_half_angle(degrees).slope == pytest.approx(slope, rel=1e-15)
 
 
+def test_the_cone_of_a_pyramid_has_its_force():
+    """F = 0.7453 E* d² tan α of Bilodeau (1992): a cone of the same angle makes 17 % more of E*."""
+    depth, tangent = np.linspace(0, 1e-6, 50), np.tan(np.radians(35.0))
+    force = 0.7453 * 20e3 * depth**2 * tangent
+    assert mdr.indent(mdr.Cone.pyramid(35.0), mdr.Medium(20e3), depth).force == pytest.approx(force)
+    moduli = [
+        mdr.fit_indentation(tip, depth, force, q_c=np.inf).medium.E_star
+        for tip in (mdr.Cone.pyramid(35.0), mdr.Cone.from_half_angle(35.0))
+    ]
+    assert moduli == pytest.approx([20e3, 23.41e3], rel=1e-3)
+    with pytest.raises(ValueError, match="half-angle"):
+        mdr.Cone.pyramid(95.0)
+
+
 def test_the_cone_of_a_berkovich_tip():
     """Oliver and Pharr: half-angle 70.3°, A = 24.5 h² (three figures as they are quoted)."""
     cone = mdr.Cone.berkovich()

@@ -461,3 +461,18 @@ def test_noisy_samples_about_any_axis_become_a_convex_tip_of_few(rows):
     exact = mdr.indent(mdr.Paraboloid(1e-6), MEDIUM, 2e-7).force
     # Noise of the height of the apex, of a few samples, over the depth; forces go with its power 3/2.
     assert mdr.indent(tip, MEDIUM, 2e-7).force == pytest.approx(exact, rel=1.5 * noise / 2e-7 * 2)
+
+
+def test_a_repaired_area_function_says_by_how_much():
+    """A = 24.5 h² + 50 h^(1/2) nm² is concave near the tip; 24.5 h² is a cone, which stays as it is."""
+    repaired = mdr.Sampled.from_area_function([24.5, 0.0, 50.0], 1e-6, unit="nm")
+    r, z = 1e9 * np.array(repaired.r[1:]), 1e9 * np.array(repaired.z[1:])
+    # The height at which the area function has the area of each vertex.
+    h = np.geomspace(1e-2, 1.01e3, 200_000)
+    change = np.abs(z - np.interp(np.pi * r**2, 24.5 * h**2 + 50.0 * h**0.5, h)).max()
+    (remark,) = repaired.remarks
+    # Two digits are written, and the table of heights is finer.
+    said = float(re.search(r"changed by up to ([\d.]+) pm", remark)[1])
+    assert said == pytest.approx(1e3 * change, rel=0.06)
+    assert remark in repr(repaired)
+    assert mdr.Sampled.from_area_function([24.5], 1e-6).remarks == ()

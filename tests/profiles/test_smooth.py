@@ -150,3 +150,43 @@ def test_tables_reach_down_to_shallow_impacts():
     energy = (states.stored_energy + states.plastic_work)[:, 0]
     hits = mdr.impact(tip, medium, 1e-9, np.sqrt(2 * energy / 1e-9))
     np.testing.assert_allclose(hits.max_depth, depth, rtol=1e-12)
+
+
+@pytest.mark.parametrize("radius", [1e-9, 1e-6, 1e-2])
+def test_pressure_on_the_axis_of_a_rounded_tip(radius):
+    """Hertz: p₀ = (2/π) E* √(d/R), with Huber's −p₀ and 0.31 p₀; g′ is from polynomials to 10⁻¹²."""
+    state = mdr.indent(mdr.Smooth(lambda r: r / radius), mdr.Medium(1e9, poisson=0.3), 1e-3 * radius)
+    hertz = 2 / np.pi * 1e9 * np.sqrt(1e-3)
+    assert state.pressure(0.0) == pytest.approx(hertz, rel=1e-10)
+    assert state.stress(0.0, 0.0).zz == pytest.approx(-hertz, rel=1e-10)
+    assert state.stress_peak().value == pytest.approx(0.310 * hertz, rel=1e-3)
+    assert state.profile.reduced_slope(0.0) == 0.0
+    sharp = mdr.Smooth(lambda r: 0.3 + r / radius)
+    assert mdr.indent(sharp, mdr.Medium(1e9), 1e-3 * radius).pressure(0.0) == np.inf
+    assert sharp.reduced_slope(0.0) == pytest.approx(np.pi / 2 * 0.3, rel=1e-8)
+
+
+@pytest.mark.parametrize("given", [{}, {"radius": 1e-6}, {"radius": 0.9e-6}, {"radius": 0.3e-6}], ids=str)
+def test_a_slope_that_ends_has_every_class_of_hardness(given):
+    """A sphere by its slope, which is infinite at its radius: the forces of the sphere, to rounding."""
+    radius = 1e-6
+
+    def slope(r):
+        with np.errstate(all="ignore"):
+            return r / np.sqrt((radius - r) * (radius + r))
+
+    smooth, sphere = mdr.Smooth(slope, **given), mdr.Sphere(radius)
+    for medium in (
+        mdr.Medium(1e9, hardness=1e7),
+        mdr.Medium(1e9, 1.0, hardness=1e7, f_c=1e-7),
+        mdr.Medium(1e9, 10.0, work_of_adhesion=0.01),
+    ):
+        expected = mdr.indent(sphere, medium, 1e-9).force
+        assert mdr.indent(smooth, medium, 1e-9).force == pytest.approx(expected, rel=1e-12)
+    low, high = mdr.capture_speeds(smooth, medium, 1e-15)
+    assert (low, high) == pytest.approx(mdr.capture_speeds(sphere, medium, 1e-15), rel=1e-10)
+    assert smooth.known_radius <= radius
+    # Printing looks at all classes of hardness.
+    depth = np.append(np.linspace(0, 20e-9, 30), np.linspace(20e-9, 15e-9, 15))
+    fit = mdr.fit_indentation(smooth, depth, mdr.indent(sphere, mdr.Medium(1e9, 5.0), depth).force)
+    assert "class of hardness" in repr(fit)

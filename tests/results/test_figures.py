@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import trapezoid
 
 import mdr_core as mdr
-from mdr_core.results.figures import ROLES, split
+from mdr_core.show.figures import ROLES, split
 
 hv = pytest.importorskip("holoviews")
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.results.quantities import QUANTITIES, engineering
+from mdr_core.show.quantities import QUANTITIES, engineering
 
 GOLD = mdr.Medium.from_bodies(E1=78e9, nu1=0.42, q_c=100.0)
 POLYMER = mdr.Medium(E_star=4e6, q_c=200.0, eta=30.0)
@@ -182,7 +182,7 @@ def test_parameters_of_many_are_coordinates():
 @pytest.mark.parametrize(("method", "package"), [("to_pandas", "pandas"), ("to_xarray", "xarray")])
 def test_what_is_missing_is_said(method, package, monkeypatch):
     monkeypatch.setattr(
-        "mdr_core.results.report.import_module", lambda name: builtins.__import__("no_such_" + name)
+        "mdr_core.show.report.import_module", lambda name: builtins.__import__("no_such_" + name)
     )
     with pytest.raises(ImportError, match=rf"{method}\(\) needs {package}, .* pip install {package}"):
         getattr(PATH, method)()

@@ -119,7 +119,7 @@ def test_a_sphere_next_to_its_equator():
 def test_a_slow_path_says_that_the_dashpots_carry_nothing():
     state = mdr.indent(mdr.Cone(0.3), VISCOUS, 1e-6)
     assert exceeded(state) == {"viscosity"}
-    assert "indent_in_time" in repr(state)
+    assert "prescribe the path in time" in repr(state)
     assert "τ = 30 µs" in repr(state)
     hit = mdr.impact(mdr.Cone(0.3), VISCOUS, 1e-6, 0.1)
     # States of a motion have their dashpots.

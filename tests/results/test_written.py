@@ -4,7 +4,7 @@ from math import pi, radians, tan
 
 import pytest
 
-from mdr_core.results.units import KINDS, UNITS, entry, fitting, read, written
+from mdr_core.show.units import KINDS, UNITS, entry, fitting, read, written
 
 TYPED = [
     ("25", "length", 25e-9), ("2,5", "length", 2.5e-9), ("1e-6", "length", 1e-6), ("5 Å", "length", 5e-10),

@@ -19,13 +19,13 @@ class Pencil(mdr.Profile):
     slope: float
     radius: float  # m
 
-    def _height(self, r):
+    def height_at(self, r):
         return self.slope * r + r**2 / (2 * self.radius)
 
-    def _reduced(self, x):
+    def reduced_at(self, x):
         return np.pi / 2 * self.slope * x + x**2 / self.radius
 
-    def _reduced_slope(self, x):
+    def reduced_slope_at(self, x):
         return np.pi / 2 * self.slope + 2 * x / self.radius
 
 

@@ -1,93 +1,12 @@
-"""Base classes of results along a path, of impacts and of motions; the names of the models."""
+"""Base classes of impacts, of motions, and the motion of one impact."""
 
-from dataclasses import dataclass, fields, replace
-from typing import Any, Self
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from .._check import Array, shown
-from .limits import Limit, speed_limit
-from .report import Report
-
-
-class Model(str):
-    """Name of a model, with the reason for choosing it in `reason`.
-
-    Examples
-    --------
-    >>> CLOSED_FORM == "closed form"
-    True
-    """
-
-    __slots__ = ("reason",)
-
-    def __new__(cls, name, reason):
-        model = super().__new__(cls, name)
-        model.reason = reason
-        return model
-
-    def __getnewargs__(self):
-        return str(self), self.reason
-
-
-CLOSED_FORM = Model(
-    "closed form",
-    "without viscosity, or infinitely slowly, the plastic depth is the only memory of the medium, and "
-    "every result is an integral over the live interval",
-)
-SCALAR_ODE = Model(
-    "scalar ODE",
-    "a single viscous impact obeys one scalar equation of motion, because elements are released from the "
-    "outside inward and do not come into contact again",
-)
-CREEP_LAW = Model(
-    "scalar ODE",
-    "while an indenter goes deeper, and while it recedes afterwards, its depth under a force obeys one "
-    "scalar equation, because no element that was released comes into contact again",
-)
-CHAIN = Model(
-    "chain",
-    "on a viscous path released elements may come into contact again while they relax, so that each "
-    "element has a memory of its own",
-)
-
-
-class Entries:
-    """Base class of dataclasses whose fields all have one entry, or one row, for each impact."""
-
-    def __getitem__(self, index: Any) -> Self:
-        return type(self)(**{field.name: getattr(self, field.name)[index] for field in fields(self)})
-
-
-class Result(Report):
-    """Base class of results of one profile on one medium, along a path, over time or of impacts."""
-
-    def plot(self, quantity: str = "force", over: str = "depth") -> Any:
-        """One quantity over another as HoloViews elements, by default the force–depth curve.
-
-        A path is shown in parts: loaded elastically, yielding, unloaded. Axes have names and units. Areas
-        of a force–depth curve are the plastic work of the path and what its last state stores.
-
-        Parameters
-        ----------
-        quantity, over : str
-            Names of two quantities of this result, as in `to_dict()`.
-
-        Raises
-        ------
-        ValueError
-            If a name is unknown, or the result has other than one dimension.
-        """
-        # Plots stand above results, and HoloViews is needed for them only.
-        from .elements import plot_curve
-
-        return plot_curve(self, quantity, over)
-
-    def _source(self):
-        return self
-
-    def _limits(self):
-        return self.limits
+from .results import Limit, Result, above
 
 
 class ImpactResult(Result):
@@ -136,7 +55,7 @@ class ImpactResult(Result):
 
     def speed_limit(self, density: float) -> Limit:
         """The speed over the wave speed √(E*/ρ) of a medium of density ρ (kg/m³), as a `Limit`."""
-        return speed_limit(self.speed, self.medium, density)
+        return above("show.limits").speed_limit(self.speed, self.medium, density)
 
 
 class MotionResult(Result):

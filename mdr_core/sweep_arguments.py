@@ -5,8 +5,8 @@ from itertools import combinations
 
 import numpy as np
 
-from .. import _check
-from .quantities import QUANTITIES
+from . import _check
+from .show.quantities import QUANTITIES
 
 #: Invalid particles that are listed.
 _LISTED = 5

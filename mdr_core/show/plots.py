@@ -6,10 +6,10 @@ from ..contact.indentation import Indentation
 from . import figures
 from .figures import FORCE_ROWS, NOTHING, PRESSURE_ROWS, REST, SPRING_ROWS, Axis, line, parts
 from .quantities import QUANTITIES
-from .report import imported
+from .report import imported, title
 
 
-def overlay(title, rows, columns, axes):
+def overlay(heading, rows, columns, axes):
     """A plot as a HoloViews overlay, with one element for each row that has data."""
     hv = imported("holoviews", "a plot", "holoviews bokeh")
     if not hv.Store.loaded_backends():
@@ -33,7 +33,7 @@ def overlay(title, rows, columns, axes):
         # HoloViews knows no hatches.
         look = {name: value for name, value in row.look_in(False).items() if "hatch" not in name}
         made.append(element.opts(backend="bokeh", **look) if bokeh else element)
-    look = {"title": title, "width": 600, "height": 400, "show_grid": True, "legend_position": "right"}
+    look = {"title": heading, "width": 600, "height": 400, "show_grid": True, "legend_position": "right"}
     look |= {"xlim": axes[0].ends, "ylim": axes[1].ends}
     return hv.Overlay(made).opts(backend="bokeh", **look) if bokeh else hv.Overlay(made)
 
@@ -51,9 +51,9 @@ def plot_curve(result, quantity, over):
         columns = figures.split(x, y, result.depth, result.plastic_depth)
         if (quantity, over) == ("force", "depth") and _stores(result):
             columns |= figures.work(result, len(x) - 1)
-            return overlay(result._title(), FORCE_ROWS, columns, axes)
-        return overlay(result._title(), parts(""), columns, axes)
-    return overlay(result._title(), [line("", "elastic", legend=False)], {"": (x, y)}, axes)
+            return overlay(title(result), FORCE_ROWS, columns, axes)
+        return overlay(title(result), parts(""), columns, axes)
+    return overlay(title(result), [line("", "elastic", legend=False)], {"": (x, y)}, axes)
 
 
 def _stores(path):

@@ -1,10 +1,10 @@
 """Where the assumptions of the model end: limits of a result, as data and in words."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from .. import _check
+from ..impacts.scaling import MAX_ERROR, depth_in_fast_limit
+from ..numerics.results import Limit
 from ..profiles.power import Cone
 from ..profiles.sampled import Sampled
 from .quantities import engineering
@@ -31,52 +31,6 @@ _SOFTEST = 1e3
 _STIFFEST = 1e13
 
 
-@dataclass(frozen=True)
-class Limit:
-    """An assumption of the model, and how near a result is to its end; an entry of `result.limits`.
-
-    Attributes
-    ----------
-    what : str
-        Quantity that is bounded: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa, "Poisson
-        ratio", "viscosity", "speed", "fast limit", "Tabor's parameter", which must be larger than its
-        bound, "facets" of samples with adhesion, for friction "coupling" and "slip direction", and where
-        elements stick "tolerance", "depth" over the elastic compression at the turning point (d_c of a
-        hardness q_c/a) and "mass" over the tangential one; with a constant hardness "flow", the area of a
-        contact that flows over that of the model; and the length (m) of a "jump" of a path given by force.
-    value, bound : float
-        Its largest value over all states, and the largest one for which the assumption is good.
-    exceeded : bool
-        Whether the value is larger than the bound.
-    sentence : str
-        The same in words, and a remedy.
-    concerns : str
-        "result", or the formula of the paper that is concerned while the result itself is exact.
-    severe : bool
-        Whether the result is only an estimate where the bound is exceeded.
-    """
-
-    what: str
-    value: float
-    bound: float
-    exceeded: bool
-    sentence: str
-    concerns: str = "result"
-    severe: bool = True
-
-    @property
-    def holds(self) -> bool:
-        """Whether the value is within the bound."""
-        return not self.exceeded
-
-    @property
-    def level(self) -> str:
-        """One word: "good", "note" where the result hardly changes, else "beyond"."""
-        if self.holds:
-            return "good"
-        return "beyond" if self.severe and self.concerns == "result" else "note"
-
-
 def contact_limits(profile, medium, radius, *, slow=False):
     """Limits of contacts of radii up to `radius` (m); `slow` if the dashpots carry nothing."""
     limits = [_slope_limit(profile, radius), *_body_limit(profile, radius)]
@@ -91,8 +45,8 @@ def _slope_limit(profile, radius):
     """Largest slope of the indenter within the contact: that at its edge, or the mean up to there."""
     a = np.asarray(radius) if profile.shape else np.max(radius, initial=0.0)
     with np.errstate(all="ignore"):
-        height = profile._height(a)
-        edge = (height - profile._height(a * (1 - 1e-6))) / (1e-6 * a)
+        height = profile.height_at(a)
+        edge = (height - profile.height_at(a * (1 - 1e-6))) / (1e-6 * a)
         slope = np.where(a > 0, np.fmax(edge, height / a), 0.0)
     # The difference has nine digits.
     value = float(f"{np.max(slope, initial=0.0):.9g}")
@@ -264,3 +218,45 @@ def speed_limit(speed, medium, density):
     text = f"The speed is {value:.3g} of the wave speed √(E*/ρ)"
     text += ": waves carry energy away." if value > _SLOW else ": quasi-static."
     return Limit("speed", value, _SLOW, value > _SLOW, text)
+
+
+def path_limits(path):
+    """Limits of the states of an `Indentation`."""
+    limits = contact_limits(path.profile, path.medium, path.contact_radius, slow=not path.in_time)
+    return (*limits, *jump_limits(path.jumps))
+
+
+def impact_limits(hit):
+    """Limits of an `Impact`, that of the fast limit (23), (24) included."""
+    limits = contact_limits(hit.profile, hit.medium, hit.contact_radius)
+    return (*limits, *how_fast(hit))
+
+
+def how_fast(hit):
+    """`Limit`s of the fast limit (23), (24) for an `Impact`, from its errors; none without yield."""
+    if not (hit.medium.inverse_to_radius and np.any(hit.plastic_depth_increase > 0)):
+        return ()
+    if np.any(np.isinf(hit.medium.critical_depth)):
+        return ()
+    equations, first = "Eqs. (23), (24)", np.all(hit.plastic_depth == hit.plastic_depth_increase)
+    if np.any(np.isinf(depth_in_fast_limit(hit))):
+        known = np.min(hit.profile.known_depth)
+        text = (
+            f"{equations} do not hold: in this limit the impact presses deeper than the known depth of the "
+            f"profile, {known:g} m."
+        )
+        return (Limit("fast limit", np.inf, MAX_ERROR, True, text, equations),)
+    limit = hit.fast_limit
+    errors = limit.contact_area_error, limit.max_depth_error
+    area, depth = (float(np.ravel(error)[np.argmax(np.abs(error))]) for error in errors)
+    # Without yield errors may cross zero by chance, hence the share of the viscous work is a criterion too.
+    viscous = float(np.max(hit.viscous_work / (hit.mass * hit.speed**2 / 2)))
+    value = max(abs(area), abs(depth), viscous)
+    exceeded = value > MAX_ERROR or not first
+    errors = f"{100 * area:+.3g} % of the area, {100 * depth:+.3g} % of the depth".replace("-", "−")
+    text = f"The fast limit, {equations}, {'does not hold and ' * exceeded}is off by {errors}"
+    if viscous > MAX_ERROR:
+        text += f", and viscosity takes {100 * viscous:.3g} % of the energy"
+    if not first:
+        text += ", because it is for the first impact on a spot"
+    return (Limit("fast limit", value, MAX_ERROR, exceeded, f"{text}.", equations),)

@@ -1,0 +1,119 @@
+"""Curves of AFM files, by `afmformats`, and binary files that are not read."""
+
+import logging
+import re
+from contextlib import contextmanager
+from functools import partial
+
+import numpy as np
+
+from .. import _check
+from ..measured_curve import MODALITIES, MeasuredCurves
+from ..show.report import imported
+from .curve import curve_of
+from .text import Table
+
+# Without a handler its errors would be printed beside the refusals.
+logging.getLogger("afmformats").addHandler(logging.NullHandler())
+
+#: Beginnings of the suffixes of AFM files that are no text.
+SUFFIXES = ".jpk", ".h5", ".hdf5", ".ibw", ".zip"
+#: Text that only files of AFM instruments have.
+_OF_AFM = re.compile(r"# afmformats |Force-Distance Curve|Device:\tChiaro")
+#: What to do about errors of `afmformats`.
+_REMEDIES = {
+    "MissingMetaDataError": " Give spring_constant= (N/m) and sensitivity= (m/V)",
+    "NotImplementedError": " Its forces are in N: give neither. minus_frame(1 / k) subtracts a deflection",
+    "UnicodeDecodeError": "; if it is packed, unpack it and read its files",
+}
+#: What to export instead of files that are not read, by their suffixes.
+_EXPORTS = {
+    r"\.(spm|pfc|\d{3})": "NanoScope Analysis of Bruker: export the curve as ASCII text, with Ramp and "
+    "Deflection in nm and pN or nN",
+    r"\.(nid|nhf)": "Nanosurf's program: export depth or tip position and force as a text or CSV table",
+    r"\.tdms": "the program of the instrument, or Excel with the importer of NI: save depth, force and "
+    "time as a CSV table",
+    r"\.(h5|hdf5)": "the program that wrote it: save depth, force and time of a curve as a CSV table, with "
+    "units in its header",
+    r"\.(mdt)": "NT-MDT's program: export the curve as ASCII text",
+    r"\.(hap|fis)": "the program WIN-HCU of Fischer: export depth, force and time of a test as text",
+    r"\.(hys|tst|mss|nmd|msm)": "the instrument's program: export depth, force and time of a test as text "
+    "or Excel",
+    r"\.(ods|parquet|mat|npy|npz|pkl|opj|opju)": "the program that wrote it: save it as a CSV table with "
+    "names and units in its header",
+}
+_EXPORT = (
+    "the program of the instrument: export depth, force and time as a text or CSV table with units in its "
+    "header"
+)
+
+
+def refuse_binary(path, data):
+    """Refuse a file that is no text, with the export to make."""
+    suffix = path.suffix.lower()
+    known = next((text for pattern, text in _EXPORTS.items() if re.fullmatch(pattern, suffix)), None)
+    if known is None and not _is_binary(data):
+        return
+    # Some programs give their text the suffix of their files.
+    if known is not None and not _is_binary(data) and data.strip():
+        return
+    raise ValueError(f"{path.name} is a binary file of a kind that is not read. Use {known or _EXPORT}")
+
+
+def export_of(suffix):
+    """Sentence on what to export in place of a file with a suffix; empty if nothing is known."""
+    known = next((text for pattern, text in _EXPORTS.items() if re.fullmatch(pattern, suffix)), "")
+    return f". Use {known}" if known else ""
+
+
+def _is_binary(data):
+    """Whether the bytes are no text: zeros, which only UTF-16 has, or other control characters."""
+    head = data[:4096]
+    marked = head.startswith((b"\xff\xfe", b"\xfe\xff"))
+    utf16 = marked or (b"\0" in head[:2] and head[:200].count(b"\0") > 0.4 * len(head[:200]))
+    if utf16:
+        return bool(re.search(rb"\0\0\0", head))
+    controls = sum(byte < 9 or 13 < byte < 32 for byte in head)
+    return b"\0" in data or controls > 0.02 * len(head)
+
+
+def is_afm_text(text):
+    """Whether a text is one that `afmformats` reads."""
+    return bool(_OF_AFM.search(text[:2000]))
+
+
+@contextmanager
+def _refused(errors, path):
+    """Errors of `afmformats` as ValueErrors that say what to give."""
+    try:
+        yield
+    # Most errors of this package are none that `except Exception` would handle.
+    except (Exception, errors.AFMFileFormatError, errors.MissingMetaDataError) as error:
+        remedy = _REMEDIES.get(type(error).__name__, export_of(path.suffix.lower()))
+        raise ValueError(f"{path.name} is not read by afmformats: {error}{remedy}") from None
+
+
+def from_afm(path, given):
+    """`MeasuredCurves` of a file that `afmformats` reads."""
+    afmformats = imported("afmformats", f"reading {path.name}", '"mdr-core[afm]"')
+    with _refused(afmformats.errors, path):
+        curves = sorted(afmformats.load_data(path, meta_override=given), key=lambda data: data.enum)
+        position = [[data.metadata.get(f"position {axis}", np.nan) for axis in "xy"] for data in curves]
+    position = None if np.isnan(position).any() else _check.frozen(position)
+    makers = [partial(_afm_curve, afmformats.errors, data) for data in curves]
+    return MeasuredCurves(path.name, position, makers)
+
+
+def _afm_curve(errors, data):
+    """`MeasuredCurve` of a curve in `afmformats`, approach and retract in the order of time."""
+    with _refused(errors, data.path):
+        heights = [head for head in ("tip position", "height (measured)", "height (piezo)") if head in data]
+        heads = [heights[0], "force", *(["time"] if "time" in data else [])]
+        values = {k: np.asarray(data[head], dtype=float) for k, head in enumerate(heads)}
+        number = np.asarray(data["segment"], dtype=int)
+        # Where all have one number the file does not know the segments.
+        segment = np.array(MODALITIES[data.modality])[number] if number.any() else None
+        stiffness = data.metadata.get("spring constant")
+    table = Table(dict(enumerate(heads)), values, np.arange(1, number.size + 1), {}, {})
+    columns = {"depth": (0, "−m"), "force": (1, "N"), "time": (2, "s") if 2 in values else None}
+    return curve_of(table, data.path.name, columns, stiffness, turn=False, segment=segment)

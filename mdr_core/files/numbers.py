@@ -1,0 +1,111 @@
+"""Numbers of a table as text: decimal points and commas, and separated thousands."""
+
+import re
+from contextlib import suppress
+from math import nan
+
+_GROUPS = r"[-+]?\d{1,3}(?:%s\d{3})+"
+_EXPONENT = r"(?:[eE][-+]?\d+)?"
+_DECIMAL_COMMA = re.compile(rf"[-+]?\d*,\d+{_EXPONENT}")
+_DECIMAL_POINT = re.compile(rf"[-+]?\d*\.\d*{_EXPONENT}")
+_COMMAS = re.compile(_GROUPS % "," + rf"(\.\d+)?{_EXPONENT}")
+_POINTS = re.compile(_GROUPS % r"\." + rf"(,\d+)?{_EXPONENT}")
+#: Thousands parted by a blank or an apostrophe, with either decimal sign.
+_PARTED = re.compile(_GROUPS % "[ \u00a0\u2009\u202f'’]" + rf"([.,]\d*)?{_EXPONENT}")
+_NUMERIC = re.compile(r"[-+−]?[\d.,][\d.,' \u00a0\u2009\u202f’]*(?:[eE][-+−]?\d+)?")
+
+
+#: Number of rows that tell how numbers are written.
+_ENOUGH = 5000
+
+
+class _Ambiguous(Exception):
+    """A comma that may be a decimal sign, or separate thousands."""
+
+
+def numeric(cell):
+    """Whether a cell may be a number in some notation."""
+    return bool(_NUMERIC.fullmatch(cell.strip()))
+
+
+def with_comma(cell):
+    """Whether a cell is a number with a comma: as decimal sign, or between thousands."""
+    return "," in cell and bool(
+        _DECIMAL_COMMA.fullmatch(cell) or _COMMAS.fullmatch(cell) or _POINTS.fullmatch(cell)
+    )
+
+
+def number_reader(rows, name):
+    """Function from a cell to its number, NaN for words, by what the cells of all rows of a file tell.
+
+    A comma is a decimal sign or separates thousands: "1,5" and "0,500" tell the first, "1,234.5" and
+    "1,234,567" the second. Raises ValueError where nothing tells it.
+    """
+    if not any("," in cell for row in rows for cell in row):
+        return _plain
+    # A part of a long file tells it, or all of it does.
+    for part in dict.fromkeys((len(rows) // _ENOUGH + 1, 1)):
+        cells = {cell for row in rows[::part] if _is_row(row) for cell in row}
+        with suppress(_Ambiguous):
+            return _reader(cells, name)
+    raise ValueError(
+        f"{name}: the comma of {min(filter(with_comma, cells))!r} may be a decimal sign, or separate "
+        "thousands: write numbers without separators of thousands, and with decimal points"
+    )
+
+
+def _is_row(row):
+    """Whether half of the cells that are not empty may be numbers."""
+    return 2 * sum(map(numeric, row)) >= sum(map(bool, row))
+
+
+def _reader(cells, name):
+    """`number_reader` for the cells of rows."""
+    commas = {cell for cell in cells if "," in cell and with_comma(cell)}
+    if not commas:
+        return _plain
+    parted = {cell for cell in commas if _POINTS.fullmatch(cell) and "," in cell and "." in cell}
+    decimal = {cell for cell in commas if _DECIMAL_COMMA.fullmatch(cell) and not _thousands(cell)} | parted
+    thousands = {
+        cell for cell in commas if _COMMAS.fullmatch(cell) and (cell.count(",") > 1 or "." in cell)
+    }
+    points = {cell for cell in cells if "." in cell and _DECIMAL_POINT.fullmatch(cell)}
+    if decimal and thousands:
+        raise ValueError(
+            f"{name}: in {min(decimal)!r} a comma is the decimal sign, in {min(thousands)!r} it separates "
+            "thousands: write all numbers in one notation"
+        )
+    if decimal:
+        if parted:
+            return lambda cell: _plain(cell.replace(".", "").replace(",", "."))
+        doubtful = [cell for cell in points if _POINTS.fullmatch(cell)]
+        if doubtful and len(doubtful) == len(points):
+            raise ValueError(
+                f"{name}: beside {min(decimal)!r} with a decimal comma, {min(doubtful)!r} may be a "
+                "thousand times larger: write numbers without separators of thousands"
+            )
+        return lambda cell: _plain(cell.replace(",", "."))
+    if thousands or points:
+        return lambda cell: _plain(cell.replace(",", "") if _COMMAS.fullmatch(cell) else cell)
+    # All have three digits after the comma: with a fixed number of decimals there are none without it.
+    if any(re.fullmatch(r"[-+]?\d+", cell) and cell.strip("+-0") for cell in cells):
+        raise _Ambiguous
+    return lambda cell: _plain(cell.replace(",", "."))
+
+
+def _thousands(cell):
+    """Whether the comma of "1,234" may separate thousands; that of "0,234" does not."""
+    return bool(_COMMAS.fullmatch(cell)) and not re.match(r"[-+]?0", cell)
+
+
+def _plain(cell):
+    try:
+        return float(cell)
+    except ValueError:
+        pass
+    if _PARTED.fullmatch(cell):
+        cell = re.sub("[ \u00a0\u2009\u202f'’]", "", cell)
+    try:
+        return float(cell.replace("−", "-"))
+    except ValueError:
+        return nan

@@ -1,0 +1,94 @@
+"""Unloadings of a curve, and the power law of one: force, stiffness and exponent at the largest depth."""
+
+from contextlib import suppress
+
+import numpy as np
+
+from .errors import roughness
+from .least_squares import least_squares
+
+#: Bounds of force and stiffness, in units of those of the samples, and of the exponent.
+_LOWER, _UPPER = np.array([[0.1, 1e-3, 0.5]]), np.array([[10.0, 1e3, 50.0]])
+#: Shares of the largest force from and to which the unloading is fitted: those of the result, and others.
+_SHARES = (0.99, 0.5), (0.99, 0.4), (0.99, 0.3), (0.95, 0.5), (0.95, 0.4), (0.95, 0.3)
+#: Least fall and rise of the force, as shares of the peak before, that part one unloading from the next;
+#: least peak, as a share of the largest force; standard deviations of noise that they exceed.
+_FALL, _PEAK, _NOISE = 0.1, 0.01, 6.0
+
+
+def parts_of(force):
+    """Parts of a curve that end with an unloading, from the end of the one before on, as slices."""
+    least = max(_PEAK * force.max(), _NOISE * roughness(force[None])[0, 0])
+    parts, begin, peak, lowest = [], 0, 0, None
+    for i, value in enumerate(force):
+        step = max(_FALL * force[peak], least)
+        if lowest is None:
+            if value >= force[peak]:
+                peak = i
+            elif force[peak] > least and value < force[peak] - step:
+                lowest = i
+        elif value <= force[lowest]:
+            lowest = i
+        elif value > force[lowest] + step:
+            parts.append(slice(begin, lowest + 1))
+            begin, peak, lowest = lowest, i, None
+    return parts if lowest is None else [*parts, slice(begin, force.size)]
+
+
+def last_at_top(depth):
+    """Index of the last sample of the largest depth."""
+    return int(np.flatnonzero(depth == depth.max())[-1])
+
+
+def laws_of(depth, force):
+    """Force, stiffness and exponent of an unloading, their deviations, and those of other parts of it.
+
+    Deviations are the independent ones of the scatter about the power law, arrays (3, 3).
+    """
+    solution, deviations = _power_law(*_part(depth, force, *_SHARES[0]))
+    others = []
+    for shares in _SHARES[1:]:
+        with suppress(ValueError):
+            others.append(_power_law(*_part(depth, force, *shares))[0])
+    return solution, deviations, others
+
+
+def _part(depth, force, upper, lower):
+    """Depths (m) minus the largest one, and forces (N), of the unloading between shares of the force."""
+    start = last_at_top(depth)
+    h, F = depth[start:] - depth[start], force[start:]
+    share = F / np.abs(F).max()
+    below = np.flatnonzero(share < lower)
+    end = below[0] if below.size else np.argmin(F) + 1
+    first = np.flatnonzero(share[:end] >= upper)
+    h, F = (values[first[-1] if first.size else end : end] for values in (h, F))
+    if h.size < 5 or h.min() == 0:
+        raise ValueError(
+            f"{h.size} samples of the upper half of an unloading, 5 or more are needed: after the largest "
+            f"depth, {depth[start]:g} m (sample {start + 1} of {depth.size}), depth and force must fall"
+        )
+    return h, F
+
+
+def _power_law(h, force):
+    """Force, stiffness and exponent at h = 0 of F (1 + S h/(m F))^m, and their independent deviations."""
+    size = np.array([force[0], force[0] / -h.min(), 1.0])
+    x, y = h / -h.min(), force / force[0]
+
+    def function(parameters, _):
+        F, S, m = parameters.T[:, :, None]
+        u = np.maximum(1 + S * x / (m * F), 1e-9)
+        power = u ** (m - 1)
+        columns = power * (u - S * x / F), power * x, F * power * (u * np.log(u) + 1 - u)
+        return F * u * power - y, np.stack(columns, axis=-1)
+
+    start = np.array([[1.0, np.polyfit(x, y, 1)[0], 1.5]])
+    minimum = least_squares(function, start, _LOWER, _UPPER)
+    if minimum.at_bound.any():
+        raise ValueError(
+            "the upper half of the unloading is no power law: the depth creeps, or the samples are "
+            "not in the order of time"
+        )
+    _, s, vt = np.linalg.svd(minimum.jacobian[0], full_matrices=False)
+    scatter = np.sqrt(minimum.squares[0] / (h.size - 3))
+    return minimum.x[0] * size, size[:, None] * vt.T * scatter / s

@@ -1,0 +1,254 @@
+"""Base classes of results: quantities by name, entries, iteration; limits as data; names of the models.
+
+How a result is shown (text, tables, limits in words, plots) stands above the physics, and is imported
+when it is asked for.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
+
+import numpy as np
+
+from .._check import no_attribute
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from numpy.typing import NDArray
+
+
+def above(module):
+    """A module that stands above the physics, as "show.plots"; imported when something is to be shown.
+
+    This is the only door upward: what solves imports nothing else of what shows its results.
+    """
+    return import_module(f"mdr_core.{module}")
+
+
+class Model(str):
+    """Name of a model, with the reason for choosing it in `reason`.
+
+    Examples
+    --------
+    >>> CLOSED_FORM == "closed form"
+    True
+    """
+
+    __slots__ = ("reason",)
+
+    def __new__(cls, name, reason):
+        model = super().__new__(cls, name)
+        model.reason = reason
+        return model
+
+    def __getnewargs__(self):
+        return str(self), self.reason
+
+
+CLOSED_FORM = Model(
+    "closed form",
+    "without viscosity, or infinitely slowly, the plastic depth is the only memory of the medium, and "
+    "every result is an integral over the live interval",
+)
+SCALAR_ODE = Model(
+    "scalar ODE",
+    "a single viscous impact obeys one scalar equation of motion, because elements are released from the "
+    "outside inward and do not come into contact again",
+)
+CREEP_LAW = Model(
+    "scalar ODE",
+    "while an indenter goes deeper, and while it recedes afterwards, its depth under a force obeys one "
+    "scalar equation, because no element that was released comes into contact again",
+)
+CHAIN = Model(
+    "chain",
+    "on a viscous path released elements may come into contact again while they relax, so that each "
+    "element has a memory of its own",
+)
+
+
+class Entries:
+    """Base class of dataclasses whose fields all have one entry, or one row, for each impact."""
+
+    def __getitem__(self, index: Any) -> Self:
+        return type(self)(**{field.name: getattr(self, field.name)[index] for field in fields(self)})
+
+
+@dataclass(frozen=True)
+class Limit:
+    """An assumption of the model, and how near a result is to its end; an entry of `result.limits`.
+
+    Attributes
+    ----------
+    what : str
+        Quantity that is bounded: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa, "Poisson
+        ratio", "viscosity", "speed", "fast limit", "Tabor's parameter", which must be larger than its
+        bound, "facets" of samples with adhesion, for friction "coupling" and "slip direction", and where
+        elements stick "tolerance", "depth" over the elastic compression at the turning point (d_c of a
+        hardness q_c/a) and "mass" over the tangential one; with a constant hardness "flow", the area of a
+        contact that flows over that of the model; and the length (m) of a "jump" of a path given by force.
+    value, bound : float
+        Its largest value over all states, and the largest one for which the assumption is good.
+    exceeded : bool
+        Whether the value is larger than the bound.
+    sentence : str
+        The same in words, and a remedy.
+    concerns : str
+        "result", or the formula of the paper that is concerned while the result itself is exact.
+    severe : bool
+        Whether the result is only an estimate where the bound is exceeded.
+    """
+
+    what: str
+    value: float
+    bound: float
+    exceeded: bool
+    sentence: str
+    concerns: str = "result"
+    severe: bool = True
+
+    @property
+    def holds(self) -> bool:
+        """Whether the value is within the bound."""
+        return not self.exceeded
+
+    @property
+    def level(self) -> str:
+        """One word: "good", "note" where the result hardly changes, else "beyond"."""
+        if self.holds:
+            return "good"
+        return "beyond" if self.severe and self.concerns == "result" else "note"
+
+
+class Record:
+    """Base class of results with quantities by name, which are arrays of one shape."""
+
+    #: Names of all quantities, of those in its `repr`, and of the dimensions.
+    _quantities: ClassVar[tuple[str, ...]] = ()
+    _shown: ClassVar[tuple[str, ...]] = ()
+    _dimensions: ClassVar[tuple[str, ...]] = ("state",)
+
+    @property
+    def _name(self) -> str:
+        """The name under which it is shown."""
+        return type(self).__name__
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape that all quantities have: () for one state or impact."""
+        return np.shape(getattr(self, self._quantities[0]))
+
+    def __len__(self) -> int:
+        if not self.shape:
+            raise TypeError(f"this {self._name} is a single one and has no length; .shape is ()")
+        return self.shape[0]
+
+    def __bool__(self) -> bool:
+        return 0 not in self.shape
+
+    def __iter__(self) -> Iterator[Self]:
+        if not self.shape:
+            name = self._name
+            raise TypeError(f"this {name} is a single one: there is nothing to iterate over")
+        return (self[i] for i in range(self.shape[0]))
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name):
+            names = {*dir(type(self)), *type(self).__dataclass_fields__}
+            known = sorted(each for each in names if not each.startswith("_"))
+            raise no_attribute(f"this {self._name}", name, known)
+
+    def __array__(self, *_: Any, **__: Any) -> NoReturn:
+        raise TypeError(
+            f"a result ({self._name}) is many quantities, not one array: take one, as in result."
+            f"{self._shown[0]}, or all by to_pandas() or to_xarray()"
+        )
+
+    def to_dict(self) -> "dict[str, float | NDArray[np.float64]]":
+        """All quantities by name, in SI units: floats, or arrays of one shape.
+
+        Examples
+        --------
+        >>> from mdr_core import Cone, Medium, indent
+        >>> indent(Cone(slope=1.0), Medium(E_star=1.0), [0.0, 1.0]).to_dict()["force"].round(4).tolist()
+        [0.0, 0.6366]
+        """
+        values = {name: np.asarray(getattr(self, name)) for name in self._quantities}
+        return {name: value if value.ndim else float(value) for name, value in values.items()}
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A table of all quantities in SI units, one row for each state or impact.
+
+        `attrs` has the model, the indenter and the medium, and "units" and "long_names" by the names of the
+        columns. Array-valued parameters of indenter and medium have columns of their own.
+        """
+        return above("show.report").table(self)
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """A dataset of all quantities, each with its `units`, `long_name` and symbol as attributes.
+
+        Prescribed quantities (depth, time, mass, speed, array-valued parameters) are coordinates.
+        """
+        return above("show.report").dataset(self)
+
+    @property
+    def _noun(self):
+        """Noun for one entry."""
+        last = self._dimensions[-1]
+        return "instant" if last == "time" else last
+
+    def _one(self, what):
+        """Refuses a result of several entries where a single one is needed."""
+        if self.shape:
+            raise ValueError(
+                f"{what} is that of one {self._noun}, but these are of shape {self.shape}; pick one first, "
+                f"as in result[-1].{what}(…)"
+            )
+
+    def _source(self) -> Any:
+        """The result with the profile, the medium and the model; None where there is none."""
+        return None
+
+    def _limits(self) -> tuple[Limit, ...]:
+        """Limits of the model for this result."""
+        return ()
+
+    def __getitem__(self, index: Any) -> Self:
+        raise TypeError(f"this {self._name} is a single one: it has no entries")
+
+    def __repr__(self) -> str:
+        return above("show.report").text(self)
+
+    def _repr_html_(self) -> str:
+        return above("show.report").table_of_text(self)
+
+
+class Result(Record):
+    """Base class of results of one profile on one medium, along a path, over time or of impacts."""
+
+    def plot(self, quantity: str = "force", over: str = "depth") -> Any:
+        """One quantity over another as HoloViews elements, by default the force–depth curve.
+
+        A path is shown in parts: loaded elastically, yielding, unloaded. Axes have names and units. Areas
+        of a force–depth curve are the plastic work of the path and what its last state stores.
+
+        Parameters
+        ----------
+        quantity, over : str
+            Names of two quantities of this result, as in `to_dict()`.
+
+        Raises
+        ------
+        ValueError
+            If a name is unknown, or the result has other than one dimension.
+        """
+        return above("show.plots").plot_curve(self, quantity, over)
+
+    def _source(self):
+        return self
+
+    def _limits(self):
+        return self.limits

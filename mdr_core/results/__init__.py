@@ -1,1 +1,0 @@
-"""Results: their quantities, limits, reports and plots."""

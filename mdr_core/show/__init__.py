@@ -1,0 +1,1 @@
+"""What a result looks like: texts, tables, datasets, limits in words, units, plots."""

@@ -1,0 +1,163 @@
+"""How results are shown: text, tables and datasets.
+
+Every function takes a result; `rows` and `limit_rows` can be given for a class of results of its own.
+"""
+
+import html
+from functools import singledispatch
+from importlib import import_module
+
+import numpy as np
+
+from .quantities import QUANTITIES, described, engineering
+
+#: Quantities of results with more entries are not computed in order to be shown.
+_MANY = 1000
+#: Lines of a result's `repr`.
+_MOST_LINES = 12
+#: Quantities that are given, not computed.
+_GIVEN = {"depth", "time", "mass", "speed", "tangential_speed", "friction", "tangential_mass"}
+
+
+def imported(name, what, packages=None):
+    """An optional package, or an error that names what is to be installed for a purpose `what`."""
+    try:
+        return import_module(name)
+    except ImportError:
+        install = f"pip install {packages or name}"
+        raise ImportError(f"{what} needs {name}, which is not installed: {install}") from None
+
+
+def table(result):
+    """A table of all quantities in SI units, one row for each state or impact.
+
+    `attrs` has the model, the indenter and the medium, and "units" and "long_names" by the names of the
+    columns. Array-valued parameters of indenter and medium have columns of their own.
+    """
+    pandas = imported("pandas", "to_pandas()")
+    values = result.to_dict() | _parameters(result)
+    columns = {name: np.broadcast_to(v, result.shape).ravel() for name, v in values.items()}
+    if len(result.shape) > 1:
+        index = pandas.MultiIndex.from_product(map(range, result.shape), names=dimensions(result))
+    else:
+        index = pandas.RangeIndex(len(next(iter(columns.values()))), name=(*dimensions(result), None)[0])
+    table = pandas.DataFrame(columns, index=index)
+    named = {name: QUANTITIES[name] for name in columns if name in QUANTITIES}
+    units = {name: quantity.unit for name, quantity in named.items()}
+    names = {name: quantity.long_name for name, quantity in named.items()}
+    table.attrs.update(attributes(result), units=units, long_names=names)
+    return table
+
+
+def dataset(result):
+    """A dataset of all quantities, each with its `units`, `long_name` and symbol as attributes.
+
+    Prescribed quantities (depth, time, mass, speed, array-valued parameters) are coordinates.
+    """
+    xarray = imported("xarray", "to_xarray()")
+    dims, variables = dimensions(result), {}
+    for name, value in (result.to_dict() | _parameters(result)).items():
+        about = QUANTITIES[name].attributes if name in QUANTITIES else {}
+        variables[name] = (dims, np.broadcast_to(value, result.shape), about)
+    given = (_GIVEN | set(_parameters(result))) & set(variables)
+    given -= {"depth"} if "time" in variables else set()
+    return xarray.Dataset(variables, attrs=attributes(result)).set_coords(sorted(given))
+
+
+def dimensions(result):
+    """Names of the dimensions; the last one counts the states of a path."""
+    names, count = result._dimensions, len(result.shape)
+    if count <= len(names):
+        return names[len(names) - count :]
+    return (*(f"{names[0]}_{i}" for i in range(count - len(names) + 1)), *names[1:])
+
+
+def _parameters(result):
+    """Array-valued parameters of profile and medium, by name."""
+    source, parameters = result._source(), {}
+    for owner in (source.profile, source.medium) if source else ():
+        values = {name: getattr(owner, name) for name in owner.__dataclass_fields__}
+        parameters |= {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
+    return parameters
+
+
+def attributes(result):
+    """Attributes of a table or a dataset, all of them texts."""
+    source, texts = result._source(), {"result": result._name}
+    if source:
+        texts |= {"model": str(source.model), "indenter": described(source.profile)}
+        texts["medium"] = described(source.medium)
+    exceeded = [limit.sentence for limit in result._limits() if limit.exceeded]
+    return texts | ({"limits": " ".join(exceeded)} if exceeded else {})
+
+
+def title(result):
+    """First line of the `repr`: the name, the number of entries and the model."""
+    source = result._source()
+    noun = result._noun if np.prod(result.shape) == 1 else f"{result._noun}s"
+    size = f"{' × '.join(map(str, result.shape)) or 'one'} {noun}"
+    return f"{result._name}: {size}{f', {source.model}' if source else ''}"
+
+
+@singledispatch
+def rows(result):
+    """Pairs of a label and a text, one for each line of the `repr`."""
+    source, many = result._source(), np.prod(result.shape) > _MANY
+    if source:
+        yield "indenter", described(source.profile)
+        yield "medium", described(source.medium)
+    for name in result._shown:
+        quantity, label = QUANTITIES[name], name.replace("_", " ")
+        # Quantities of a large ensemble are shown if they are there already.
+        stored = name in _GIVEN or name in vars(result)
+        text = engineering(getattr(result, name), quantity.unit) if stored or not many else f".{name}"
+        yield f"{label} {quantity.symbol}", text
+
+
+@singledispatch
+def limit_rows(result, most):
+    """Rows on the limits that are exceeded, `most` at the most; none for a large ensemble."""
+    if np.prod(result.shape) > _MANY:
+        return
+    limits = [x for x in result._limits() if x.exceeded and x.concerns == "result"]
+    first = limits if len(limits) <= most else limits[: max(most - 1, 0)]
+    yield from (("limit", limit.sentence) for limit in first)
+    if others := limits[len(first) :]:
+        yield "limits", f"{', '.join(limit.what for limit in others)}: see .limits"
+
+
+def text(result):
+    """The `repr` of a result."""
+    lines = [(label, f"{text:.140}") for label, text in rows(result)]
+    lines += limit_rows(result, _MOST_LINES - 1 - len(lines))
+    return lines_of(title(result), lines)
+
+
+def lines_of(title, rows):
+    """Text of a title and of rows with a label and a text each."""
+    return "\n".join([title, *(f"  {label:<24} {text}" for label, text in rows)])
+
+
+def table_of_text(result):
+    """The same as `text` as a table in HTML."""
+    cells = "".join(
+        f"<tr><th style='text-align:left'>{html.escape(label)}</th>"
+        f"<td style='text-align:left'>{html.escape(text)}</td></tr>"
+        for label, text in (*rows(result), *limit_rows(result, _MOST_LINES))
+    )
+    return f"<table><caption>{html.escape(title(result))}</caption>{cells}</table>"
+
+
+def foundation_text(foundation):
+    """The `repr` of a `Foundation`."""
+    width, moves = engineering(foundation.half_width, "m"), len(foundation.history)
+    title = f"Foundation: {foundation.n} elements to ±{width}, after {moves} moves"
+    return lines_of(
+        title,
+        [
+            ("indenter", described(foundation.profile)),
+            ("medium", described(foundation.medium)),
+            ("depth d", engineering(foundation.depth, "m")),
+            ("force F", engineering(foundation.force, "N")),
+        ],
+    )

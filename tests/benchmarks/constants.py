@@ -1,0 +1,69 @@
+"""Where pieces of quadratures are cut: errors of contact time and plastic work with other cuts.
+
+python -m tests.benchmarks.constants
+
+For `TRANSITIONS` (contact_time.py) and `scales` (yielding.py): the largest relative error over impacts of
+five shapes with a transition depth, from far below it to far above, against much denser cuts.
+"""
+
+from unittest.mock import patch
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.contact.yielding import RadiusCap, YieldRule
+from mdr_core.impacts import contact_time
+
+SHAPES = (
+    mdr.Sphere(1e-6),
+    mdr.Hyperboloid(0.3, 1e-6),
+    mdr.RoundedCone(1e-6, 0.3),
+    mdr.TruncatedCone(1e-6, 0.3),
+    mdr.ParabolicPunch(1e-5, 1e-6),
+)
+MEDIA = {"q_c": mdr.Medium(1e9, q_c=5.0), "H, q_c, f_c": mdr.Medium(1e9, q_c=5.0, hardness=1e7, f_c=1e-7)}
+SPEEDS = np.geomspace(1e-6, 10.0, 60)
+
+
+def values(medium):
+    """Contact times (s) and plastic work (J) of all impacts, an array for each shape."""
+    for shape in SHAPES:
+        hit = mdr.impact(shape, medium, 1e-12, SPEEDS)
+        yield np.array([hit.contact_time, hit.plastic_work])
+
+
+def error(medium, target, name, cuts, exact):
+    """Largest relative errors of contact time and of plastic work with these cuts."""
+    with patch.object(target, name, cuts):
+        tried = [np.abs(got / right - 1) for got, right in zip(values(medium), exact, strict=True)]
+    return [max(float(np.nanmax(part[i], initial=0.0)) for part in tried) for i in (0, 1)]
+
+
+def table(what, medium, target, name, candidates, dense):
+    """Prints the errors of the candidates."""
+    with patch.object(target, name, dense), np.errstate(all="ignore"):
+        exact = list(values(medium))
+    print(f"{what}, contact time and plastic work:")
+    with np.errstate(all="ignore"):
+        for cuts in candidates:
+            time, work = error(medium, target, name, np.asarray(cuts), exact)
+            print(f"  {np.array2string(np.asarray(cuts), precision=3):60} {time:9.1e} {work:9.1e}")
+
+
+def main():
+    """Prints the tables."""
+    shares = ([], [1.0], [6.0], [0.5, 3.0], [1.0, 6.0], [2.0, 12.0], [1.0, 3.0, 9.0])
+    dense = np.geomspace(0.1, 100.0, 17)
+    for what, medium in MEDIA.items():
+        table(f"TRANSITIONS, {what}", medium, contact_time, "TRANSITIONS", shares, dense)
+    rules = ("ConstantCap", MEDIA["q_c"], YieldRule), ("RadiusCap", MEDIA["H, q_c, f_c"], RadiusCap)
+    for what, medium, rule in rules:
+        first, factor = rule.scales[0], rule.scales[1] / rule.scales[0]
+        tried = [first * factor ** np.arange(n) for n in (0, 1, 3, 6)]
+        tried += [2 * rule.scales, rule.scales / 2, first * (factor**2) ** np.arange(3)]
+        dense = first / factor * factor ** (np.arange(0, 64) / 8)
+        table(f"scales of {what}", medium, rule, "scales", tried, dense)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,86 @@
+"""The kernel of the paper stands alone: it solves where everything else of the package is deleted."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from .test_layout import KERNEL
+
+ROOT = Path(__file__).parents[1]
+#: Folders of tests of the kernel, and files that are quick of those that are run without the rest.
+FOLDERS = "numerics", "profiles", "contact", "impacts", "foundation"
+RUN = "foundation/test_element.py", "contact/test_closed_forms.py", "impacts/test_scaling.py"
+
+SOLVES = """
+import numpy as np
+import mdr_core as mdr
+
+# Hertz, Popov (2015), section 2: F = 4/3 E* sqrt(R) d^1.5, and p0 = 2 E* a/(pi R).
+ball = mdr.Paraboloid(radius=1e-3)
+state = mdr.indent(ball, mdr.Medium(1e9), 1e-6)
+print(state.force / (4 / 3 * 1e9 * 1e-3**0.5 * 1e-6**1.5))
+print(state.pressure(0.0) / (2 * 1e9 * state.contact_radius / (np.pi * 1e-3)))
+# What an impact loses is what yields, or what is viscous.
+cone = mdr.Cone(slope=0.3)
+for medium in mdr.Medium(1e9, 10.0), mdr.Medium(1e9, eta=1.0):
+    hit = mdr.impact(cone, medium, 1e-9, 0.1)
+    print((hit.plastic_work + hit.viscous_work) / (0.5e-9 * 0.1**2 * (1 - hit.restitution**2)))
+hit, chain = (solve(cone, mdr.Medium(1e9, 10.0), 1e-9, 0.1) for solve in (mdr.impact, mdr.chain_impact))
+print(chain.restitution / hit.restitution)
+"""
+
+
+def run(folder, *arguments):
+    return subprocess.run(
+        [sys.executable, *arguments], cwd=folder, capture_output=True, text=True, timeout=300, check=False
+    )
+
+
+@pytest.fixture(scope="module")
+def kernel(tmp_path_factory):
+    """A copy with the kernel and its tests alone."""
+    folder = tmp_path_factory.mktemp("kernel")
+    (folder / "mdr_core").mkdir()
+    (folder / "tests").mkdir()
+    shutil.copy(ROOT / "pyproject.toml", folder)
+    hidden = shutil.ignore_patterns("__pycache__")
+    for name in ("__init__", *KERNEL):
+        path = ROOT / "mdr_core" / name
+        if path.is_dir():
+            shutil.copytree(path, folder / "mdr_core" / name, ignore=hidden)
+        else:
+            shutil.copy(path.with_suffix(".py"), folder / "mdr_core")
+    for path in (ROOT / "tests").glob("*.py"):
+        if not path.name.startswith("test_"):
+            shutil.copy(path, folder / "tests")
+    for name in FOLDERS:
+        shutil.copytree(ROOT / "tests" / name, folder / "tests" / name, ignore=hidden)
+    return folder
+
+
+def test_it_solves_an_indentation_impacts_and_a_chain(kernel):
+    result = run(kernel, "-c", SOLVES)
+    assert result.returncode == 0, result.stderr
+    *exact, chain = map(float, result.stdout.split())
+    # Viscous impacts have 10⁻⁸ of the energy.
+    assert exact == pytest.approx([1.0] * 4, rel=1e-8)
+    assert chain == pytest.approx(1.0, rel=3e-5)
+
+
+def test_what_is_above_it_is_missing_there(kernel):
+    result = run(kernel, "-c", "import mdr_core as mdr; mdr.oblique_impact")
+    assert "No module named 'mdr_core.oblique'" in result.stderr
+
+
+@pytest.mark.slow
+def test_all_of_its_tests_are_collected_and_some_pass(kernel):
+    pytest.importorskip("mpmath")
+    folders = [f"tests/{name}" for name in FOLDERS]
+    collected = run(kernel, "-m", "pytest", "-q", "--collect-only", "-p", "no:cacheprovider", *folders)
+    assert collected.returncode == 0, collected.stdout
+    files = [f"tests/{name}" for name in RUN]
+    passed = run(kernel, "-m", "pytest", "-q", "--quick", "-p", "no:cacheprovider", *files)
+    assert passed.returncode == 0, passed.stdout

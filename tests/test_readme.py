@@ -1,0 +1,107 @@
+"""The README's table of what goes with what: each cell is run."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+
+from .laws import NixGao
+
+README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+#: Answers of the table by function and column.
+TABLE = {
+    name: ["yes" if cell == "no effect" else cell.split()[0] for cell in cells.split(" | ")]
+    for name, cells in re.findall(r"^\| [^|]+ \| `(\w+)` \| (.*) \|$", README, re.MULTILINE)
+}
+TIP = mdr.Paraboloid(radius=1e-5)
+DEPTH = np.array([0.0, 5e-8, 1e-7, 5e-8])
+FORCE = np.array([0.0, 1e-4, 2e-4, 1e-4])
+TIME = np.linspace(0.0, 1.0, 4)
+#: What each column adds to a medium with E*, beginning with those of the hardness.
+COLUMNS = [
+    [{"hardness": 1e8}, {"q_c": 100.0}, {"hardness": 1e8, "q_c": 100.0}, {}],
+    [{"f_c": 1e-4}, {"hardness": 1e8, "q_c": 100.0, "f_c": 1e-4}],
+    [{"hardness": NixGao(1e8, 1e-6)}],
+    [{"q_c": 100.0, "eta": 1e3}, {"eta": 1e3}],
+    [{"q_c": 100.0, "work_of_adhesion": 0.01}, {"work_of_adhesion": 0.01}],
+]
+DRIVES = {
+    "indent": lambda medium: mdr.indent(TIP, medium, DEPTH).force,
+    "indent_to_force": lambda medium: mdr.indent_to_force(TIP, medium, FORCE).depth,
+    "indent_in_time": lambda medium: mdr.indent_in_time(TIP, medium, DEPTH, TIME).force,
+    "creep": lambda medium: mdr.creep(TIP, medium, FORCE, TIME).depth,
+    "impact": lambda medium: mdr.impact(TIP, medium, 1e-11, 0.3).restitution,
+    "oblique_impact": lambda medium: (
+        mdr.oblique_impact(TIP, medium, 1e-11, 0.3, 0.3, 0.2, tolerance=1e-3).tangential_velocity
+    ),
+}
+
+
+def test_the_table_has_all_drives():
+    assert set(TABLE) == {*DRIVES, "fit_indentation"}
+    assert {len(row) for row in TABLE.values()} == {len(COLUMNS) + 1}
+    assert {cell for row in TABLE.values() for cell in row} == {"yes", "no"}
+    assert [name for name, row in TABLE.items() if row[-1] == "yes"] == ["oblique_impact"]
+
+
+@pytest.mark.parametrize("column", range(len(COLUMNS)))
+@pytest.mark.parametrize("name", DRIVES)
+def test_a_drive_takes_a_medium_where_the_table_says_so(name, column):
+    solve, answer = DRIVES[name], TABLE[name][column]
+    for given in COLUMNS[column]:
+        medium = mdr.Medium(E_star=1e9, **given)
+        if answer == "no":
+            with pytest.raises(ValueError, match=r"adhesion|path of force in time"):
+                solve(medium)
+        else:
+            assert np.all(np.isfinite(solve(medium)))
+
+
+@pytest.mark.parametrize("name", ["indent", "indent_to_force"])
+def test_a_slow_path_does_not_depend_on_the_viscosity(name):
+    """The table's "no effect"."""
+    media = [mdr.Medium(E_star=1e9, q_c=100.0, eta=eta) for eta in (0.0, 1e3)]
+    assert re.search(rf"`{name}` .*no effect", README)
+    assert np.array_equal(*map(DRIVES[name], media))
+
+
+@pytest.mark.parametrize("other", [{"eta": 1e3}, {"hardness": 1e8}, {"f_c": 1e-4}])
+def test_adhesion_goes_with_q_c_alone(other):
+    """Note (1) of the table."""
+    with pytest.raises(ValueError, match="adhesion"):
+        mdr.indent(TIP, mdr.Medium(E_star=1e9, work_of_adhesion=0.01, **other), 1e-8)
+
+
+def test_an_impact_with_adhesion_has_no_motion_in_time():
+    hit = mdr.impact(TIP, mdr.Medium(E_star=1e9, work_of_adhesion=0.01), 1e-11, 0.3)
+    with pytest.raises(ValueError, match="motion"):
+        hit.motion(10)
+
+
+FITS = {
+    "elastic": ({"q_c": np.inf}, "yes yes"),
+    "q_c": ({"q_c": None}, "yes no"),
+    "H": ({"hardness": None}, "no no"),
+    "f_c": ({"f_c": None}, "no no"),
+    "H, q_c": ({"hardness": None, "q_c": None}, "no no"),
+}
+
+
+@pytest.mark.parametrize("name", FITS)
+def test_a_fit_takes_viscosity_and_adhesion_where_the_notes_say_so(name):
+    """Notes (2) and (3) of the table."""
+    given, answers = FITS[name]
+    depth = np.append(np.linspace(0, 1e-7, 30), np.linspace(1e-7, 3e-8, 20))
+    force = mdr.indent(TIP, mdr.Medium(E_star=1e9, q_c=20.0), depth).force
+    force = force + 1e-9 * np.random.default_rng(1).normal(size=50)
+    mdr.fit_indentation(TIP, depth, force, **given)
+    others = {"eta": None, "time": np.linspace(0, 1, 50)}, {"work_of_adhesion": None}
+    for other, answer in zip(others, answers.split(), strict=True):
+        if answer == "no":
+            with pytest.raises(ValueError, match=next(iter(other))):
+                mdr.fit_indentation(TIP, depth, force, **given, **other)
+        else:
+            mdr.fit_indentation(TIP, depth, force, **given, **other)
