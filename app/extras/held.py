@@ -117,7 +117,8 @@ def scenes(view: View) -> list[Held]:
 
 def _reach(view: View, along: Along) -> tuple[float, float]:
     """How far compared scenes go along an axis of a plot in which they are drawn."""
-    plots = [PLOTS[overlay.on] for overlay in OVERLAYS if along in PLOTS[overlay.on].axes]
+    drawn = (PLOTS[overlay.on] for overlay in OVERLAYS if overlay.on in PLOTS)
+    plots = [plot for plot in drawn if along in plot.axes]
     courses = (each.course for each in scenes(view))
     known = [c for c in courses if any(plot.applies(View(view.state, c)) for plot in plots)]
     lowest, largest = zip((0.0, 0.0), *map(along.span, known), strict=True)

@@ -185,6 +185,13 @@ class Explorer:
         # Until the address has it, its change would be taken for that of what is done next.
         self.link(f"tiles={plot}")
 
+    def save(self, figure):
+        """Save the picture of one plot, which is where it is large."""
+        card = self.page.locator(f".card.{figure}")
+        card.get_by_role("button", name="Large").click()
+        card.get_by_role("button", name="Save").click()
+        card.get_by_role("button", name="Small").click()
+
     def pick(self, option):
         """Pick an option of a choice by its text, and wait until it is drawn."""
         self.change(self.page.get_by_label(option, exact=True).first.check)

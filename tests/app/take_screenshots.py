@@ -21,7 +21,7 @@ def main():
             explorer.choose("Preset", PRESETS[DROP].label)
             explorer.press("More about the medium")
             explorer.pick("η")
-            explorer.press("Energy")
+            explorer.page.get_by_label("Fourth plot").select_option(label="Energy")
             explorer.press("Dark")
             explorer.wait("document.documentElement.classList.contains('dark')")
             explorer.field("v_0").wait_for()

@@ -63,7 +63,7 @@ def saved(request, server, context):
     pictures = {}
     for name in ("springs", "pressure", "force", "sweep", "section"):
         with explorer.page.expect_download() as download:
-            explorer.page.locator(f".card.{name}").get_by_role("button", name="Save").click()
+            explorer.save(name)
         pictures[name] = download.value.path().read_bytes()
     yield pictures, dark
     assert explorer.problems == []
