@@ -229,19 +229,18 @@ class IndentationFit(Fit):
             yield "mean pressure F/(π a²)", f"{text}, {yielded} where all of it yields"
 
     def _comparable(self):
-        """Rows on the number to quote of one curve, and why that of the model differs."""
+        """Rows on the number to quote of one curve, another law to fit, and why the model's E* differs."""
         if self.shape or self.invalid:
             return
-        if classes := self.classes:
-            yield from fit_again(
-                classes, self.standard_errors, np.count_nonzero(np.isfinite(self.residuals))
-            )
         quote = self.quoted
         if quote.source is None:
             yield "to quote", f"no E*: {quote.reason}"
-            return
-        value = with_error(quote.value, quote.standard_error, "Pa")
-        yield "to quote", f"E* {value} of the {quote.source}: {quote.reason}"
+        else:
+            value = with_error(quote.value, quote.standard_error, "Pa")
+            yield "to quote", f"E* {value} of the {quote.source}: {quote.reason}"
+        if classes := self.classes:
+            samples = np.count_nonzero(np.isfinite(self.residuals))
+            yield from fit_again(classes, self.standard_errors, samples)
         if quote.source == "unloading":
             yield (
                 "the model's",

@@ -100,9 +100,11 @@ def _critical_depth_limit(medium):
     if not medium.inverse_to_radius:
         return
     depths, q_c = np.broadcast_arrays(medium.critical_depth, medium.q_c)
-    if not depths.size or depths.min() >= _ATOM:
+    # Curves that could not be fitted have NaN.
+    small = depths < _ATOM
+    if not np.any(small):
         return
-    least, q_c = float(depths.min()), float(q_c.flat[depths.argmin()])
+    least, q_c = float(np.min(depths[small])), float(np.min(q_c[small]))
     text = (
         f"The critical depth π q_c/(2E*) is {engineering(least, 'm')}, less than an atom (0.1 nm), so that "
         f"the medium carries nearly no force: check that q_c = {q_c:.3g} is a yield constant in N/m"

@@ -250,8 +250,8 @@ class TestVerdict:
             assert getattr(own.medium, constant) == pytest.approx(value, rel=0.02)
         assert min(each.misfit for other, each in fit.classes.items() if other != letter) > 1.5 * own.misfit
         assert f"class of hardness        ({letter}): misfit" in repr(fit)
-        # The fit is that of q_c: the report of another class begins with what to do.
-        head = repr(fit).splitlines()[2]
+        # The fit is that of q_c: at the head, below the number to quote, a report says what to do instead.
+        head = " ".join(repr(fit).splitlines()[2:4])
         (constant,) = ALONE[letter]
         assert (f"fit again with {constant}=None, class ({letter})" in head) == (letter != "b")
         again = mdr.fit_indentation(self.PROFILE, OUT + 3e-9, force, **{constant: None})
