@@ -26,7 +26,8 @@ def notes(view: View) -> dict[str, str]:
     for name, source in preset.sources.items():
         value = marked(with_symbol(name, preset.values[name]))
         sources += f"<dt>{value}</dt><dd>{escape(source)}</dd>"
-    head = f"{'Altered. ' if altered(state) else ''}Where the preset's numbers come from:"
+    head = "Altered. " * bool(altered(state)) + "Where the preset's numbers come from, "
+    head += "and which of them are illustrative:"
     energy = written(state.mass * state.speed**2 / 2, "energy")
     height = written(state.speed**2 / (2 * _GRAVITY), "length")
     slope = getattr(course.scene.profile, "slope", None)

@@ -33,7 +33,7 @@ SCRIPT = """
 window.explorer = {
   model: (name) => window.Bokeh?.documents[0]?.get_model_by_name(name),
   row: (figure, row) => {
-    for (const { data_source: { data } } of explorer.model(figure).renderers) {
+    for (const { data_source: { data } } of explorer.model(figure)?.renderers ?? []) {
       const k = data.row?.indexOf(row) ?? -1
       if (k < 0) continue
       const mine = (part) => Array.from(part).filter((_, n) => data.row[n] === row)

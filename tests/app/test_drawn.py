@@ -145,6 +145,7 @@ def test_an_impact_turns_orange_where_it_yields(server, page, drive):
 def test_a_wavy_tip_is_refused_and_a_preset_is_chosen_again(server, page, tmp_path):
     """What is refused changes nothing; over a measured tip stands no preset's name."""
     page.goto(server.url)
+    page.page.get_by_label("Shape", exact=True).select_option(label="Measured tip: a file")
     tip, r = page.page.get_by_label("CSV file of a measured tip: r, z"), np.linspace(-400, 400, 161)
     path = tmp_path / "tip.csv"
     path.write_text(table({"r (nm)": r, "z (nm)": r**2 / 2000 + 50 * np.sin(r / 30)}), encoding="utf-8")
@@ -168,9 +169,9 @@ def test_a_wavy_tip_is_refused_and_a_preset_is_chosen_again(server, page, tmp_pa
 def test_a_number_that_is_shown_is_the_one_that_is_used(server, page):
     """Young's modulus of diamond is 1.141 TPa; what is typed has nine digits, what is dragged five."""
     page.goto(server.url)
-    sources = page.page.locator("details", has_text="Where the preset's numbers come from")
-    sources.locator("summary").click()
-    said = sources.locator("dt").all_inner_texts()
+    page.press("More about the medium")
+    page.page.get_by_text("Where the preset's numbers come from").wait_for()
+    said = page.page.locator(".form dt").all_inner_texts()
     assert "E2 = 1.141 TPa" in said
     page.change(page.type, "d_max", "8.12345678 nm")
     assert page.field("d_max").input_value() == "8.12345678 nm"
@@ -205,7 +206,7 @@ def test_creep_creeps(server, page):
     page.press("More about the medium")
     page.pick("η")
     page.choose("Pattern", "creep under a force, in time")
-    page.page.locator(".lights", has_text="so far").wait_for(state="hidden")
+    page.page.locator(".lights span", has_text="so far").wait_for(state="hidden")
     tau = amounts(page.page.locator(".form").get_by_text(re.compile("^η = .*τ = ")).inner_text())[1]
     assert amounts(page.field("t_1").input_value())[0] == pytest.approx(tau, rel=0.02)
     d, F = drawn(page, "force", "path ahead")
@@ -237,7 +238,8 @@ def test_sentences_are_true(server, page):
     page.goto(f"{server.url}?preset={DROP}&drive=oblique")
     text = said(page)
     assert "This is exact only for ν = ½; here ν = 0.3." in text
-    assert "which of them are illustrative" in text
+    page.press("More about the medium")
+    page.page.get_by_text("which of them are illustrative").wait_for()
     page.goto(f"{server.url}?damping=eta&eta=1e6")
     text = said(page)
     assert " act in one of the patterns in time of the drive path, or an impact." in text
@@ -280,6 +282,7 @@ def test_refusals_are_said_to_all(server, page, tmp_path):
     page.goto(server.url)
     path = tmp_path / "tip.csv"
     path.write_text("0, 0\n1, 1\n", encoding="utf-8")
+    page.page.get_by_label("Shape", exact=True).select_option(label="Measured tip: a file")
     page.page.get_by_label("CSV file of a measured tip: r, z").set_input_files(path)
     page.page.get_by_text("header must name").last.wait_for()
     said(page)

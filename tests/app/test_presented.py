@@ -120,14 +120,14 @@ def test_nothing_is_cut_with_notes_open_at_720_pixels(lecture):
     lecture.open("Sweep", "sweep", "this scene")
     note = page.locator(".card.sweep .found")
     note.wait_for()
-    page.get_by_text("Assumptions and notes").click()
+    page.get_by_text("Numbers, equations, assumptions").click()
     lecture.wait(f"({BELOW})() < 1")
     card, said = page.locator(".card.sweep").bounding_box(), note.bounding_box()
     figure = page.locator(".card.sweep canvas").first.bounding_box()
     assert card["y"] <= said["y"]
     assert said["y"] + said["height"] <= figure["y"] + 1
     assert figure["y"] + figure["height"] <= card["y"] + card["height"] + 1
-    sizes = page.evaluate("""() => explorer.all().filter((each) => each.matches(".strip .word, h1, h2, h3"))
+    sizes = page.evaluate("""() => explorer.all().filter((each) => each.matches(".strip .name, h1, h2, h3"))
         .map((each) => parseFloat(getComputedStyle(each).fontSize))""")
     assert min(sizes) >= 12
 

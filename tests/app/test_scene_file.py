@@ -171,7 +171,7 @@ def test_it_fits_a_slide_and_a_phone(saved):
     page.set_viewport_size({"width": 390, "height": 844})
     saved.wait("explorer.model('force').inner_width < 330")
     assert page.evaluate("document.documentElement.scrollWidth") == 390
-    assert page.locator("output:visible").count() == page.locator(".strip .word:visible").count() == 8
+    assert page.locator("output:visible").count() == page.locator(".strip .name:visible").count() == 8
     for control in (".player input", ".player button", "#dark"):
         assert page.locator(control).bounding_box()["height"] >= 44
     assert page.locator(".card.springs").bounding_box()["y"] < 300
