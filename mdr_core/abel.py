@@ -1,7 +1,7 @@
 """Abel transforms between 3D and 1D: Popov (2015), Eqs. (3), (7) and (10).
 
-Examples
---------
+An example:
+
 >>> from mdr_core import abel
 >>> print(round(abel.reduce_slope(lambda r: 2 * r, 3.0), 9))  # z = r² has g = 2x²
 18.0

@@ -23,8 +23,8 @@ terminal; of dask arrays ``dask.diagnostics.ProgressBar()`` does.
 
 Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; the regions on disk remain.
 
-Examples
---------
+An example:
+
 >>> from mdr_core import FlatPunch, sweep
 >>> import xarray as xr
 >>> depth = xr.DataArray([0.1, 0.2], dims="path")
