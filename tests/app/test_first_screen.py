@@ -64,6 +64,7 @@ def test_a_box_with_shift_is_zoomed_to_until_a_double_click_or_another_drive(pro
         page.keyboard.up("Shift")
         narrow = "([a, b]) => { const { x } = explorer.axis('pressure'); return x[1] - x[0] < (b - a) / 2 }"
         projector.wait(narrow, before["x"])
+        projector.wait("explorer.axis('pressure').y[0] > 0 && explorer.axis('pressure').y[1] < 15")
 
     zoom()
     within = projector.axis("pressure")
