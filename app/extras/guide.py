@@ -64,7 +64,7 @@ class Guide:
         self._tours, self._going = tours(), False
         self.title = field(pn.widgets.Select, label="Guided scene", options=list(self._tours))
         self.back, self.next = (button(name, width=70) for name in ("Back", "Next"))
-        self.words = html(_INTRO, "said-of-step", styles={"font-size": "13px"})
+        self.words = html(_INTRO, "step")
         self.title.param.watch(lambda event: self.go(0), "value")
         self.back.on_click(lambda event: self.go(self.at - 1))
         self.next.on_click(lambda event: self.go(self.at + 1))
