@@ -20,6 +20,10 @@ def test_a_file_that_is_larger_than_the_browser_should_send_is_refused():
 def test_a_refused_tip_is_named_with_its_misfit():
     page, r = Page(), np.linspace(0, 400, 200)
     wavy = table({"r (nm)": r, "z (nm)": r**2 / 2000 + 50 * np.sin(r / 30)})
+    shapes = part(page, "shape")
+    option, label = shapes.look["options"][-1]
+    assert label == "Measured tip: a file"
+    shapes.act(option)
     for text, why in (
         (wavy, r"the nearest convex profile misses the samples by (\d\d) nm \(rms, most at r = \d+ nm\), "),
         ("depth\n", "no samples; expected rows of numbers"),
