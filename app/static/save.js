@@ -1,10 +1,19 @@
 // Plots as one picture of two pixels a point, each in its place with its title and its legend, and the scene below.
 // Bokeh draws the plot alone: it measures its legend at one pixel a point, and draws it elsewhere at two.
-const settled = () => new Promise((done) => setTimeout(done, 250))
+// Until a plot has its new size, which takes seconds on a busy machine; what is then still to be painted is painted
+// within two frames of the browser.
+const pause = (ms) => new Promise((done) => setTimeout(done, ms))
+async function settled(view, width, height) {
+  for (let waited = 0; waited < 10_000; waited += 20) {
+    await pause(20)
+    if (view.bbox.width === width && view.bbox.height === height) break
+  }
+  await pause(50)
+}
 const FONT = "Helvetica, Arial, sans-serif"
-// Points from the left to titles and legends; widths of a swatch and of a mark, from there to the word, and to the next
-// item; heights of a line and of a title.
-const [LEFT, SWATCH, MARK, BESIDE, BETWEEN, LINE, HEAD] = [64, 28, 14, 8, 18, 18, 32]
+// Points: widths of a swatch and of a mark, from there to the word, and to the next item; heights of a line and of a
+// title, and the letters of an axis, beside which those of a title and a legend are as on the page.
+const [SWATCH, MARK, BESIDE, BETWEEN, LINE, HEAD, LETTERS] = [28, 14, 8, 18, 18, 32, 12]
 const SHAPES = {
   circle: (context, x, y, r) => context.arc(x, y, r, 0, 2 * Math.PI),
   square: (context, x, y, r) => context.rect(x - r, y - r, 2 * r, 2 * r),
@@ -57,26 +66,29 @@ function items_of({ renderers }, rows) {
     return row.flatMap((label, k) => (named(label, k) ? [{ label, kind: glyph.type, look: look(k) }] : []))
   })
 }
-// Items with their places, in lines of a width, and the height of all that is above a plot.
-function laid(context, items, width) {
-  let [x, y] = [LEFT, HEAD + LINE / 2]
+// Items with their places, in lines between the left and a width, and the height of all that is above a plot whose
+// letters are so many times as large as usual.
+function laid(context, items, left, width, scale) {
+  let [x, y] = [left, scale * (HEAD + LINE / 2)]
   const places = items.map((item) => {
-    const word = (item.kind === "Scatter" ? MARK : SWATCH) + BESIDE
+    const word = (item.kind === "Scatter" ? MARK : SWATCH) + scale * BESIDE
     const end = word + context.measureText(item.label).width
-    if (x > LEFT && x + end > width) [x, y] = [LEFT, y + LINE]
+    if (x > left && x + end > width) [x, y] = [left, y + scale * LINE]
     const place = { ...item, x, y, word: x + word }
-    x += end + BETWEEN
+    x += end + scale * BETWEEN
     return place
   })
-  return [places, items.length ? y + LINE / 2 : HEAD]
+  return [places, items.length ? y + scale * LINE / 2 : scale * HEAD]
 }
 async function drawn(context, figure, { rows, title }, [left, top, width, height], paper, ink) {
   context.save()
   context.translate(left, top)
-  Object.assign(context, { fillStyle: ink, textBaseline: "middle", font: `14px ${FONT}` })
-  context.fillText(title, LEFT, HEAD / 2, width - LEFT)
-  context.font = `12px ${FONT}`
-  const [places, head] = laid(context, items_of(figure, rows), width)
+  // A plot that is large has larger letters.
+  const scale = parseFloat(figure.below[0].axis_label_text_font_size) / LETTERS, edge = figure.min_border_left
+  Object.assign(context, { fillStyle: ink, textBaseline: "middle", font: `${14 * scale}px ${FONT}` })
+  context.fillText(title, edge, scale * HEAD / 2, width - edge)
+  context.font = `${12 * scale}px ${FONT}`
+  const [places, head] = laid(context, items_of(figure, rows), edge, width, scale)
   for (const { label, kind, look, x, y, word } of places) {
     context.fillText(label, word, y, width - word)
     context.save()
@@ -87,11 +99,12 @@ async function drawn(context, figure, { rows, title }, [left, top, width, height
     context.restore()
   }
   const { sizing_mode, width: before, height: high } = figure
+  const view = Bokeh.index.find_one(figure)
   figure.setv({ sizing_mode: "fixed", width, height: height - head }, { sync: false })
-  await settled()
+  await settled(view, width, height - head)
   const ratio = Object.getOwnPropertyDescriptor(window, "devicePixelRatio")
   window.devicePixelRatio = 2
-  const { canvas } = Bokeh.index.find_one(figure).export("png", true)
+  const { canvas } = view.export("png", true)
   Object.defineProperty(window, "devicePixelRatio", ratio)
   figure.setv({ sizing_mode, width: before, height: high }, { sync: false })
   context.drawImage(canvas, 0, head, width, height - head)

@@ -186,11 +186,13 @@ class Explorer:
         self.link(f"tiles={plot}")
 
     def save(self, figure):
-        """Save the picture of one plot, which is where it is large."""
+        """The picture of one plot that is saved, which is where it is large."""
         card = self.page.locator(f".card.{figure}")
         card.get_by_role("button", name="Large").click()
-        card.get_by_role("button", name="Save").click()
+        with self.page.expect_download() as download:
+            card.get_by_role("button", name="Save").click()
         card.get_by_role("button", name="Small").click()
+        return download.value.path().read_bytes()
 
     def pick(self, option):
         """Pick an option of a choice by its text, and wait until it is drawn."""

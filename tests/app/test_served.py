@@ -55,13 +55,14 @@ def test_page_comes_back_with_what_it_showed(context):
 
 
 def test_text_of_others_is_never_markup(explorer):
+    explorer.page.get_by_label("Shape", exact=True).select_option(label="Measured tip: a file")
     for text, said in (
         ("", "<img src=x> is empty"),
         (f"{MARKUP} (nm), z (nm)\n0, 0\n1, {MARKUP}\n", "expected two numbers"),
     ):
         file = {"name": "<img src=x>", "mimeType": "", "buffer": text.encode()}
         explorer.page.get_by_label("CSV file of a measured tip: r, z").set_input_files(file)
-        explorer.page.locator(".notyf__message", has_text=said).first.wait_for()
+        explorer.page.locator(".file .said", has_text=said).wait_for()
         assert explorer.page.locator("img[src=x]").count() == 0
     assert_draws(explorer, preset_state())
     for query in (f"preset={MARKUP}", f"fit_note={MARKUP}"):
