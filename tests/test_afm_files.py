@@ -8,6 +8,8 @@ import pytest
 
 import mdr_core as mdr
 
+from .approx import approx
+
 afmformats = pytest.importorskip("afmformats")
 
 #: A cantilever of 0.05 N/m and 60 nm/V over a gel of 20 kPa, under a sphere of 5 µm.
@@ -124,11 +126,11 @@ def test_the_numbers_of_a_map_are_in_order_and_it_is_opened_once(grid, monkeypat
     assert len(curves) == 12
     np.testing.assert_allclose(curves.position, [[2e-6 * k, -1e-6] for k in range(12)], atol=1e-20)
     for k, read in enumerate(curves):
-        assert read.force.max() == pytest.approx(MODULI[k] * FORCE.max())
+        assert read.force.max() == approx(MODULI[k] * FORCE.max())
         assert read.position.tolist() == curves.position[k].tolist()
     assert opened == [1]
     part = curves[-2:]
-    assert (len(part), part.position[0, 0]) == (2, pytest.approx(20e-6))
+    assert (len(part), part.position[0, 0]) == (2, approx(20e-6))
     with pytest.raises(IndexError):
         curves[12]
     assert mdr.read_curve(grid, 3).remarks[0] == "curve 3 of 12: index= picks another one"
@@ -164,8 +166,8 @@ def test_the_recipe_of_the_documentation(tmp_path):
     found = {}
     exec(code.replace("fmt-jpk-fd_spot3-0192.jpk-force", str(tmp_path / "run.tab")), found)
     # Eight digits of the force.
-    assert found["fit"].medium.E_star == pytest.approx(GEL.E_star / np.sqrt(2), rel=1e-5)
-    assert found["fit"].baseline == pytest.approx(0, abs=1e-6 * FORCE.max())
+    assert found["fit"].medium.E_star == approx(GEL.E_star / np.sqrt(2), rel=1e-5)
+    assert found["fit"].baseline == approx(0, abs=1e-6 * FORCE.max())
 
 
 def test_the_recipe_of_a_map(grid, tmp_path, monkeypatch):

@@ -9,6 +9,8 @@ import pytest
 import mdr_core as mdr
 from mdr_core import _hints
 
+from .approx import approx
+
 MEDIUM = mdr.Medium(1e9, 10.0)
 HIT = mdr.impact(mdr.Cone(0.3), MEDIUM, 1e-9, 1.0)
 STATE = mdr.indent(mdr.Cone(0.3), MEDIUM, 1e-9)
@@ -174,10 +176,10 @@ def test_what_rounding_leaves_for_zero_is_taken():
     cone = mdr.Cone(0.3)
     path = mdr.indent_to_force(cone, MEDIUM, 1e-12 * np.sin([np.pi / 2, np.pi]))
     # Elastic: d ∝ √F, so that √(sin π) of the depth is left.
-    assert path.depth[1] == pytest.approx(np.sqrt(np.sin(np.pi)) * path.depth[0], rel=1e-12)
+    assert path.depth[1] == approx(np.sqrt(np.sin(np.pi)) * path.depth[0], rel=1e-12)
     # A part of 10⁻²⁰ of the depth is less than its rounding.
     fresh, again = (mdr.impact(cone, MEDIUM, 1e-12, 0.1, plastic_depth=d).max_depth for d in (0.0, 1e-30))
-    assert again == pytest.approx(fresh, rel=1e-12)
+    assert again == approx(fresh, rel=1e-12)
 
 
 def test_no_indenters_at_all():
@@ -279,7 +281,7 @@ def test_an_unknown_name_is_told_the_nearest_one(owner, name, says):
 def test_cones_of_pyramids_have_their_area(name, degrees, area):
     """A = area h²: 4 tan²68° of Vickers, 3√3/2 of a corner of a cube; degrees with four digits."""
     assert str(degrees) in _hints.model_hint(name)
-    assert np.pi / mdr.Cone.from_half_angle(degrees).slope ** 2 == pytest.approx(area, rel=1e-3)
+    assert np.pi / mdr.Cone.from_half_angle(degrees).slope ** 2 == approx(area, rel=1e-3)
 
 
 def test_what_a_hint_names_is_there():

@@ -12,6 +12,8 @@ import pytest
 
 import mdr_core as mdr
 
+from .approx import approx
+
 for package in ("xarray", "dask.array", "matplotlib"):
     pytest.importorskip(package)
 
@@ -44,13 +46,13 @@ def test_over_the_angle_of_attack(erosion, tmp_path, capsys):
     """Of constant hardness the maximum is where tan 2α = 2 m_t/(μ m); shallow impacts slip throughout."""
     works = erosion.at_all_angles(friction=0.2)
     best = float(works.attack[np.argmax(works.hard_friction_work.values)])
-    assert best == pytest.approx(np.degrees(np.arctan(4 / 7 / 0.2)) / 2, abs=0.5)
+    assert best == approx(np.degrees(np.arctan(4 / 7 / 0.2)) / 2, abs=0.5)
     i, mass = 19, erosion.DENSITY * 4 / 3 * np.pi * 25e-6**3
     v, along = 30 * np.sin(np.radians(20.0)), 30 * np.cos(np.radians(20.0))
     hit = mdr.impact(mdr.Sphere(25e-6), mdr.Medium(**erosion.COMPOSITE), mass, v)
     impulse = 0.2 * mass * v * (1 + hit.restitution)
-    assert works.friction_work[i] == pytest.approx(1e9 * impulse * (along - 3.5 * impulse / mass / 2))
-    assert works.plastic_work[i] == pytest.approx(1e9 * hit.plastic_work)
+    assert works.friction_work[i] == approx(1e9 * impulse * (along - 3.5 * impulse / mass / 2))
+    assert works.plastic_work[i] == approx(1e9 * hit.plastic_work)
     erosion.attack_picture(works, tmp_path / "attack.png")
     assert re.search(
         r"friction work, constant hardness: at most [\d.]+ nJ, at 35°", capsys.readouterr().out
@@ -72,5 +74,5 @@ def test_its_sums_are_those_of_the_impacts(erosion):
     ]
     np.testing.assert_allclose(hits.damaged_area[:200], areas, rtol=1e-12)
     together = mdr.impact(mdr.Sphere(radius), medium, mass, speed)
-    assert mean == pytest.approx(together.damaged_area.mean(), rel=1e-12)
+    assert mean == approx(together.damaged_area.mean(), rel=1e-12)
     assert kept["histogram of restitution"].sum().compute() == 3000

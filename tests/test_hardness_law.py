@@ -9,6 +9,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.hardness import HardnessLaw, SumOfClasses
 
+from .approx import approx
 from .laws import FAULTS, Decaying, Kinked, Layered, NixGao, Written, Wrong
 
 E, H, L = 70e9, 2e9, 1e-6
@@ -97,7 +98,7 @@ class TestALawThatWritesTheSumOut:
             one, other = (each[i].stress(r[1:3], 2e-7).zz for each in (states, others))
             np.testing.assert_allclose(one, other, rtol=1e-10)
         for quantity in (mdr.yield_depth, mdr.critical_force, lambda *pair: mdr.yield_speed(*pair, 1e-9)):
-            assert quantity(shape, law) == pytest.approx(quantity(shape, constants), rel=1e-12, abs=0)
+            assert quantity(shape, law) == approx(quantity(shape, constants), rel=1e-12, abs=0)
 
     @pytest.mark.parametrize("shape", [CONE, mdr.Sphere(radius=1e-5), BLUNT], ids=["cone", "ball", "blunt"])
     def test_to_a_force(self, shape, mixture):
@@ -140,7 +141,7 @@ class TestALawThatWritesTheSumOut:
         # q/a it has longer ramps, with other errors.
         for name in ("restitution", "max_depth", "max_force", "plastic_work"):
             rel = 1e-5 if mixture == "q" else 1e-10
-            assert getattr(one, name) == pytest.approx(getattr(other, name), rel=rel)
+            assert getattr(one, name) == approx(getattr(other, name), rel=rel)
 
     def test_ensembles(self, mixture):
         hardness, q_c, f_c = (np.array([1.0, 1.3, 0.8]) * part for part in MIXTURES[mixture])
@@ -151,7 +152,7 @@ class TestALawThatWritesTheSumOut:
         one, other = (mdr.impact(balls, medium, 1e-12, speed) for medium in (law, constants))
         assert_same(one, other, rel=4e-12)
         single = mdr.impact(mdr.Sphere(radius=2e-5), law.entries(1), 1e-12, 30.0)
-        assert single.restitution == pytest.approx(one.restitution[1, 1], rel=1e-12)
+        assert single.restitution == approx(one.restitution[1, 1], rel=1e-12)
         depth = np.array([[1e-7, 5e-7]])
         columns = [mdr.indent(CONE, each.entries(np.s_[:, None]), depth) for each in (law, constants)]
         assert_same(*columns, names=["force", "plastic_depth", "plastic_work"])
@@ -169,7 +170,7 @@ def test_oblique_impacts_over_a_law_of_ones_own(mixture, eta):
     )
     assert known.plastic_work > 0
     for name in ("tangential_velocity", "max_tangential_force", "friction_work", "restitution"):
-        assert getattr(own, name) == pytest.approx(getattr(known, name), rel=1e-7 if eta else 1e-10), name
+        assert getattr(own, name) == approx(getattr(known, name), rel=1e-7 if eta else 1e-10), name
 
 
 def test_sweeps_take_one_law_for_all():
@@ -227,12 +228,12 @@ class TestNixAndGao:
     def test_the_chain(self, eta):
         medium = replace(self.medium, eta=eta)
         hit, chain = mdr.impact(CONE, medium, 1e-12, 20.0), mdr.chain_impact(CONE, medium, 1e-12, 20.0)
-        assert hit.restitution == pytest.approx(chain.restitution, abs=2e-6)
-        assert hit.max_depth == pytest.approx(chain.max_depth, rel=2e-6)
-        assert hit.plastic_work == pytest.approx(chain.plastic_work, rel=1e-5)
+        assert hit.restitution == approx(chain.restitution, abs=2e-6)
+        assert hit.max_depth == approx(chain.max_depth, rel=2e-6)
+        assert hit.plastic_work == approx(chain.plastic_work, rel=1e-5)
         for name in ("contact_time", "max_force"):
             bound = max(getattr(chain.errors, name), 2e-6)
-            assert getattr(hit, name) == pytest.approx(getattr(chain, name), rel=bound)
+            assert getattr(hit, name) == approx(getattr(chain, name), rel=bound)
 
     def test_dry_impacts_and_motions(self):
         """Also over an imprint: energy balance and quadrature against the equation of motion."""
@@ -240,8 +241,8 @@ class TestNixAndGao:
             hit = mdr.impact(BALL, self.medium, 1e-12, [0.3, 3.0, 20.0], plastic_depth=imprint)
             for i in range(3):
                 motion = hit[i].motion(3)
-                assert -motion.velocity[-1] / hit.speed[i] == pytest.approx(hit.restitution[i], abs=1e-9)
-                assert motion.time[-1] == pytest.approx(hit.contact_time[i], rel=1e-9)
+                assert -motion.velocity[-1] / hit.speed[i] == approx(hit.restitution[i], abs=1e-9)
+                assert motion.time[-1] == approx(hit.contact_time[i], rel=1e-9)
 
     def test_it_is_found_from_a_curve(self):
         scipy = pytest.importorskip("scipy.optimize")
@@ -280,9 +281,9 @@ def test_steep_laws_keep_the_balance_of_energy(law, shape):
         step = np.diff(edges)[:, None]
         s = edges[:-1, None] + step * (1 + node) / 2
         force = mdr.indent(shape, medium, s.reshape(-1, 1)).force.reshape(s.shape)
-        assert np.sum(force * step * weight / 2) == pytest.approx(0.5e-12 * hit.speed[i] ** 2, rel=1e-12)
+        assert np.sum(force * step * weight / 2) == approx(0.5e-12 * hit.speed[i] ** 2, rel=1e-12)
         motion = hit[i].motion(3)
-        assert motion.time[-1] == pytest.approx(hit.contact_time[i], rel=1e-8)
+        assert motion.time[-1] == approx(hit.contact_time[i], rel=1e-8)
 
 
 class TestAForceThatFalls:
@@ -301,7 +302,7 @@ class TestAForceThatFalls:
             state = mdr.indent_to_force(shape, medium, share * first_top)
             first = depth[np.argmax(force >= share * first_top)]
             assert 0 <= first - state.depth <= depth[1] - depth[0]
-            assert state.force == pytest.approx(share * first_top, rel=1e-12)
+            assert state.force == approx(share * first_top, rel=1e-12)
             assert ("jump" in [limit.what for limit in state.limits]) == (share > 1)
 
     def test_the_largest_force_of_an_impact_may_be_an_earlier_one(self):
@@ -309,7 +310,7 @@ class TestAForceThatFalls:
         medium = mdr.Medium(1.0, hardness=law)
         speed = 1.5 * mdr.yield_speed(shape, medium, 1.0)
         hit = mdr.impact(shape, medium, 1.0, [speed, 9 * speed])
-        assert hit.max_force[0] == pytest.approx(mdr.critical_force(shape, medium), rel=1e-12)
+        assert hit.max_force[0] == approx(mdr.critical_force(shape, medium), rel=1e-12)
         assert hit.turning_point.force[0] < 0.99 * hit.max_force[0]
         assert hit.max_force[1] == hit.turning_point.force[1]
 
@@ -320,7 +321,7 @@ class TestAForceThatFalls:
         top = int(np.argmax(np.diff(force) < 0))
         assert mdr.yield_depth(cone, medium) == 0.0 < force[top + 100] < force[top]
         state = mdr.indent_to_force(cone, medium, 1.001 * force[top])
-        assert state.depth == pytest.approx(depth[np.argmax(force >= 1.001 * force[top])], rel=1e-3)
+        assert state.depth == approx(depth[np.argmax(force >= 1.001 * force[top])], rel=1e-3)
         hit = mdr.impact(cone, medium, 1e-12, 30.0)
         reached = max(force[depth <= hit.max_depth].max(), hit.turning_point.force)
         assert reached <= hit.max_force * (1 + 1e-12) <= reached * (1 + 1e-6)
@@ -358,11 +359,11 @@ class TestWhatIsNoLaw:
         medium = mdr.Medium(E, hardness=Wrong(fault))
         if fault != "negative":
             small = mdr.indent(BALL, medium, 0.9e-9)
-            assert small.force == pytest.approx(mdr.indent(BALL, flat, 0.9e-9).force, rel=1e-13)
+            assert small.force == approx(mdr.indent(BALL, flat, 0.9e-9).force, rel=1e-13)
             hit, other = (mdr.impact(BALL, each, 1e-16, 1.0) for each in (medium, flat))
             assert other.contact_radius < 1e-7
-            assert hit.restitution == pytest.approx(other.restitution, rel=1e-12)
-            assert hit.contact_time == pytest.approx(other.contact_time, rel=1e-11)
+            assert hit.restitution == approx(other.restitution, rel=1e-12)
+            assert hit.contact_time == approx(other.contact_time, rel=1e-11)
         assert mdr.indent(BALL, medium, 0.5e-9).force > 0
 
     def test_an_ensemble_is_looked_at_one_by_one(self):
@@ -431,7 +432,7 @@ class TestTheMedium:
         medium = mdr.Medium(E, hardness=self.law)
         assert medium.hardness is self.law
         assert medium.q_c == medium.f_c == 0.0
-        assert medium.hardness_at(3 * L) == pytest.approx(0.5 * H * np.sqrt(2), rel=1e-15)
+        assert medium.hardness_at(3 * L) == approx(0.5 * H * np.sqrt(2), rel=1e-15)
         assert medium.hardness_at([L, 3 * L]).shape == (2,)
         assert replace(mdr.Medium(E), hardness=self.law) == medium
         assert replace(medium, E_star=2 * E).hardness is self.law
@@ -506,7 +507,7 @@ class TestTheMedium:
     def test_a_scene_is_solved(self):
         scene = mdr.Scene(CONE, mdr.Medium(E, hardness=self.law), mdr.FreeImpact(1e-12, 10.0))
         assert {str(model) for model in scene.models} == {"closed form", "scalar ODE", "chain"}
-        assert scene.solve("scalar ODE").restitution == pytest.approx(scene.solve().restitution, abs=1e-9)
+        assert scene.solve("scalar ODE").restitution == approx(scene.solve().restitution, abs=1e-9)
 
 
 COPPER = mdr.Medium(E, hardness=SIZE)

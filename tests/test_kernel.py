@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from .approx import approx
 from .test_layout import KERNEL
 
 ROOT = Path(__file__).parents[1]
@@ -66,8 +67,8 @@ def test_it_solves_an_indentation_impacts_and_a_chain(kernel):
     assert result.returncode == 0, result.stderr
     *exact, chain = map(float, result.stdout.split())
     # Viscous impacts have 10⁻⁸ of the energy.
-    assert exact == pytest.approx([1.0] * 4, rel=1e-8)
-    assert chain == pytest.approx(1.0, rel=3e-5)
+    assert exact == approx([1.0] * 4, rel=1e-8)
+    assert chain == approx(1.0, rel=3e-5)
 
 
 def test_what_is_above_it_is_missing_there(kernel):

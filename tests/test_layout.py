@@ -13,6 +13,8 @@ import pytest
 
 import mdr_core as mdr
 
+from .approx import approx
+
 PACKAGE = Path(mdr.__file__).parent
 #: From the bottom up; what is of one folder may import what stands below it, and others of the folder.
 KERNEL = (
@@ -184,5 +186,5 @@ def test_both_impacts_answer_the_same_names():
     for name in hit.to_dict():
         one, other = getattr(hit, name), getattr(chain, name)
         # The tolerance of the chain is 1e-6 of the depth, of which forces, areas and times are powers.
-        assert other == pytest.approx(one, rel=3e-5), name
+        assert other == approx(one, rel=3e-5), name
         assert isinstance(one, float | np.floating), name

@@ -7,6 +7,8 @@ import pytest
 
 import mdr_core as mdr
 
+from .approx import approx
+
 DATA = Path(__file__).parent / "data"
 TIP, GLASS = mdr.Cone.berkovich(), mdr.Medium(E_star=80e9, hardness=14e9)
 #: Rate of a drift (m/s), and compliance of a frame (m/N).
@@ -92,8 +94,8 @@ def test_drift_and_frame_are_the_inverse_of_what_they_add(tmp_path, labelled):
     curve = read(tmp_path, measured, labels=names if labelled else None)
     rate = curve.drift()
     # 20 of 620 samples are withdrawn: they shift the median of the slopes by less than the written digits.
-    assert rate == pytest.approx(DRIFT, rel=1e-3)
-    assert curve.drift(slice(720, 1300)) == pytest.approx(DRIFT, rel=1e-6)
+    assert rate == approx(DRIFT, rel=1e-3)
+    assert curve.drift(slice(720, 1300)) == approx(DRIFT, rel=1e-6)
     corrected = curve.minus_drift(DRIFT).minus_frame(FRAME)
     np.testing.assert_allclose(corrected.depth, DEPTH, atol=1e-11 * DEPTH.max() + 1e-19)
     np.testing.assert_array_equal(corrected.force, curve.force)
@@ -101,7 +103,7 @@ def test_drift_and_frame_are_the_inverse_of_what_they_add(tmp_path, labelled):
         "depth: a drift of 50 pm/s", "depth: the compliance of a frame, 20 nm/N,"
     ]  # fmt: skip
     fit = mdr.fit_indentation(TIP, corrected.depth, corrected.force, hardness=None, contact_point=0.0)
-    assert fit.medium.E_star == pytest.approx(GLASS.E_star, rel=1e-6)
+    assert fit.medium.E_star == approx(GLASS.E_star, rel=1e-6)
 
 
 def test_corrections_with_units(tmp_path):

@@ -7,6 +7,8 @@ import pytest
 
 import mdr_core as mdr
 
+from .approx import approx
+
 
 def test_eq_1_relaxation_time_is_dashpot_over_spring():
     medium = mdr.Medium(E_star=3e6, eta=12.0)
@@ -18,7 +20,7 @@ def test_eq_2_compliances_of_two_bodies_add():
     steel, rubber = mdr.Medium.from_bodies(210e9, 0.3), mdr.Medium.from_bodies(2e6, 0.5)
     both = mdr.Medium.from_bodies(210e9, 0.3, 2e6, 0.5)
     # One rounding in each of a few operations.
-    assert 1 / both.E_star == pytest.approx(1 / steel.E_star + 1 / rubber.E_star, rel=1e-15)
+    assert 1 / both.E_star == approx(1 / steel.E_star + 1 / rubber.E_star, rel=1e-15)
 
 
 def test_eq_2_incompressible_body_under_a_rigid_indenter():
@@ -28,7 +30,7 @@ def test_eq_2_incompressible_body_under_a_rigid_indenter():
 def test_eq_12_and_19_yield_line_load_is_reached_at_the_critical_depth():
     medium = mdr.Medium(E_star=100e9, q_c=7.0)
     assert medium.yield_line_load == math.pi * 7.0 / 2
-    assert medium.critical_depth * medium.E_star == pytest.approx(medium.yield_line_load, rel=1e-15)
+    assert medium.critical_depth * medium.E_star == approx(medium.yield_line_load, rel=1e-15)
 
 
 def test_without_yield_constant_nothing_yields():
@@ -98,7 +100,7 @@ def test_medium_from_a_hardness():
     assert medium == mdr.Medium(95e9, 1e9 * 100e-9, 2.0, 0.4)
     # Deep below the critical depth the mean pressure at a radius is q_c/a: Popov (2015), Eq. (11).
     state = mdr.indent(mdr.Cone(0.01), medium, 1e4 * medium.critical_depth)
-    assert state.mean_pressure * state.contact_radius == pytest.approx(medium.q_c, rel=1e-4)
+    assert state.mean_pressure * state.contact_radius == approx(medium.q_c, rel=1e-4)
     with pytest.raises(ValueError, match="q_c or f_c and hardness both"):
         mdr.Medium.from_hardness(95e9, 1e9, 100e-9, q_c=3.0)
     with pytest.raises(ValueError, match="hardness = -1 Pa"):
@@ -110,7 +112,7 @@ class TestHardness:
 
     def test_the_sum_at_a_radius(self):
         medium = mdr.Medium(E_star=1e9, q_c=2.0, hardness=3e6, f_c=4e-6)
-        assert medium.hardness_at(2e-6) == pytest.approx(3e6 + 1e6 + 1e6, rel=1e-15)
+        assert medium.hardness_at(2e-6) == approx(3e6 + 1e6 + 1e6, rel=1e-15)
         assert mdr.Medium(1e9).hardness_at([1.0, 2.0]).tolist() == [math.inf] * 2
         with pytest.raises(ValueError, match="radius = 0 m must be finite and positive"):
             medium.hardness_at(0.0)

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import mdr_core as mdr
 
+from .approx import approx
 from .shapes import SHAPES
 
 MEDIA = st.builds(
@@ -73,8 +74,8 @@ def test_what_lies_between_peaks_is_forgotten(shape, medium, path):
     path = path_of(shape, medium, path)
     last = mdr.indent(shape, medium, path)[-1]
     short = mdr.indent(shape, medium, [path.max(), path[-1]])[-1]
-    assert last.force == pytest.approx(short.force, rel=1e-14)
-    assert last.stored_energy == pytest.approx(short.stored_energy, rel=1e-14)
+    assert last.force == approx(short.force, rel=1e-14)
+    assert last.stored_energy == approx(short.stored_energy, rel=1e-14)
 
 
 @settings(max_examples=50, deadline=None)
@@ -117,8 +118,8 @@ def test_similarity_of_oblique_impacts(shape, yields, viscosity, psi, share):
         )
         for k in (1.0, 7.0)
     )
-    assert other.tangential_restitution == pytest.approx(one.tangential_restitution, abs=1e-9)
-    assert other.friction_work == pytest.approx(49 * one.friction_work, rel=1e-7)
+    assert other.tangential_restitution == approx(one.tangential_restitution, abs=1e-9)
+    assert other.friction_work == approx(49 * one.friction_work, rel=1e-7)
     assert abs(one.tangential_restitution) <= 1 + one.errors.tangential_restitution
     assert 0 <= one.friction_work <= share * mass * speed**2 / 2 * 1.01
     assert one.max_tangential_force <= mu * one.max_force * (1 + 1e-9)

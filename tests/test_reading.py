@@ -9,6 +9,8 @@ import pytest
 
 import mdr_core as mdr
 
+from .approx import approx
+
 SILICA = Path(__file__).parents[1] / "assets" / "silica.csv"
 DEPTH, FORCE, TIME = [-1.0, 0.0, 2.0, 4.0, 3.0], [0.0, 0.0, 1.5, 6.0, 2.0], range(5)
 
@@ -142,9 +144,9 @@ def test_columns_that_are_none_are_refused(tmp_path, columns, says):
 def test_an_unloading_alone_keeps_its_signs(read):
     """Depth and force fall from the start on; where both are reversed the force is larger at the end."""
     down = read("h (nm), F (mN)\n9, 5\n8, 3\n7, 1\n")
-    assert down.force.tolist() == pytest.approx([5e-3, 3e-3, 1e-3])
+    assert down.force.tolist() == approx([5e-3, 3e-3, 1e-3])
     reversed_ = read("h (nm), F (mN)\n0, 0\n-8, -3\n-9, -5\n")
-    assert reversed_.depth.tolist() == pytest.approx([0, 8e-9, 9e-9])
+    assert reversed_.depth.tolist() == approx([0, 8e-9, 9e-9])
     assert reversed_.columns["force"] == (1, "−mN")
 
 
@@ -201,9 +203,7 @@ def test_the_measured_example():
     """1220 rows of which the first and the last are as in the file."""
     curve = mdr.read_curve(SILICA)
     assert curve.shape == (1220,)
-    assert (curve.depth[-1], curve.force[-1], curve.time[-1]) == pytest.approx(
-        (-793.566e-9, -1.532953e-3, 341.88)
-    )
+    assert (curve.depth[-1], curve.force[-1], curve.time[-1]) == approx((-793.566e-9, -1.532953e-3, 341.88))
     assert curve.remarks == ()
 
 

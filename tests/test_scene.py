@@ -8,6 +8,7 @@ import pytest
 
 import mdr_core as mdr
 
+from .approx import approx
 from .shapes import SHAPES, name
 
 SCENE = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, 1 / 3), mdr.DepthPath((0.0, 1e-9, 1 / 7)))
@@ -152,8 +153,8 @@ class TestModel:
             other = scene.solve(model=model)
             assert other.model == model
             # The chain is refined until its estimate is 1e-6.
-            assert other.restitution == pytest.approx(exact.restitution, rel=2e-6)
-            assert other.max_depth == pytest.approx(exact.max_depth, rel=2e-6)
+            assert other.restitution == approx(exact.restitution, rel=2e-6)
+            assert other.max_depth == approx(exact.max_depth, rel=2e-6)
 
     @pytest.mark.parametrize(
         "drive", [mdr.DepthPath(PATH), mdr.DepthPath(60e-9), mdr.ForcePath((0.0, 1e-6))]

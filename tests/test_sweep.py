@@ -13,6 +13,8 @@ import mdr_core as mdr
 from mdr_core import sweep
 from mdr_core.show import progress
 
+from .approx import approx
+
 xr = pytest.importorskip("xarray")
 
 SPEED = xr.DataArray(np.geomspace(1e-2, 1.0, 5), dims="speed")
@@ -30,7 +32,7 @@ def test_every_entry_is_the_impact_of_its_parameters(eta):
         hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, 10.0, eta), 1e-12, speed)
         for name in ALL:
             # Dry ones differ by rounding; viscous ones come in steps of their own.
-            expected = pytest.approx(float(getattr(hit, name)), rel=1e-9 if eta else 1e-12, abs=0.0)
+            expected = approx(float(getattr(hit, name)), rel=1e-9 if eta else 1e-12, abs=0.0)
             assert float(table[name].sel(radius=10)[place]) == expected, name
 
 
@@ -67,14 +69,14 @@ def test_erosion_over_the_angle_of_attack():
         tangential_mass=2e-9 / 7,
     )  # fmt: skip
     for name in names:
-        assert float(ball[name][2]) == pytest.approx(float(getattr(hit, name)), rel=1e-12), name
+        assert float(ball[name][2]) == approx(float(getattr(hit, name)), rel=1e-12), name
 
 
 def test_numbers_alone_make_numbers():
     one = sweep.impacts(mdr.Cone(0.3), E_star=1e9, q_c=10.0, mass=1e-9, speed=0.1, quantities="max_depth")
     hit = mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, 10.0), 1e-9, 0.1)
     assert one.max_depth.shape == ()
-    assert float(one.max_depth) == pytest.approx(float(hit.max_depth), rel=1e-14)
+    assert float(one.max_depth) == approx(float(hit.max_depth), rel=1e-14)
 
 
 def test_first_loadings():
@@ -87,7 +89,7 @@ def test_first_loadings():
             state = mdr.indent(mdr.Cone(s), mdr.Medium(1e9, 10.0), d)
             for name in names:
                 found = float(table[name].isel(cone=i, depth=j))
-                assert found == pytest.approx(float(getattr(state, name)), rel=1e-12, abs=0.0), name
+                assert found == approx(float(getattr(state, name)), rel=1e-12, abs=0.0), name
 
 
 def test_results_say_what_they_are():
@@ -156,8 +158,8 @@ def test_imprints_before_the_impact():
     )
     medium, imprint = mdr.Medium(1e9, 10.0), first.plastic_depth[1, 4]
     hit = mdr.impact(mdr.Sphere(1e-5), medium, 1e-12, 1.0, plastic_depth=float(imprint))
-    assert float(table.restitution[1, 4]) == pytest.approx(hit.restitution, rel=1e-12)
-    assert float(table.plastic_depth[1, 4]) == pytest.approx(hit.plastic_depth, rel=1e-12)
+    assert float(table.restitution[1, 4]) == approx(hit.restitution, rel=1e-12)
+    assert float(table.plastic_depth[1, 4]) == approx(hit.plastic_depth, rel=1e-12)
 
 
 class TestInvalid:
@@ -363,7 +365,7 @@ class TestLazily:
             ):
                 assert len(client.scheduler_info()["workers"]) == 2
                 total = float(self.stream().restitution.sum().compute())
-        assert total == pytest.approx(float(self.stream().compute().restitution.sum()), rel=1e-12)
+        assert total == approx(float(self.stream().compute().restitution.sum()), rel=1e-12)
 
 
 def test_sweeps_over_a_hardness():
@@ -373,9 +375,9 @@ def test_sweeps_over_a_hardness():
     pressed = sweep.indentations(mdr.Sphere, depth=1e-6, f_c=1e-3, **given)
     for i, value in enumerate(hardness.values):
         hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(70e9, hardness=value), 1e-12, 10.0)
-        assert table.restitution.values[i] == pytest.approx(hit.restitution, rel=1e-13)
+        assert table.restitution.values[i] == approx(hit.restitution, rel=1e-13)
         state = mdr.indent(mdr.Sphere(1e-5), mdr.Medium(70e9, hardness=value, f_c=1e-3), 1e-6)
-        assert pressed.force.values[i] == pytest.approx(state.force, rel=1e-13)
+        assert pressed.force.values[i] == approx(state.force, rel=1e-13)
     slides = {"mass": 1e-12, "speed": 10.0, "tangential_speed": 1.0, "friction": 0.1}
     names = ["tangential_velocity", "friction_work"]
     oblique = sweep.oblique_impacts(mdr.Sphere, f_c=1e-3, quantities=names, **slides, **given)
@@ -385,4 +387,4 @@ def test_sweeps_over_a_hardness():
         assert not hit.slips_throughout
         # The same steps, among others.
         for name in names:
-            assert oblique[name].values[i] == pytest.approx(getattr(hit, name), rel=1e-8)
+            assert oblique[name].values[i] == approx(getattr(hit, name), rel=1e-8)

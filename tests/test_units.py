@@ -8,6 +8,8 @@ import pytest
 
 import mdr_core as mdr
 
+from .approx import approx
+
 MEDIUM = mdr.Medium(95e9, 100.0)
 
 
@@ -52,14 +54,14 @@ def quantity(request):
 
 def test_units_are_converted(quantity):
     assert mdr.Medium(quantity(95.0, "GPa")) == mdr.Medium(95e9)
-    assert mdr.Sphere(quantity(200.0, "nm")).radius == pytest.approx(200e-9, rel=4e-16)
+    assert mdr.Sphere(quantity(200.0, "nm")).radius == approx(200e-9, rel=4e-16)
     many = mdr.Medium(quantity(np.array([95.0, 2.0]), "GPa")).E_star
     assert many.tolist() == mdr.Medium([quantity(95.0, "GPa"), 2e9]).E_star.tolist() == [95e9, 2e9]
     path = mdr.indent(mdr.Sphere(200e-9), MEDIUM, quantity(np.array([0.0, 10.0]), "nm"))
     np.testing.assert_allclose(
         path.force, mdr.indent(mdr.Sphere(200e-9), MEDIUM, [0.0, 1e-8]).force, rtol=1e-14
     )
-    assert path[1].pressure(quantity(2.0, "nm")) == pytest.approx(path[1].pressure(2e-9), rel=1e-13)
+    assert path[1].pressure(quantity(2.0, "nm")) == approx(path[1].pressure(2e-9), rel=1e-13)
     assert mdr.Cone(quantity(0.3, "")).slope == 0.3
     assert mdr.Medium.from_bodies(quantity(78.0, "GPa"), 0.42) == mdr.Medium.from_bodies(78e9, 0.42)
 
@@ -91,9 +93,9 @@ def test_compound_units(package):
     hit = mdr.impact(
         mdr.Cone(0.3), medium, make(1e-6, "g"), make(3.6, "km/hour" if package != "astropy" else "km/h")
     )
-    assert hit.mass == pytest.approx(1e-9, rel=4e-16)
-    assert hit.speed == pytest.approx(1.0, rel=4e-16)
-    assert hit.speed_limit(make(1.0, "g/cm**3")).value == pytest.approx(1e-3, rel=1e-14)
+    assert hit.mass == approx(1e-9, rel=4e-16)
+    assert hit.speed == approx(1.0, rel=4e-16)
+    assert hit.speed_limit(make(1.0, "g/cm**3")).value == approx(1e-3, rel=1e-14)
 
 
 @dataclass

@@ -10,6 +10,8 @@ from PIL import Image
 import app
 from mdr_core.show.figures import ROLES
 
+from ..approx import approx
+
 CSS = (Path(app.__file__).parent / "static" / "style.css").read_text(encoding="utf-8")
 
 
@@ -66,7 +68,7 @@ def test_graphics_stand_out(colours):
 def test_plots_have_the_colours_of_the_sheet():
     for role in ROLES.keys() & LIGHT:
         sheet = luminance(LIGHT[role]), luminance(DARK[role])
-        assert tuple(map(luminance, ROLES[role])) == pytest.approx(sheet), role
+        assert tuple(map(luminance, ROLES[role])) == approx(sheet), role
 
 
 # Every text that is seen, with its colour and that of its ground.

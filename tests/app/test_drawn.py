@@ -10,6 +10,7 @@ import mdr_core as mdr
 from app.state import PRESETS
 from mdr_core.show.units import UNITS
 
+from ..approx import approx
 from .conftest import DROP, GOLD, Explorer
 from .states import table
 
@@ -72,17 +73,17 @@ def test_areas_with_adhesion_are_the_energies_that_are_said(server, page):
         said = amounts(page.label("force", "W_a"))
         areas = [painted(*drawn(page, "force", row)) for row in ("dissipated", "gained")]
         # Three digits are said; chords between states miss the curve by some 10⁻³.
-        assert said[:2] == pytest.approx(areas, rel=6e-3)
-        assert said[2] == pytest.approx(lost, rel=6e-3)
-        assert areas[0] - areas[1] == pytest.approx(lost, rel=5e-3)
+        assert said[:2] == approx(areas, rel=6e-3)
+        assert said[2] == approx(lost, rel=6e-3)
+        assert areas[0] - areas[1] == approx(lost, rel=5e-3)
         assert named(page, "force", "stored") == 0 < named(page, "force", "dissipated")
     # What comes back before tension, at the largest depth, from the core.
     medium = mdr.Medium(MODULUS, Q_C, work_of_adhesion=W)
     back = np.linspace(depth, depth - critical, 4000)
     F = mdr.indent(mdr.Paraboloid(RADIUS), medium, back).force
     returned = -trapezoid(np.maximum(F, 0.0), back)
-    assert painted(*drawn(page, "force", "given back")) == pytest.approx(returned, rel=1e-2)
-    assert amounts(page.label("force", "W_U"))[0] == pytest.approx(returned, rel=1e-2)
+    assert painted(*drawn(page, "force", "given back")) == approx(returned, rel=1e-2)
+    assert amounts(page.label("force", "W_U"))[0] == approx(returned, rel=1e-2)
 
 
 def test_jump_into_contact_and_pull_off_are_marked_where_they_are(server, page):
@@ -90,16 +91,16 @@ def test_jump_into_contact_and_pull_off_are_marked_where_they_are(server, page):
     page.goto(f"{server.url}?{BALL}")
     depth = amounts(page.field("d_max").input_value())[0]
     x, y = drawn(page, "force", "jump into contact")
-    assert x[0] == pytest.approx(0, abs=1e-3 * depth)
-    assert y[0] == pytest.approx(-4 / 3 * np.pi * W * RADIUS, rel=1e-3)
+    assert x[0] == approx(0, abs=1e-3 * depth)
+    assert y[0] == approx(-4 / 3 * np.pi * W * RADIUS, rel=1e-3)
     x, y = drawn(page, "force", "pull-off")
     critical = np.pi * Q_C / (2 * MODULUS)
     c = np.sqrt(RADIUS * (depth - critical))
     tension = np.sqrt(8 * np.pi * W * MODULUS * c**3)
-    assert -y[0] == pytest.approx(tension, rel=1e-3)
-    assert x[0] == pytest.approx(depth - critical - np.sqrt(2 * np.pi * c * W / MODULUS), rel=1e-3)
+    assert -y[0] == approx(tension, rel=1e-3)
+    assert x[0] == approx(depth - critical - np.sqrt(2 * np.pi * c * W / MODULUS), rel=1e-3)
     label, place = page.label("force", "Fₐ"), drawn(page, "force", "Fₐ")
-    assert amounts(label)[0] == pytest.approx(tension, rel=6e-3)
+    assert amounts(label)[0] == approx(tension, rel=6e-3)
     wide, high = (np.ptp(page.axis("force")[axis]) * 1e-6 for axis in "xy")
     assert abs(place[0][0] - x[0]) < 0.1 * wide
     assert abs(place[1][0] - y[0]) < 0.1 * high
@@ -116,8 +117,8 @@ def test_stretched_springs_are_not_drawn_as_yielded(server, page):
     spacing = np.ptp(page.axis("springs")["x"]) * 1e-6 / 60
     x = np.abs(drawn(page, "springs", "stretched")[0].reshape(-1, 9)[:, 0])
     a = amounts(page.readout("contact_radius"))[0]
-    assert x.min() == pytest.approx(np.sqrt(RADIUS * 1.7672e-6), abs=1.1 * spacing)
-    assert x.max() == pytest.approx(a, abs=1.1 * spacing)
+    assert x.min() == approx(np.sqrt(RADIUS * 1.7672e-6), abs=1.1 * spacing)
+    assert x.max() == approx(a, abs=1.1 * spacing)
     page.goto(f"{server.url}?{BALL}&max_depth=1.7672e-6&at=1.9")
     assert page.readout("force").startswith("−")
     colours = {row: drawn(page, "springs", row)[0] for row in ("stretched", "yielded", "elastic")}
@@ -133,8 +134,8 @@ def test_an_impact_turns_orange_where_it_yields(server, page, drive):
     (depth,), (force,) = drawn(page, "force", "onset of yield")
     elastic, yielding = (drawn(page, "force", row) for row in ("elastic", "yielding"))
     # Four digits are drawn of the largest depth, which is ten times that of the onset.
-    assert np.nanmax(elastic[0]) == pytest.approx(depth, rel=5e-3)
-    assert np.nanmin(yielding[0]) == pytest.approx(depth, rel=5e-3)
+    assert np.nanmax(elastic[0]) == approx(depth, rel=5e-3)
+    assert np.nanmin(yielding[0]) == approx(depth, rel=5e-3)
     d = depth * np.linspace(0.05, 0.95, 30)
     inside = np.isfinite(elastic[0])
     F = np.interp(d, elastic[0][inside], elastic[1][inside])
@@ -180,10 +181,10 @@ def test_a_number_that_is_shown_is_the_one_that_is_used(server, page):
         "!location.search.includes('8.123') && explorer.model('dragging').depth === null && explorer.idle()"
     )
     used = float(page.link("max_depth=")["max_depth"])
-    assert amounts(page.field("d_max").input_value())[0] == pytest.approx(used, rel=1e-12)
+    assert amounts(page.field("d_max").input_value())[0] == approx(used, rel=1e-12)
     page.change(page.pick, "force")
     used = float(page.link("max_force=")["max_force"])
-    assert amounts(page.field("F_max").input_value())[0] == pytest.approx(used, rel=1e-12)
+    assert amounts(page.field("F_max").input_value())[0] == approx(used, rel=1e-12)
 
 
 def test_a_steel_ball_is_one(server, page):
@@ -195,7 +196,7 @@ def test_a_steel_ball_is_one(server, page):
     page.pick("impact")
     mass = 4 / 3 * np.pi * 0.008**3 * 7850
     # Three digits of it, in grams.
-    assert amounts(page.field("m").input_value())[0] == pytest.approx(1e3 * mass * SIZES["g"], rel=3e-3)
+    assert amounts(page.field("m").input_value())[0] == approx(1e3 * mass * SIZES["g"], rel=3e-3)
     assert page.page.locator(".form").get_by_text("striker").count() == 0
 
 
@@ -208,7 +209,7 @@ def test_creep_creeps(server, page):
     page.choose("Pattern", "creep under a force, in time")
     page.page.locator(".lights span", has_text="so far").wait_for(state="hidden")
     tau = amounts(page.page.locator(".form").get_by_text(re.compile("^η = .*τ = ")).inner_text())[1]
-    assert amounts(page.field("t_1").input_value())[0] == pytest.approx(tau, rel=0.02)
+    assert amounts(page.field("t_1").input_value())[0] == approx(tau, rel=0.02)
     d, F = drawn(page, "force", "path ahead")
     held = d[np.argmax(np.isclose(F, F.max(), rtol=1e-3)) :]
     assert held.max() > 1.1 * held.min()
@@ -252,7 +253,7 @@ def test_sentences_are_true(server, page):
     depth = (1.5 * energy / (np.pi * given["q_c"] * R**0.5)) ** (2 / 3)
     (radius,) = amounts(page.readout("contact_radius"))
     # Of a radius with four digits.
-    assert float(off.replace("−", "-")) / 100 == pytest.approx(R * depth / radius**2 - 1, abs=1e-3)
+    assert float(off.replace("−", "-")) / 100 == approx(R * depth / radius**2 - 1, abs=1e-3)
     # The sweep draws the other classes of hardness, with their constants.
     page.goto(f"{server.url}?preset={DROP}&tiles=sweep&sweep.against=restitution")
     page.wait("explorer.row('sweep', 'this scene')?.[0].length > 1")
@@ -270,7 +271,7 @@ def test_guided_scenes_are_true(server, page):
     guide = page.page.locator("p[role=status]")
     guide.get_by_text("approaches q").wait_for()
     ratio = amounts(page.readout("mean_pressure"))[0] * amounts(page.readout("contact_radius"))[0] / 100
-    assert ratio == pytest.approx(0.9, abs=0.01)
+    assert ratio == approx(0.9, abs=0.01)
     assert page.readout("mean_pressure").split(".")[0] in guide.inner_text()
     said(page)
     page.page.get_by_label("Guided scene").select_option(label="It bounces only between two speeds")

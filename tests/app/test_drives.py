@@ -14,6 +14,7 @@ from app.quantities import CHOICES
 from app.shared.summary import summary
 from app.state import PRESETS, medium, preset_state, profile
 
+from ..approx import approx
 from .conftest import DROP, ELASTIC
 from .states import linked_state, numbers, solved, state_with, view_of
 
@@ -52,7 +53,7 @@ def test_a_pattern_goes_as_deep_as_what_was_there_before_and_is_in_link_and_csv(
     state = path(pattern)
     course = solved(state)
     # A force that is found has the five digits that its field shows.
-    assert float(course.turning_point.depth) == pytest.approx(preset_state().max_depth, rel=5e-5)
+    assert float(course.turning_point.depth) == approx(preset_state().max_depth, rel=5e-5)
     assert scene_of(linked_state(state)) == course.scene
     assert CHOICES["path.pattern"].options[pattern].label in summary(state)
     lines = share.csv(View(state, course)).splitlines()
@@ -72,7 +73,7 @@ def test_hysteresis_yields_once_a_cycle_and_reloads_elastically():
     ends = [[part[~np.isnan(part)][k] for part in stretches] for k in (0, -1)]
     np.testing.assert_allclose(ends, [peaks[:-1], peaks[1:]], rtol=1e-9)
     # One goes back elastically to where the cycle before began to unload.
-    assert np.nanmax(elastic) == pytest.approx(peaks[-2], rel=1e-9)
+    assert np.nanmax(elastic) == approx(peaks[-2], rel=1e-9)
 
 
 @pytest.mark.parametrize("shape", ["cone", "sphere"])
@@ -86,11 +87,11 @@ def test_a_held_ramp_of_a_viscous_medium_is_that_of_the_core(shape):
     assert numbers(course)["chain_error"] == course.states.error
     # At the end of the hold the dashpots carry nothing: F of the springs alone.
     still = mdr.indent(profile(state), made, course.states.depth)
-    assert course.states.force[-1] == pytest.approx(float(still.force[-1]), rel=1e-3)
+    assert course.states.force[-1] == approx(float(still.force[-1]), rel=1e-3)
     # All that has been put in is in the ledger, by the trapezoidal rule over 24 steps a piece.
     motion = course.motion
     ledger = motion.stored_energy + motion.plastic_work + motion.viscous_work
-    assert ledger[-1] == pytest.approx(trapezoid(motion.force, motion.depth), rel=0.02)
+    assert ledger[-1] == approx(trapezoid(motion.force, motion.depth), rel=0.02)
     # Away from the rim the pressure is the core's; elements between 300 places are straight.
     i = course.peak // 2
     one = course.states[i]
@@ -133,23 +134,23 @@ def test_a_move_is_right_to_three_digits(key):
     hit, size = scene_of(state).solve(), state["oblique.incoming_speed"]
     for course, error in ((rough, 2e-3), (full, 1e-4)):
         found = numbers(course)
-        assert found["friction_work"][-1] == pytest.approx(float(hit.friction_work), rel=error)
-        assert found["max_tangential_force"] == pytest.approx(float(hit.max_tangential_force), rel=error)
+        assert found["friction_work"][-1] == approx(float(hit.friction_work), rel=error)
+        assert found["max_tangential_force"] == approx(float(hit.max_tangential_force), rel=error)
         after = course.rebound.contact_velocity
-        assert after == pytest.approx(float(hit.tangential_velocity), abs=error * size)
+        assert after == approx(float(hit.tangential_velocity), abs=error * size)
 
 
 def test_numbers_of_the_rebound_are_those_of_the_ball():
     course = solved(oblique_state())
     found, drive = numbers(course), course.scene.drive
     body = mdr.Ball(drive.mass, float(course.scene.profile.body_radius))
-    assert drive.tangential_mass == pytest.approx(float(body.tangential_mass))
+    assert drive.tangential_mass == approx(float(body.tangential_mass))
     hit = course.motion.impact
     speed, spin = body.rebound(hit, drive.tangential_speed)
-    assert found["body_speed"] == pytest.approx(float(speed), rel=1e-12)
-    assert found["spin"] == pytest.approx(float(spin), rel=1e-12)
-    assert found["body_angle"] == pytest.approx(np.arctan2(float(hit.normal.rebound_speed), float(speed)))
-    assert found["tangential_restitution"] == pytest.approx(float(hit.tangential_restitution), rel=1e-12)
+    assert found["body_speed"] == approx(float(speed), rel=1e-12)
+    assert found["spin"] == approx(float(spin), rel=1e-12)
+    assert found["body_angle"] == approx(np.arctan2(float(hit.normal.rebound_speed), float(speed)))
+    assert found["tangential_restitution"] == approx(float(hit.tangential_restitution), rel=1e-12)
     # A tip that belongs to no ball has no radius to turn about; what cannot turn has no spin.
     assert "spin_speed" in numbers(follow(state_with(ELASTIC, "oblique", body="solid", shape="cone")))
     assert not {"spin", "spin_speed"} & numbers(follow(state_with(ELASTIC, "oblique", body="block"))).keys()
@@ -159,9 +160,9 @@ def test_looking_at_the_other_impact_keeps_body_and_normal_speed():
     before = scene_of(preset_state(DROP)).drive
     state = state_with(DROP, "oblique")
     drive = scene_of(state).drive
-    assert (drive.mass, drive.speed) == pytest.approx((before.mass, before.speed), rel=1e-12)
+    assert (drive.mass, drive.speed) == approx((before.mass, before.speed), rel=1e-12)
     back = scene_of(changes.choose(state, "drive", "impact")).drive
-    assert back.speed == pytest.approx(before.speed, rel=1e-12)
+    assert back.speed == approx(before.speed, rel=1e-12)
 
 
 def test_another_drive_goes_as_deep_as_a_hit_on_an_imprint_and_as_a_viscous_path():
@@ -172,7 +173,7 @@ def test_another_drive_goes_as_deep_as_a_hit_on_an_imprint_and_as_a_viscous_path
         depth = float(follow(state).turning_point.depth)
         for drive in ("depth", "force"):
             pressed = follow(changes.choose(state, "drive", drive))
-            assert float(pressed.turning_point.depth) == pytest.approx(depth, rel=5e-4)
+            assert float(pressed.turning_point.depth) == approx(depth, rel=5e-4)
 
 
 def test_presets_are_within_what_the_model_assumes():
@@ -188,7 +189,7 @@ def test_the_speed_and_depth_of_onset_are_those_of_the_energy():
     d_c = float(made.critical_depth)
     energy = 8 / 15 * made.E_star * state.paraboloid_radius**0.5 * d_c**2.5
     speed = (2 * energy / state.mass) ** 0.5
-    assert numbers(follow(state))["yield_speed"] == pytest.approx(speed, rel=1e-9)
+    assert numbers(follow(state))["yield_speed"] == approx(speed, rel=1e-9)
     for factor, yields in ((0.999, False), (1.001, True)):
         course = follow(state.replace(speed=factor * speed))
         assert bool(numbers(course)["damaged_area"] > 0) is yields

@@ -16,6 +16,7 @@ from app.shared.rest import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
 from app.tip import read_tip
 
+from ..approx import approx
 from .conftest import DROP, GOLD
 from .states import part, press
 
@@ -128,7 +129,7 @@ def test_the_indenter_is_dragged_to_a_depth_under_a_given_force_too(page):
     page.apply(lambda state: changes.choose(state, "drive", "force"))
     drag(page, 5.0)
     # A force that is found has the five digits that its field shows.
-    assert float(page.shown.course.turning_point.depth) == pytest.approx(5e-9, rel=5e-5)
+    assert float(page.shown.course.turning_point.depth) == approx(5e-9, rel=5e-5)
     drag(page, "<b>")
     assert page.notices == []
 
@@ -258,7 +259,7 @@ def test_an_impact_after_pressing_is_as_deep_and_on_a_virgin_surface():
     pressed = changes.choose(state, "drive", "depth")
     hit = changes.choose(pressed, "drive", "impact")
     assert hit.plastic_depth == 0
-    assert float(follow(hit).turning_point.depth) == pytest.approx(pressed.max_depth, rel=1e-4)
+    assert float(follow(hit).turning_point.depth) == approx(pressed.max_depth, rel=1e-4)
 
 
 def test_the_viscosity_stays_where_damping_is_turned_off_and_on():
@@ -271,7 +272,7 @@ def test_a_tip_limits_the_depth_of_every_drive_that_has_one():
     r = np.linspace(0, 5e-9, 20)
     taken = changes.take_tip(state, (r, r**2 / 2e-9), "a tip")
     assert taken.max_depth < 0.51 * r[-1] ** 2 / 1e-9
-    assert follow(taken).turning_point.depth == pytest.approx(taken.max_depth)
+    assert follow(taken).turning_point.depth == approx(taken.max_depth)
 
 
 def test_a_message_that_names_no_part_is_answered_and_changes_nothing(page):

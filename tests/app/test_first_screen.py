@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from ..approx import approx
 from .conftest import DROP, Explorer
 
 CLICKABLE = Path(__file__).with_name("clickable.js").read_text(encoding="utf-8")
@@ -113,7 +114,7 @@ def test_numbers_that_differ_are_seen_while_a_slider_moves(projector):
     assert 0 <= box["y"] <= box["y"] + box["height"] <= 720
     # The cone is drawn in the plot of the springs, too.
     depth = projector.row("springs", "Cone")[1].min()
-    assert depth == pytest.approx(-8.978, rel=1e-3)
+    assert depth == approx(-8.978, rel=1e-3)
 
 
 def test_one_screen_of_a_phone_has_springs_force_and_slider(server, browser):

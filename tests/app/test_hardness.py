@@ -19,6 +19,7 @@ from app.shared.rest import Searched
 from app.state import PRESETS, altered, medium, preset_state, profile
 from mdr_core.show.units import written
 
+from ..approx import approx
 from .conftest import DROP, GOLD, PUNCH
 from .states import fields_of, linked_state, numbers, part, solved, state_with, stepped, view_of
 from .test_scene_file import plain
@@ -75,7 +76,7 @@ def test_another_class_keeps_the_hardness_at_the_present_contact_radius():
             np.testing.assert_allclose(medium(state).hardness_at(a), hardness, rtol=5e-5)
     # Back and forth within class (b) q_c is what it was.
     state = changes.choose(changes.choose(preset_state(), "plasticity", "hardness"), "plasticity", "q_c")
-    assert state.q_c == pytest.approx(PRESETS[GOLD].values["q_c"], rel=1e-15)
+    assert state.q_c == approx(PRESETS[GOLD].values["q_c"], rel=1e-15)
 
 
 def test_a_link_with_a_class_opens():
@@ -102,11 +103,11 @@ def test_the_onset_of_constant_hardness_is_that_of_the_shape():
     """Paraboloid: s − k √(R s) = d_0 with k = π H/(2E*); a cone yields from first touch, or never."""
     state = state_with("striker-glass_epoxy-drop-weight", plasticity="constant")
     R, k = state.paraboloid_radius, pi * state.volume_hardness / (2 * state.E_star)
-    assert numbers(follow(state))["critical_depth"] == pytest.approx(k**2 * R, rel=1e-9)
+    assert numbers(follow(state))["critical_depth"] == approx(k**2 * R, rel=1e-9)
     for imprint in (0.0, 2e-5):
         root = (k * sqrt(R) + sqrt(k**2 * R + 4 * imprint)) / 2
         again = follow(changes.put(state, "plastic_depth", imprint))
-        assert numbers(again)["critical_depth"] == pytest.approx(root**2, rel=1e-9)
+        assert numbers(again)["critical_depth"] == approx(root**2, rel=1e-9)
     pressed = follow(changes.choose(state, "drive", "depth"))
     shown = numbers(pressed)
     np.testing.assert_allclose(shown["relative_depth"], pressed.states.depth / (k**2 * R), rtol=1e-9)
@@ -132,7 +133,7 @@ def test_a_path_unloads_to_the_imprint_of_each_loading(pattern):
         there = np.argmin(
             np.abs(depth - share * peak * state.max_depth) + force / force.max() * depth.max()
         )
-        assert depth[there] == pytest.approx(share * peak * state.max_depth, rel=1e-9)
+        assert depth[there] == approx(share * peak * state.max_depth, rel=1e-9)
         assert force[there] < 1e-9 * force.max()
 
 
@@ -150,9 +151,9 @@ def test_the_same_depth_by_force_is_within_what_class_c_and_a_flat_face_carry():
             if key == PUNCH
             else float(follow(state_with(key, plasticity=option)).turning_point.force) / most
         )
-        assert state.max_force == pytest.approx(share * most, rel=5e-5)
+        assert state.max_force == approx(share * most, rel=5e-5)
         assert share < 1
-        assert follow(state).turning_point.force == pytest.approx(state.max_force, rel=1e-9)
+        assert follow(state).turning_point.force == approx(state.max_force, rel=1e-9)
 
 
 def test_what_is_of_class_b_alone_is_refused_in_words():
@@ -195,7 +196,7 @@ def test_an_oblique_impact_is_that_of_the_class(option):
     e = float(mdr.impact(profile(state), medium(state), drive.mass, drive.speed).restitution)
     change = -0.1 * drive.mass / drive.tangential_mass * (1 + e) * drive.speed
     assert e < 0.99
-    assert course.rebound.contact_velocity == pytest.approx(drive.tangential_speed + change, rel=1e-8)
+    assert course.rebound.contact_velocity == approx(drive.tangential_speed + change, rel=1e-8)
 
 
 @pytest.mark.parametrize("option", ["constant", "line"])
@@ -215,13 +216,13 @@ def test_the_preset_of_fused_silica_is_that_of_the_measured_curve():
     """E* of the handbook instead of the fitted one makes the force 7 % less at the largest depth."""
     curve = mdr.read_curve(ASSETS / "silica.csv")
     state = preset_state(SILICA).replace(max_depth=float(curve.depth.max()))
-    assert profile(state).slope == pytest.approx(mdr.Cone.from_half_angle(70.3).slope, rel=1e-3)
-    assert follow(state).turning_point.force == pytest.approx(curve.force.max(), rel=0.1)
+    assert profile(state).slope == approx(mdr.Cone.from_half_angle(70.3).slope, rel=1e-3)
+    assert follow(state).turning_point.force == approx(curve.force.max(), rel=0.1)
     # With H held the fit finds the E* that its source says.
     found = mdr.fit_indentation(
         profile(state), curve.depth, curve.force, hardness=state.volume_hardness, contact_point=0.0
     )
-    assert found.medium.E_star == pytest.approx(83e9, rel=0.01)
+    assert found.medium.E_star == approx(83e9, rel=0.01)
 
 
 def test_the_preset_of_steel_yields_at_the_speed_of_its_hardness():

@@ -15,6 +15,7 @@ from app.plots import PLOTS, D, F, X, Z
 from app.state import preset_state as preset
 from mdr_core.show.units import written
 
+from ..approx import approx
 from .conftest import DROP
 from .states import linked_state, view_of
 
@@ -77,7 +78,7 @@ def test_each_has_its_own_row_and_colour_in_every_plot_on_common_axes():
             assert np.isfinite(view.places(PLOTS[name], view.course.now)[f"held {k}"][1]).all()
         # The springs under the tip are as deep as it.
         low = np.min(view.places(PLOTS["springs"], view.course.now)[f"held {k}"][1])
-        assert low == pytest.approx(-float(held.course.state.depth), rel=1e-6)
+        assert low == approx(-float(held.course.state.depth), rel=1e-6)
     looks = {(row.role, row.look["line_dash"]) for row in rows_of(PLOTS["force"]) if "held" in row.role}
     assert len({role for role, _ in looks}) == len({dash for _, dash in looks}) == len(states)
     names = drawn(view, PLOTS["force"])

@@ -13,6 +13,7 @@ from app.extras.notes import limits
 from app.plots import PLOTS, D, X
 from app.state import medium, preset_state
 
+from ..approx import approx
 from .conftest import DROP, ELASTIC, GOLD, PUNCH
 from .states import numbers, solved, state_with, view_of
 from .test_hardness import SILICA, STEEL
@@ -37,16 +38,16 @@ def powers(step):
 def test_a_cone_tells_the_classes_by_volume_area_and_depth():
     """d_p ∝ W^(1/3), and so c; A ∝ W; d_p ∝ W. Class (a) exactly, the others to what is missing of deep."""
     a, b, c = KINDS[:3]
-    assert powers(a)["own"] == pytest.approx(1 / 3, abs=5e-4)
+    assert powers(a)["own"] == approx(1 / 3, abs=5e-4)
     # The imprint is a cone of one shape: its volume is as c² d_p.
     states = [step_state(a, preset_state()).replace(speed=speed) for speed in (1.0, 2.0)]
     slow, fast = (follow(state).hit for state in states)
     volumes = [hit.plastic_radius**2 * hit.plastic_depth for hit in (slow, fast)]
-    assert volumes[1] / volumes[0] == pytest.approx(4, rel=1e-9)
-    assert slow.restitution == pytest.approx(fast.restitution, rel=1e-9)
-    assert powers(b)["own"] == pytest.approx(1, abs=0.02)
-    assert powers(b)["a"] == pytest.approx(2 / 3, abs=2e-3)
-    assert powers(c)["own"] == pytest.approx(1, abs=0.02)
+    assert volumes[1] / volumes[0] == approx(4, rel=1e-9)
+    assert slow.restitution == approx(fast.restitution, rel=1e-9)
+    assert powers(b)["own"] == approx(1, abs=0.02)
+    assert powers(b)["a"] == approx(2 / 3, abs=2e-3)
+    assert powers(c)["own"] == approx(1, abs=0.02)
     course = follow(step_state(c, preset_state()))
     most = np.pi * 300
     assert 0.999 * most < float(course.hit.max_force) < most
@@ -74,10 +75,10 @@ def test_a_step_sets_what_is_the_default_too():
 
 def test_a_round_nose_tells_them_by_restitution_and_area():
     a, b = KINDS[3:5]
-    assert powers(a)["own"] == pytest.approx(-1 / 4, abs=2e-3)
-    assert powers(a)["b"] == pytest.approx(-2 / 3, abs=5e-3)
-    assert powers(b)["own"] == pytest.approx(2 / 3, abs=0.01)
-    assert powers(b)["a"] == pytest.approx(1 / 2, abs=0.01)
+    assert powers(a)["own"] == approx(-1 / 4, abs=2e-3)
+    assert powers(a)["b"] == approx(-2 / 3, abs=5e-3)
+    assert powers(b)["own"] == approx(2 / 3, abs=0.01)
+    assert powers(b)["a"] == approx(1 / 2, abs=0.01)
 
 
 @pytest.mark.parametrize(("step", "power"), [*zip(KINDS[5:], (0, -1, -2), strict=True)])
@@ -89,16 +90,16 @@ def test_the_mean_pressure_over_the_radius_is_drawn_as_the_text_says(step, power
     found = hardness.found(course, ("log",))
     assert all(axis.log for axis in found.axes)
     a, p = (column[np.isfinite(column)] for column in found.rows["yielding"])
-    assert slope(a, p) == pytest.approx(power, abs=0.02)
+    assert slope(a, p) == approx(power, abs=0.02)
     r, sigma = found.rows["hardness"]
-    assert slope(r, sigma) == pytest.approx(power, abs=1e-9)
-    assert p[-1] == pytest.approx(np.interp(a[-1], r, sigma), rel=0.02)
+    assert slope(r, sigma) == approx(power, abs=1e-9)
+    assert p[-1] == approx(np.interp(a[-1], r, sigma), rel=0.02)
     if power == 0:
         a, p = (column[np.isfinite(column) & (column > 0)] for column in found.rows["elastic"])
-        assert slope(a, p) == pytest.approx(1, rel=1e-6)
+        assert slope(a, p) == approx(1, rel=1e-6)
     said = step_text(step, course)
     share = float(re.search("is ([\\d.]+) of", found.note)[1])
-    assert share == pytest.approx(
+    assert share == approx(
         course.state.mean_pressure / medium(state).hardness_at(course.state.contact_radius), rel=1e-3
     )
     assert f"p_m = {float(course.state.mean_pressure) / 1e6:#.3g} MPa" in said
@@ -119,7 +120,7 @@ def test_pressures_of_every_preset_are_within_the_axes(key, scale):
             assert np.nanmax(radii) <= x.end
             assert np.nanmax(pressures) <= y.end
     if scale == "log":
-        assert y.end / y.start == pytest.approx(10**3)
+        assert y.end / y.start == approx(10**3)
 
 
 def test_the_state_is_read_in_words():
@@ -197,7 +198,7 @@ def test_an_oblique_impact_says_whether_it_sticks(angle, body, says):
     assert text.startswith(says)
     if "then slips" in text:
         end = float(course.motion.time[np.flatnonzero(course.motion.stick_radius > 0)[-1]])
-        assert float(re.search(r"to ([\d.]+) ms", text)[1]) * 1e-3 == pytest.approx(end, rel=0.02)
+        assert float(re.search(r"to ([\d.]+) ms", text)[1]) * 1e-3 == approx(end, rel=0.02)
 
 
 def test_speed_of_onset_is_a_readout():

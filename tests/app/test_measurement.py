@@ -22,6 +22,7 @@ from app.fit.worker import Here, answers
 from app.quantities import ASSETS
 from app.state import medium, profile
 
+from ..approx import approx
 from .conftest import ROOT, deployed
 from .states import table
 
@@ -65,14 +66,14 @@ def test_fused_silica_is_one_click_and_its_number_is_that_of_the_unloading():
     page = page_of()
     page.take_sample("silica")
     value, error = map(float, re.search(r"E\* = ([\d.]+) ± ([\d.]+) GPa", headline(page)).groups())
-    assert value == pytest.approx(69.6, abs=max(0.2, error))
+    assert value == approx(69.6, abs=max(0.2, error))
     assert "Oliver and Pharr" in headline(page)
     young = float(re.search(r"E = ([\d.]+) ± ", headline(page))[1])
-    assert young == pytest.approx(72, rel=0.01)
+    assert young == approx(72, rel=0.01)
     hardness = float(
         re.search(r"H = ([\d.]+) ± [\d.]+ GPa, hardness by Oliver", headline(page).replace(" ,", ","))[1]
     )
-    assert hardness == pytest.approx(9.1, abs=0.1)
+    assert hardness == approx(9.1, abs=0.1)
     assert page.results.verdict.object == "The curve is of class (a), constant hardness."
     # The model's own E* is another one, which is said once.
     assert "own E* is 84.53 ± " in page.results.why.object
@@ -85,7 +86,7 @@ def test_the_gel_is_one_click_and_its_number_is_that_of_hertz():
     page = page_of()
     page.take_sample("gel")
     value, error = map(float, re.search(r"E\* = ([\d.]+) ± ([\d.]+) kPa", headline(page)).groups())
-    assert value * 1e3 == pytest.approx(reference["approach"]["hertz_para"]["E_star"], rel=5e-3)
+    assert value * 1e3 == approx(reference["approach"]["hertz_para"]["E_star"], rel=5e-3)
     assert 0.2 < error < 0.8
     assert "from the fit" in headline(page)
     # A gel has no hardness, and so no classes.
@@ -103,10 +104,10 @@ def test_tip_and_sample_are_asked_for_one_after_the_other():
     assert headline(page).startswith("Give the sample")
     assert page.fit is None
     page.form.medium.value = "constant"
-    assert page.fit.medium.E_star == pytest.approx(80e9, rel=1e-4)
+    assert page.fit.medium.E_star == approx(80e9, rel=1e-4)
     # What was told holds for the next file; that of an example does not.
     page.take_file("other.csv", curve_file(offset=5e-9))
-    assert page.fit.contact_point == pytest.approx(5e-9, abs=1e-12)
+    assert page.fit.contact_point == approx(5e-9, abs=1e-12)
     page.take_sample("gel")
     page.take_file("run.csv", curve_file())
     assert headline(page).startswith("Give the tip")
@@ -132,9 +133,9 @@ def test_the_class_that_fits_five_times_better_is_taken_by_a_button(made, name):
             assert f"Take class ({own})" in button.label
             page.results.take.param.trigger("clicks")
         assert page.setting.medium == name
-        assert page.fit.medium.E_star == pytest.approx(80e9, rel=1e-4)
+        assert page.fit.medium.E_star == approx(80e9, rel=1e-4)
         constant = MEDIA[name].free[1]
-        assert getattr(page.fit.medium, constant) == pytest.approx(getattr(made, constant), rel=1e-4)
+        assert getattr(page.fit.medium, constant) == approx(getattr(made, constant), rel=1e-4)
 
 
 def test_a_class_that_cannot_be_told_is_not_offered():
@@ -152,16 +153,16 @@ def test_what_is_held_stays_and_what_is_freed_is_found():
     assert page.fit.contact_point == 1e-9
     page.choose_medium("gel")
     page.choose_medium("constant")
-    assert page.fit.contact_point == pytest.approx(4e-9, abs=1e-12)
+    assert page.fit.contact_point == approx(4e-9, abs=1e-12)
     page.hold("E_star", 70e9)
     assert page.fit.medium.E_star == 70e9
     assert "E_star" not in page.fit.standard_errors
     assert headline(page).startswith("E* = ") or "No E* to quote" in headline(page)
     page.free("E_star", True)
-    assert page.fit.medium.E_star == pytest.approx(80e9, rel=1e-4)
+    assert page.fit.medium.E_star == approx(80e9, rel=1e-4)
     # Held where it was found.
     page.free("contact_point", False)
-    assert page.setting.held["contact_point"] == pytest.approx(4e-9, abs=1e-12)
+    assert page.setting.held["contact_point"] == approx(4e-9, abs=1e-12)
     page.form.held["contact_point"].field.value = "4,5 nm"
     assert page.fit.contact_point == 4.5e-9
     page.form.held["contact_point"].field.value = "4.5 furlongs"
@@ -181,8 +182,8 @@ def test_a_drag_and_a_viscosity_are_fitted_where_there_are_times():
     drag = 0.05 * F.max() / (1e-6 * np.pi / 2)
     columns = {"t (s)": t, "h (nm)": 1e9 * d, "F (pN)": 1e12 * (F + drag * np.gradient(d, t))}
     page = opened(table(columns).encode(), "viscous", "paraboloid", radius=10e-6)
-    assert page.fit.medium.E_star == pytest.approx(20e3, rel=0.01)
-    assert page.fit.drag == pytest.approx(drag, rel=0.05)
+    assert page.fit.medium.E_star == approx(20e3, rel=0.01)
+    assert page.fit.drag == approx(drag, rel=0.05)
     page.choose_samples((5, 401))
     assert "begin the range at sample 1" in plain(page.not_fitted)
     # Without times they are not offered.
@@ -199,8 +200,8 @@ def test_adhesion_is_fitted_from_a_pull_off():
     F = mdr.indent(mdr.Cone(0.3), made, d).force
     data = table({"h (nm)": 1e9 * d, "F (nN)": 1e9 * F}).encode()
     page = opened(data, "sticky", "cone", half_angle=float(np.arctan(1 / 0.3)))
-    assert page.fit.medium.work_of_adhesion == pytest.approx(0.2, rel=1e-2)
-    assert page.fit.medium.E_star == pytest.approx(1e9, rel=1e-2)
+    assert page.fit.medium.work_of_adhesion == approx(0.2, rel=1e-2)
+    assert page.fit.medium.E_star == approx(1e9, rel=1e-2)
 
 
 def test_a_drift_and_the_compliance_of_a_frame_are_subtracted():
@@ -211,10 +212,10 @@ def test_a_drift_and_the_compliance_of_a_frame_are_subtracted():
     z = DEPTH + drift * t + frame * F
     data = table({"t (s)": t, "h (nm)": 1e9 * z, "F (mN)": 1e3 * F}).encode()
     page = opened(data)
-    assert page.fit.medium.E_star != pytest.approx(80e9, rel=1e-2)
+    assert page.fit.medium.E_star != approx(80e9, rel=1e-2)
     page.hold("drift", drift)
     page.hold("frame", frame)
-    assert page.fit.medium.E_star == pytest.approx(80e9, rel=1e-4)
+    assert page.fit.medium.E_star == approx(80e9, rel=1e-4)
     np.testing.assert_allclose(page.taken.depth, DEPTH, atol=1e-14)
     # Another file has neither.
     page.take_file("next.csv", curve_file())
@@ -227,10 +228,10 @@ def test_only_the_chosen_samples_are_fitted_and_the_others_are_faint():
     F = mdr.indent(TIP, GLASS, d).force * np.where(np.arange(300) < 150, 1.0, 1.5)
     page = opened(table({"h (nm)": 1e9 * d, "F (mN)": 1e3 * F}).encode())
     page.hold("E_star", 80e9)
-    assert page.fit.medium.hardness != pytest.approx(14e9, rel=0.05)
+    assert page.fit.medium.hardness != approx(14e9, rel=0.05)
     # As the browser sends it when a handle is let go.
     page.results.ends._process_events({"value_throttled": (1, 150)})
-    assert page.fit.medium.hardness == pytest.approx(14e9, rel=1e-4)
+    assert page.fit.medium.hardness == approx(14e9, rel=1e-4)
     assert len(page.fit.depth) == 150
     sources = page.results.plots.sources
     assert [len(sources[name].data["x"]) for name in ("measured", "others", "residuals")] == [150, 150, 150]
@@ -256,7 +257,7 @@ def test_noise_of_the_depth_counts_where_it_is_no_rounding_and_no_trifle():
         page = page_of()
         page.take_file("run.csv", table({"h (nm)": depth, "F (µN)": force}).encode())
         # A standard deviation of 800 samples, from third differences.
-        assert page.correction("depth_noise") or pytest.approx(1e-9 * expected, rel=0.2) == 0.0
+        assert page.correction("depth_noise") or approx(1e-9 * expected, rel=0.2) == 0.0
 
 
 def test_a_table_without_a_header_asks_for_its_columns_and_units():
@@ -399,11 +400,11 @@ def test_the_way_to_the_explorer_has_tip_and_medium_in_their_digits_and_nothing_
     page = opened(curve_file(noise=0.004, timed=True), poisson=0.2)
     state = link.read(explorer_query(page.setting, page.fit))
     E, error = page.fit.medium.E_star, page.fit.standard_errors["E_star"]
-    assert state.E_star == pytest.approx(E, abs=0.06 * error)
+    assert state.E_star == approx(E, abs=0.06 * error)
     assert state.E_star != E
     assert len(f"{state.E_star:.15g}".rstrip("0")) <= 6
     assert (profile(state), medium(state).E_star) == (page.fit.profile, state.E_star)
-    assert medium(state).hardness == pytest.approx(page.fit.medium.hardness, rel=1e-2)
+    assert medium(state).hardness == approx(page.fit.medium.hardness, rel=1e-2)
     names = set(dict(part.split("=") for part in explorer_query(page.setting, page.fit).split("&")))
     assert names <= {"elasticity", "plasticity", "shape", "cone_slope", "E_star", "volume_hardness"}
     gel = page_of()
@@ -419,10 +420,10 @@ def test_youngs_modulus_of_the_sample():
     """Back through `Medium.from_bodies`, which has E* of two bodies."""
     E_star = mdr.Medium.from_bodies(72e9, 0.17, 1141e9, 0.07).E_star
     E, error = modulus_of_sample(E_star, 1e-3 * E_star, 0.17, 1141e9, 0.07)
-    assert pytest.approx(72e9, rel=1e-12) == E
+    assert approx(72e9, rel=1e-12) == E
     step = modulus_of_sample(E_star * (1 + 1e-6), 0.0, 0.17, 1141e9, 0.07)[0] - E
-    assert error == pytest.approx(1e-3 * step / 1e-6, rel=1e-4)
-    assert modulus_of_sample(1e4, 0.0, 0.5, None, None)[0] == pytest.approx(7500)
+    assert error == approx(1e-3 * step / 1e-6, rel=1e-4)
+    assert modulus_of_sample(1e4, 0.0, 0.5, None, None)[0] == approx(7500)
     with pytest.raises(ValueError, match="softer than the contact"):
         modulus_of_sample(80e9, 0.0, 0.2, 50e9, 0.2)
 
@@ -465,13 +466,13 @@ def test_all_curves_of_a_file_are_fitted_and_a_dead_one_says_why():
     page.choose_medium("gel")
     assert page.count == 3
     assert "curve 1 of 3" in plain(page.about)
-    assert page.fit.medium.E_star == pytest.approx(2e4, rel=1e-4)
+    assert page.fit.medium.E_star == approx(2e4, rel=1e-4)
     # The dead curve alone has a reason, and the next one is a click away.
     page.results.number.value = 2
     assert page.fit is None
     assert len(plain(page.not_fitted)) > 20
     page.results.number.value = 3
-    assert page.fit.medium.E_star == pytest.approx(3e4, rel=1e-4)
+    assert page.fit.medium.E_star == approx(3e4, rel=1e-4)
     page.fit_all()
     assert page.results.cancel.visible
     page.worker.step()
@@ -484,9 +485,9 @@ def test_all_curves_of_a_file_are_fitted_and_a_dead_one_says_why():
     while page.worker.jobs:
         page.worker.step()
     values = [row[1] for row in page.rows]
-    assert values[0] == pytest.approx(2e4, rel=1e-4)
+    assert values[0] == approx(2e4, rel=1e-4)
     assert values[1] is None
-    assert values[2] == pytest.approx(3e4, rel=1e-4)
+    assert values[2] == approx(3e4, rel=1e-4)
     assert "median E* 25.0" in page.results.summary.object
     assert "1 without a number" in page.results.summary.object
     rows = re.findall(

@@ -13,6 +13,7 @@ from app.plots import PLOTS
 from app.state import PRESETS, State, preset_state
 from mdr_core.show.units import UNITS, written
 
+from ..approx import approx
 from .conftest import DROP, ELASTIC, GOLD, PUNCH, Explorer
 from .states import state_with, table, view_of
 
@@ -188,7 +189,7 @@ def test_typed_numbers_are_read_as_they_say_refused_where_they_stand_and_undone(
     """What is refused stays in its field, which says why."""
     number, field = explorer.number("d_max"), explorer.field("d_max")
     explorer.change(explorer.type, "d_max", "1e-6")
-    assert now(explorer)[0] == pytest.approx(1e-6)
+    assert now(explorer)[0] == approx(1e-6)
     # An exponent is SI; the unit is still that of the field.
     assert field.input_value() == "1000 nm"
     # Its slider begins anew about what it does not reach.
@@ -231,7 +232,7 @@ def test_presets_shapes_drives_and_media_are_drawn(explorer):
         for drive in ("depth", "path", "impact", "oblique impact", "force"):
             explorer.pick(drive)
         counts.append(explorer.page.evaluate("explorer.all().length"))
-    assert counts[2] == pytest.approx(counts[0], rel=0.05)
+    assert counts[2] == approx(counts[0], rel=0.05)
 
 
 def test_an_impact_is_swept_shown_in_time_and_repeated_on_the_same_spot(explorer):
@@ -245,7 +246,7 @@ def test_an_impact_is_swept_shown_in_time_and_repeated_on_the_same_spot(explorer
         (x,), (y,) = explorer.row("sweep", "present value")
         return x * unit(labels[0], "energy"), y * unit(labels[1], "area")
 
-    assert present() == pytest.approx((2.75, float(hit.damaged_area)), rel=1e-4)
+    assert present() == approx((2.75, float(hit.damaged_area)), rel=1e-4)
     explorer.slider("v_0").focus()
     explorer.change(explorer.page.keyboard.press, "PageUp")
     assert present()[0] > 2.75
@@ -273,7 +274,7 @@ def test_an_oblique_impact_a_path_and_a_section_are_found_at_rest(explorer):
     explorer.page.locator(".lights span", has_text="so far").wait_for(state="hidden")
     explorer.link("tiles=forces")
     _, force = explorer.row("forces", "tangential force Fₓ")
-    assert np.max(np.abs(force)) == pytest.approx(float(hit.max_tangential_force), rel=1e-3)
+    assert np.max(np.abs(force)) == approx(float(hit.max_tangential_force), rel=1e-3)
     explorer.pick("path")
     explorer.choose("Pattern", "five cycles, growing")
     explorer.change(explorer.type, "d_max", "8 µm")

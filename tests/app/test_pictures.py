@@ -9,12 +9,13 @@ from app.draw import drawn, legend
 from app.plots import PLOTS
 from mdr_core.show.figures import ROLES
 
+from ..approx import approx
 from .conftest import DROP, Explorer
 from .states import state_with, view_of
 
 Image = pytest.importorskip("PIL.Image")
 
-#: Below the title of a large plot; between a swatch and its word, and between two items, in pixels of a picture.
+#: Pixels of a picture: below the title of a large plot; between a swatch and its word, and between two items.
 TITLE, BESIDE, BETWEEN = 84, 19, 36
 
 
@@ -87,7 +88,7 @@ def test_words_of_a_saved_legend_stand_beside_what_they_name(saved):
     assert has(pressure, colour("elastic", dark))
     assert has(mean, colour("ink", dark))
     # All swatches of lines and areas are equally wide; a dash and a dot are told apart.
-    assert zone.shape[1] == pytest.approx(pressure.shape[1], abs=4)
+    assert zone.shape[1] == approx(pressure.shape[1], abs=4)
 
 
 def test_dashes_of_a_saved_legend_are_those_of_the_lines(saved):

@@ -28,6 +28,7 @@ from app.state import medium, preset_state, profile
 from mdr_core.show.figures import SPRINGS, line, mark, radii
 from mdr_core.show.units import written
 
+from ..approx import approx
 from .conftest import DROP, ELASTIC, GOLD, PUNCH
 from .states import numbers, solved, state_with, view_of, viscous
 from .test_drawn import amounts
@@ -92,7 +93,7 @@ def test_a_peak_that_the_axis_does_not_reach_is_named():
     assert [i for i in tops if said[i]] == cut
     first = next(i for i in cut if np.isfinite(tops[i]).all())
     value, unit = re.search(r"= ([\d.]+) (\wPa)", said[first]).groups()
-    assert float(value) * {"GPa": 1e9, "TPa": 1e12}[unit] == pytest.approx(np.max(tops[first]), rel=0.01)
+    assert float(value) * {"GPa": 1e9, "TPa": 1e12}[unit] == approx(np.max(tops[first]), rel=0.01)
     assert "∞ at the rim" in pressure(view_of(preset_state(PUNCH)), 50)["exceeds"][2]
 
 
@@ -101,7 +102,7 @@ def test_after_another_hit_depth_and_force_of_yield_belong_together():
     state = changes.hit_again(preset_state(DROP))
     course = follow(state)
     again = float(hit.plastic_depth) + medium(state).critical_depth
-    assert numbers(course)["critical_force"] == pytest.approx(float(course.onset.force))
+    assert numbers(course)["critical_force"] == approx(float(course.onset.force))
     np.testing.assert_allclose(force(view_of(state), 0)["onset of yield"][0], again)
 
 
@@ -160,7 +161,7 @@ def test_the_section_shows_the_stress_of_the_core(key, quantity):
     down, along = (30 + 0.5) / image.shape[0], (50 + 0.5) / image.shape[1]
     stress = state.stress(r.end * along, -bottom * (1 - down))
     expected = {"zz": -stress.zz, "max_shear": stress.max_shear, "von_mises": stress.von_mises}[quantity]
-    assert image[30, 50] == pytest.approx(expected, rel=1e-12)
+    assert image[30, 50] == approx(expected, rel=1e-12)
     place = found.rows["largest"]
     if quantity == "zz":
         assert np.isnan(place[0]).all()
@@ -170,7 +171,7 @@ def test_the_section_shows_the_stress_of_the_core(key, quantity):
         assert image.max() <= peak.value <= colours.end
     if (key, quantity) == (ELASTIC, "max_shear"):
         # Hertz, ν of the preset: 0.3 to 0.33 p₀ on the axis, 0.4 to 0.6 a deep; the note says so.
-        assert peak.value / state.pressure(0.0) == pytest.approx(0.31, abs=0.02)
+        assert peak.value / state.pressure(0.0) == approx(0.31, abs=0.02)
         assert f"{peak.value / 1e6:.1f} MPa" in found.note
     unloaded = section(replace(course, now=len(course) - 1), (quantity,))
     assert (unloaded.rows, unloaded.note) == ({}, "No contact, and so no stress.")
@@ -185,14 +186,14 @@ def test_springs_lean_as_far_as_they_are_loaded_and_stick_where_the_core_says():
     rows = view.places(PLOTS["springs"], i)
     # The middles of the lines below the feet.
     stick, slip = (np.abs(rows[name][0].reshape(-1, 3)[:, :2].mean(axis=1)) for name in ("sticks", "slips"))
-    assert stick.max() == pytest.approx(m.stick_radius[i], abs=1.5 * spacing)
+    assert stick.max() == approx(m.stick_radius[i], abs=1.5 * spacing)
     assert slip.min() > stick.max()
     # The springs carry the force: along the surface κE* times how far they lean.
     r = np.linspace(0, float(m.contact_radius[i]), 4001)
     lean, _ = leaning(course, i, r)
     made = course.scene.medium
     force = 2 * made.tangential_ratio * made.E_star * trapezoid(lean, r)
-    assert force == pytest.approx(m.tangential_force[i], rel=0.01)
+    assert force == approx(m.tangential_force[i], rel=0.01)
 
 
 def jkr_loss(E_star, w, R):
@@ -227,10 +228,10 @@ def test_elastic_adhesion_loses_what_jump_and_pull_off_take_at_every_depth(key, 
         rows = view.places(PLOTS["force"], i)
         assert np.isnan(rows["gained"][0]).all()
         # Chords of some 10⁻⁴, and three digits.
-        assert polygon(*rows["dissipated"]) == pytest.approx(expected, rel=1e-3)
+        assert polygon(*rows["dissipated"]) == approx(expected, rel=1e-3)
         assert re.findall("dissipated|gained", rows["W_a"][2]) == ["dissipated"]
         [said] = amounts(rows["W_a"][2])
-        assert said == pytest.approx(expected, rel=5e-3)
+        assert said == approx(expected, rel=5e-3)
 
 
 def test_the_loop_of_yield_with_adhesion_is_plastic_work_and_what_the_surfaces_take():
@@ -247,14 +248,12 @@ def test_the_loop_of_yield_with_adhesion_is_plastic_work_and_what_the_surfaces_t
     for each in (i, i + 20, len(view.course) - 1):
         rows = view.places(PLOTS["force"], each)
         said = amounts(rows["W_a"][2])
-        assert said[:2] == pytest.approx(
-            [polygon(*rows[name]) for name in ("dissipated", "gained")], rel=5e-3
-        )
-        assert said[2] == pytest.approx(expected, rel=2e-3)
+        assert said[:2] == approx([polygon(*rows[name]) for name in ("dissipated", "gained")], rel=5e-3)
+        assert said[2] == approx(expected, rel=2e-3)
     # The loop of an early state is pulled off below the axis, on which the pull-off of the course is.
     early = int(np.argmax(view.course.states.depth > 0.9 * made.critical_depth))
     rows = view.places(PLOTS["force"], early)
-    assert polygon(*rows["dissipated"]) == pytest.approx(jkr_loss(made.E_star, 0.05, R), rel=2e-3)
+    assert polygon(*rows["dissipated"]) == approx(jkr_loss(made.E_star, 0.05, R), rel=2e-3)
     assert rows["dissipated"][0].min() < view.axis(D).start
     assert rows["W_a"][2] == ""
 
@@ -292,7 +291,7 @@ def test_a_new_plot_is_one_entry():
     view, picture = view_of(preset_state()), Picture(plot)
     data = {source.name: columns for source, columns in picture.columns(view, 20).items()}
     assert data["work lines"]["row"] == [lowered("W_p/d_c")]
-    assert data["work marks"]["x"][0] == pytest.approx(view.course.states.depth[20] * 1e9, rel=1e-3)
+    assert data["work marks"]["x"][0] == approx(view.course.states.depth[20] * 1e9, rel=1e-3)
     # The curve stays while the scene is played.
     sources, [marks], _, _ = frames(view, [picture])
     assert [source.name for source in sources] == ["work marks"]

@@ -9,6 +9,7 @@ from app import changes
 from app.page import Page
 from app.plots import PLOTS, D, F, R, X, Z
 
+from ..approx import approx
 from .conftest import Explorer
 
 #: Sizes of the letters of a plot: of titles, ticks and labels.
@@ -41,13 +42,13 @@ def test_twice_the_depth_is_twice_the_picture():
     state = view.course.state
     a, d, force = (float(each) for each in (state.contact_radius, state.depth, state.force))
     # A cone: a = 2 d/(π s).
-    assert a == pytest.approx(2 * float(before.course.state.contact_radius), rel=1e-9)
+    assert a == approx(2 * float(before.course.state.contact_radius), rel=1e-9)
     for plot, said in (("springs", (a * 1e9, d * 1e9)), ("force", (d * 1e9, force * 1e6))):
         text = view.places(PLOTS[plot], i)["cut off"][2]
         assert text.startswith("cut off: ")
         told = [float(each.split(" = ")[1].split()[0]) for each in text[9:].split(", ")]
         # Three digits.
-        assert told == pytest.approx(said, rel=5e-3)
+        assert told == approx(said, rel=5e-3)
     for name in ("springs", "pressure", "force"):
         # What is drawn at this level Bokeh cuts off at the axes.
         renderers = page.board.cards[name].picture.figure.renderers
@@ -109,7 +110,7 @@ def test_what_is_opened_leaves_the_form_and_is_closed_by_escape(lecture):
     card.get_by_role("button", name="Small").wait_for()
     lecture.wait("explorer.model('force').inner_width > 700")
     assert page.evaluate(LETTERS, "force") == [1.5 * size for size in letters]
-    assert card.locator("h3").bounding_box()["height"] == pytest.approx(1.5 * title, abs=1)
+    assert card.locator("h3").bounding_box()["height"] == approx(1.5 * title, abs=1)
     page.keyboard.press("Escape")
     card.get_by_role("button", name="Large").wait_for()
     assert page.evaluate(LETTERS, "force") == letters

@@ -16,6 +16,7 @@ from app.state import PRESETS, preset_state
 from app.tip import read_tip
 from mdr_core.show.units import UNITS
 
+from ..approx import approx
 from .conftest import DROP, GOLD
 from .states import state_with, table, view_of
 
@@ -105,12 +106,12 @@ def test_the_address_has_the_digits_of_the_field(query, change, name):
     page = Page(query)
     page.apply(change)
     written = dict(parse_qsl(page.query()[0]))[name]
-    assert float(written) == pytest.approx(shown_in_field(page.state, name), rel=1e-13)
+    assert float(written) == approx(shown_in_field(page.state, name), rel=1e-13)
     digits = f"{float(written):.15e}".partition("e")[0].replace(".", "").rstrip("0")
     assert len(digits) <= 9
     # What is opened from it shows the same, and has the same address.
     again = Page(page.query()[0])
-    assert shown_in_field(again.state, name) == pytest.approx(shown_in_field(page.state, name), rel=1e-13)
+    assert shown_in_field(again.state, name) == approx(shown_in_field(page.state, name), rel=1e-13)
     assert again.query() == page.query()
 
 

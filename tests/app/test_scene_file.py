@@ -13,6 +13,7 @@ from app.extras.scene_file import scene_file
 from app.plots import NAMED, PLOTS
 from app.state import PRESETS, preset_state
 
+from ..approx import approx
 from .conftest import DROP
 from .states import state_with, view_of
 from .test_page import now
@@ -84,9 +85,9 @@ def test_the_numbers_of_a_cone_are_read_and_drawn_in_every_state(saved):
         plastic = max(0.0, depths[: number + 1].max() - critical)
         expected = 2 * state.E_star * (depth**2 - plastic**2) / (np.pi * state.cone_slope)
         # Depths are drawn to 10⁻⁵ of the axis, to which the force of unloading is 30 times as sensitive.
-        assert force == pytest.approx(expected, rel=1e-3), number
+        assert force == approx(expected, rel=1e-3), number
         value, unit = saved.readout("force").split()
-        assert float(value) * {"nN": 1e-9, "µN": 1e-6}[unit] == pytest.approx(expected, rel=1e-3)
+        assert float(value) * {"nN": 1e-9, "µN": 1e-6}[unit] == approx(expected, rel=1e-3)
         assert bool(np.isfinite(saved.row("springs", "yielded")[0]).any()) == (plastic > 0)
         if number < 80:
             # The peak of the pressure is beyond the axis, and not drawn.
@@ -96,7 +97,7 @@ def test_the_numbers_of_a_cone_are_read_and_drawn_in_every_state(saved):
         units = saved.axis("pressure")["labels"]
         carried = np.pi * np.trapezoid(p * np.abs(r), r)
         carried *= unit_of(units[0], "length") ** 2 * unit_of(units[1], "pressure")
-        assert carried == pytest.approx(expected, rel=0.01), number
+        assert carried == approx(expected, rel=0.01), number
 
 
 def test_every_row_is_drawn_as_on_the_page(saved):
@@ -134,9 +135,7 @@ def test_it_plays_is_dragged_and_turns_dark(saved):
     page.keyboard.press("Space")
     assert play.inner_text() == "▶ Play"
     stopped = slider.input_value()
-    assert saved.row("force", "now")[0][0] == pytest.approx(
-        float(saved.readout("depth").split()[0]), abs=1e-3
-    )
+    assert saved.row("force", "now")[0][0] == approx(float(saved.readout("depth").split()[0]), abs=1e-3)
     colour = """() => {
         const { renderers } = explorer.model("springs")
         const drawn = renderers.map(({ data_source: { data } }) => (data.line_color ?? data.text_color)[0])

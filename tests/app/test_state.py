@@ -15,6 +15,7 @@ from app.quantities import CHOICES, QUANTITIES
 from app.state import OPENING, PRESETS, VIEW, altered, medium, preset_state, profile, used
 from app.tip import MAX_SAMPLES, read_tip
 
+from ..approx import approx
 from .conftest import DROP
 from .states import linked_state, state_with, table, view_of
 
@@ -50,10 +51,10 @@ def test_a_number_out_of_bounds_is_refused_with_its_symbol_and_bounds():
 def test_E_star_of_two_bodies_and_q_c_of_a_hardness_can_be_set():
     state = changes.put(preset_state(), "E_star", 5e10)
     assert state.elasticity == "bodies"
-    assert medium(state).E_star == pytest.approx(5e10, rel=1e-12)
+    assert medium(state).E_star == approx(5e10, rel=1e-12)
     assert medium(state).poisson == 0.42
     state = changes.put(state_with(plasticity="hardness"), "q_c", 50.0)
-    assert medium(state).q_c == pytest.approx(50.0, rel=1e-12)
+    assert medium(state).q_c == approx(50.0, rel=1e-12)
 
 
 def test_the_link_of_a_preset_is_its_name():
@@ -185,7 +186,7 @@ def test_what_others_append_to_a_link_is_left_out_and_other_names_are_told():
 def test_a_measured_tip_is_taken_as_it_is_or_made_convex():
     few, note = read_tip(table({"r (nm)": [0, 1, 2, 4], "z (nm)": [0, 0.1, 0.3, 1]}))
     assert note == "4 samples, as in the file"
-    assert few[1][-1] == pytest.approx(1e-9)
+    assert few[1][-1] == approx(1e-9)
     state = changes.take_tip(preset_state(), few, note)
     assert state.max_depth < profile(state).known_depth
     assert follow(state).turning_point.force > 0
@@ -193,7 +194,7 @@ def test_a_measured_tip_is_taken_as_it_is_or_made_convex():
     z = r**2 / 2000 + 0.3 * rng.standard_normal(r.size)
     radii, heights = read_tip(table({"r (nm)": r, "z (nm)": z}, "\t"))[0]
     assert len(radii) <= MAX_SAMPLES
-    assert heights[-1] == pytest.approx(45e-9, rel=0.01)
+    assert heights[-1] == approx(45e-9, rel=0.01)
     # Few rows that noise has made concave.
     r = np.linspace(-50, 50, 41)
     z = 0.2 * np.abs(r) + 0.5 * rng.standard_normal(41)

@@ -14,6 +14,7 @@ from app.shared.summary import summary
 from app.state import preset_state
 from mdr_core.show.figures import SPRINGS
 
+from ..approx import approx
 from .conftest import DROP
 from .states import numbers, part, solved, state_with, view_of, viscous
 from .test_drives import oblique_state, path
@@ -32,12 +33,12 @@ def test_1_areas_of_a_viscous_impact_are_its_energies(progress):
     course, i = view.course, view.course.now
     rows, m = force(view, i), view.course.motion
     contact = float(course.states.stored_energy[i])
-    assert abs(area(rows["stored"])) == pytest.approx(contact, rel=0.02, abs=1e-3 * m.kinetic_energy[0])
+    assert abs(area(rows["stored"])) == approx(contact, rel=0.02, abs=1e-3 * m.kinetic_energy[0])
     lost = m.plastic_work[i] + m.viscous_work[i] + m.stored_energy[i] - contact
     # By the trapezoidal rule over 120 instants.
-    assert abs(area(rows["dissipated"])) == pytest.approx(lost, rel=0.02)
+    assert abs(area(rows["dissipated"])) == approx(lost, rel=0.02)
     # The edge of what is stored is at the state.
-    assert np.max(rows["stored"][0]) == pytest.approx(float(course.states.depth[i]), rel=1e-9)
+    assert np.max(rows["stored"][0]) == approx(float(course.states.depth[i]), rel=1e-9)
 
 
 def test_2_the_fast_limit_is_compared_with_the_contact_area():
@@ -72,7 +73,7 @@ def test_8_formulas_are_those_of_the_drive():
 def test_9_the_numbers_of_a_state_sum_up(progress):
     course = follow(viscous().replace(at=progress))
     parts = ("stored_energy", "plastic_work", "viscous_work", "kinetic_energy")
-    assert sum(numbers(course)[name][course.now] for name in parts) == pytest.approx(2.75, rel=1e-6)
+    assert sum(numbers(course)[name][course.now] for name in parts) == approx(2.75, rel=1e-6)
     helps = {each.name: each.help for each in readouts.READOUTS}
     assert "Without dashpots" in helps["stored_energy"]
     assert "Without them" in helps["mean_pressure"]
@@ -116,7 +117,7 @@ def test_13_springs_are_elastic_or_yielded_also_in_an_oblique_impact():
         rows, now = view.places(PLOTS["springs"], view.course.now), view.course.state
         spacing = 2 * view.end(X) / SPRINGS
         for name, radius in (("yielded", now.plastic_radius), ("elastic", now.contact_radius)):
-            assert np.nanmax(np.abs(rows[name][0][::vertices])) == pytest.approx(radius, abs=spacing)
+            assert np.nanmax(np.abs(rows[name][0][::vertices])) == approx(radius, abs=spacing)
     assert "speed" not in PLOTS
     assert "Speed" not in [choice.label for choice in CHOICES.values()]
     assert CHOICES["drive"].options["depth"].label == "depth"
@@ -157,10 +158,10 @@ def test_adhesion_is_drawn_below_zero_to_the_pull_off(drive, share):
     np.testing.assert_allclose(numbers(course)["pull_off_force"], pull_off, rtol=1e-12)
     assert view.places(PLOTS["force"], course.now)["Fₐ"][2] == "Fₐ = 11.8 µN"
     # The largest tension is between two states; it is flat there.
-    assert -np.min(course.states.force) == pytest.approx(pull_off, rel=1e-2)
+    assert -np.min(course.states.force) == approx(pull_off, rel=1e-2)
     assert axis.start <= -pull_off
     assert view.axis(D).start <= np.min(course.states.depth) < 0
-    assert -course.states.force[course.progress <= 2][-1] == pytest.approx(share * pull_off, rel=1e-9)
+    assert -course.states.force[course.progress <= 2][-1] == approx(share * pull_off, rel=1e-9)
     assert course.states.force[-1] == 0
 
 
@@ -169,7 +170,7 @@ def test_after_yield_the_whole_imprint_is_pulled_off():
     course = view.course
     c = float(course.state.plastic_radius)
     kendall = np.sqrt(8 * np.pi * 0.05 * course.scene.medium.E_star * c**3)
-    assert float(course.state.force) == pytest.approx(-kendall, rel=1e-12)
+    assert float(course.state.force) == approx(-kendall, rel=1e-12)
     # All springs reach above the flat bottom of the imprint, to the lifted indenter.
     x, z = (part.reshape(-1, 9) for part in springs(view, course.now)["yielded"])
     stretch = np.sqrt(2 * np.pi * c * 0.05 / course.scene.medium.E_star)

@@ -12,6 +12,7 @@ from app.extras.guide import TOURS, step_state
 from app.state import OPENING, medium, profile
 from mdr_core.show.units import in_full
 
+from ..approx import approx
 from .conftest import DROP, PUNCH
 from .states import full_name, linked_state, state_with
 from .test_hardness import STEEL
@@ -39,14 +40,14 @@ def test_every_number_is_swept_as_one_scene_at_a_time(drive):
         numbers, values = found.rows["this scene"]
         # What is 0 has no place on a logarithmic axis.
         values = np.nan_to_num(values)
-        assert (numbers[0], numbers[-1]) == pytest.approx((asked.low, asked.high), rel=1e-12)
+        assert (numbers[0], numbers[-1]) == approx((asked.low, asked.high), rel=1e-12)
         for k in (0, 50, 80):
             expected = one(state, name, numbers[k], "plastic_work")
             # Inverse functions are found to some units of rounding, times a condition of some tens.
-            assert values[k] == pytest.approx(expected, rel=1e-11, abs=1e-11 * values.max()), name
+            assert values[k] == approx(expected, rel=1e-11, abs=1e-11 * values.max()), name
         x, y = (float(part[0]) for part in found.rows["present value"])
         assert x == asked.present
-        assert np.interp(x, numbers, values) == pytest.approx(y, rel=2e-2)
+        assert np.interp(x, numbers, values) == approx(y, rel=2e-2)
 
 
 def test_a_viscous_impact_is_swept_over_its_relaxation_time_at_rest():
@@ -54,7 +55,7 @@ def test_a_viscous_impact_is_swept_over_its_relaxation_time_at_rest():
     state, asked, found = swept(state, swept="eta", against="restitution")
     numbers, values = found.rows["this scene"]
     assert not sweep.quick(asked)
-    assert values[20] == pytest.approx(one(state, "eta", numbers[20], "restitution"), rel=1e-9)
+    assert values[20] == approx(one(state, "eta", numbers[20], "restitution"), rel=1e-9)
     # The limit of fast impacts is without viscosity.
     assert sweep.FAST not in found.rows
     state = changes.choose(state, "damping", "none")
@@ -74,7 +75,7 @@ def test_the_damaged_area_comes_to_the_fast_limit_and_its_power_of_the_energy(sh
         np.testing.assert_allclose(fast, 4 * W / (np.pi * state.q_c * state.cone_slope), rtol=1e-12)
     slopes = np.diff(np.log(area)) / np.diff(np.log(W))
     # What is missing of the limit falls as d_c/d.
-    assert slopes[-1] == pytest.approx(power, rel=2e-2)
+    assert slopes[-1] == approx(power, rel=2e-2)
     assert abs(area[-1] / fast[-1] - 1) < abs(area[0] / fast[0] - 1) < 0.2
 
 
@@ -99,10 +100,10 @@ def test_other_classes_of_hardness_are_solved_through_the_present_point():
                 given = state.replace(
                     plasticity=other.state.plasticity, **{constant: other.state[constant]}
                 )
-                assert one(given, "speed", 30.0, against) == pytest.approx(result, rel=1e-4)
+                assert one(given, "speed", 30.0, against) == approx(result, rel=1e-4)
                 energy = 1e6 * asked.present * np.array([1.0, 1.1])
                 far = np.diff(np.log(other.column(energy, against))) / np.log(1.1)
-                assert far[0] == pytest.approx(powers["abc".index(row[1])], abs=5e-3), (row, against)
+                assert far[0] == approx(powers["abc".index(row[1])], abs=5e-3), (row, against)
 
 
 def test_the_note_has_the_constants_and_powers_of_all_classes():
@@ -110,7 +111,7 @@ def test_the_note_has_the_constants_and_powers_of_all_classes():
     _, asked, found = swept(state_with(DROP, shape="cone").replace(speed=20.0), against="restitution")
     note = re.sub("<su[bp]>|</su[bp]>", "", found.note)
     own, a, c = map(float, re.findall(r" W(\S+?)[.;,]? ", note.replace("−", "-") + " "))
-    assert own == pytest.approx(-1 / 4, abs=2e-3)
+    assert own == approx(-1 / 4, abs=2e-3)
     assert a == 0
     assert c < -3 / 4
     H, f_c = (asked.classes()[row].state[name] for row, (_, name) in sweep.CLASSES.items() if name != "q_c")

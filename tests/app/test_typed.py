@@ -9,6 +9,7 @@ from app.quantities import QUANTITIES
 from app.state import preset_state
 from mdr_core.show.units import UNITS, read
 
+from ..approx import approx
 from .conftest import DROP, GOLD, Explorer
 from .states import part
 
@@ -118,7 +119,7 @@ def test_a_slider_reaches_both_ends_and_returns_to_its_middle(server, context):
         explorer.slider("α").focus()
         explorer.change(press, key)
         # As it is typed: fifteen digits.
-        assert float(explorer.link("attack=")["oblique.attack"]) == pytest.approx(bound, rel=1e-14)
+        assert float(explorer.link("attack=")["oblique.attack"]) == approx(bound, rel=1e-14)
     shows(explorer, "α", "90 °")
     assert explorer.problems == []
     explorer.page.close()

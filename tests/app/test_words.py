@@ -18,6 +18,7 @@ from app.state import PRESETS, preset_state
 from app.tip import read_tip
 from app.ui import linked, marked
 
+from ..approx import approx
 from .conftest import DROP
 from .states import fields_of, part, press, side, state_with, stepped, view_of
 
@@ -100,17 +101,17 @@ def test_guided_scenes_say_what_is_so():
     assert begun.state.pressure(0.0) < float("inf")
     # (21): the ring a − c stays as wide as it is.
     rings = [float(course.state.contact_radius - course.state.plastic_radius) for course in (begun, deep)]
-    assert rings[0] == pytest.approx(rings[1], rel=1e-9)
+    assert rings[0] == approx(rings[1], rel=1e-9)
     assert lifted.states.force[lifted.now] == 0
     left = float(deep.state.depth) - elastic.onset.depth
-    assert float(lifted.state.depth) == pytest.approx(left, rel=1e-9)
+    assert float(lifted.state.depth) == approx(left, rel=1e-9)
     courses = stepped("A fast impact, and what it destroys")
     slow, onset, fast, one, twice, _ = (course.hit for course in courses)
     assert slow.restitution == 1
     assert slow.damaged_area == 0
     assert onset.damaged_area > 0
     assert fast.plastic_work / (fast.mass * fast.speed**2 / 2) > 0.9
-    assert twice.damaged_area / one.damaged_area == pytest.approx(4, rel=0.05)
+    assert twice.damaged_area / one.damaged_area == approx(4, rel=0.05)
     fast, slow, thick, thin = (course.hit for course in stepped("Why a slow drop bounces better"))
     assert slow.restitution > 4 * fast.restitution
     assert thin.contact_time > 2 * thick.contact_time

@@ -7,6 +7,8 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
+
 mpmath = pytest.importorskip("mpmath")
 mp, mpf = mpmath.mp, mpmath.mpf
 E_STAR, Q_C, W, R, SLOPE, B = 1e9, 8.0, 2e-3, 1e-6, 0.2, 1e-7
@@ -76,26 +78,26 @@ def test_states_agree_with_40_digits(name, medium):
     for i in touching:
         a, force, r, pressure = reference(g, slope, PATH[i], states.plastic_depth[i])
         # Rounding of the live depth, 1e-16 of 3 d_c, over distances from the fold of 0.01 d_c.
-        assert states.contact_radius[i] == pytest.approx(a, rel=1e-12)
-        assert states.force[i] == pytest.approx(force, rel=1e-11)
-        assert states[i].pressure(r) == pytest.approx(pressure, rel=1e-10)
+        assert states.contact_radius[i] == approx(a, rel=1e-12)
+        assert states.force[i] == approx(force, rel=1e-11)
+        assert states[i].pressure(r) == approx(pressure, rel=1e-10)
     # The same states under their forces, where these can be held: that of a path in depth goes further.
     held = touching[(states.force[touching] > -0.5 * states.pull_off_force[touching])]
     again = mdr.indent_to_force(profile, medium, states.force[held])
-    assert again.depth == pytest.approx(PATH[held], rel=1e-10)
+    assert again.depth == approx(PATH[held], rel=1e-10)
 
 
 def test_pull_off_forces_are_jkrs_and_kendalls():
-    assert mdr.indent(mdr.Paraboloid(R), ELASTIC, 0.0).pull_off_force == pytest.approx(
+    assert mdr.indent(mdr.Paraboloid(R), ELASTIC, 0.0).pull_off_force == approx(
         1.5 * math.pi * W * R, rel=1e-14
     )
     kendall = math.sqrt(8 * math.pi * W * E_STAR * B**3)
-    assert mdr.indent(mdr.FlatPunch(B), ELASTIC, 0.0).pull_off_force == pytest.approx(kendall, rel=1e-14)
+    assert mdr.indent(mdr.FlatPunch(B), ELASTIC, 0.0).pull_off_force == approx(kendall, rel=1e-14)
     # At the rim of the imprint the pull-off is that of a punch of its radius.
     for profile in (mdr.Paraboloid(R), mdr.Cone(SLOPE), mdr.Sphere(R)):
         deep = mdr.indent(profile, YIELDING, 20 * D_C)
         kendall = math.sqrt(8 * math.pi * W * E_STAR * deep.plastic_radius**3)
-        assert deep.pull_off_force == pytest.approx(kendall, rel=1e-13)
+        assert deep.pull_off_force == approx(kendall, rel=1e-13)
 
 
 @pytest.mark.parametrize("medium", [ELASTIC, YIELDING], ids=["elastic", "yielding"])
@@ -104,7 +106,7 @@ def test_the_pull_off_force_is_the_largest_tension_on_unloading(profile, medium)
     down = np.linspace(2.0, -0.5, 40001) * D_C
     path = mdr.indent(profile, medium, down)
     # The maximum is flat, or at the end of the contact, which the path meets to 1e-4 of Δl.
-    assert path.force.min() == pytest.approx(-path.pull_off_force[0], rel=1e-3)
+    assert path.force.min() == approx(-path.pull_off_force[0], rel=1e-3)
     assert path.force.min() >= -path.pull_off_force[0] * (1 + 1e-12)
 
 
@@ -120,9 +122,9 @@ def test_force_is_the_derivative_of_the_energy(profile, medium):
         energy = (state.stored_energy + state.surface_energy + state.plastic_work).reshape(-1, 3)
         rate = (energy[:, 2] - energy[:, 0]) / (path[:, 2] - path[:, 0])
         # Truncation 1e-10, rounding 1e-16/1e-5; kinks lie between the depths.
-        assert state.force[1::3] == pytest.approx(rate, rel=1e-7)
+        assert state.force[1::3] == approx(rate, rel=1e-7)
         rate = (state.force[2::3] - state.force[::3]) / (path[:, 2] - path[:, 0])
-        assert state.stiffness[1::3] == pytest.approx(rate, rel=1e-5, abs=1e-7 * E_STAR * B)
+        assert state.stiffness[1::3] == approx(rate, rel=1e-5, abs=1e-7 * E_STAR * B)
 
 
 @pytest.mark.parametrize("name", ["paraboloid", "cone"])
@@ -149,8 +151,8 @@ def test_a_chain_with_torn_springs_agrees(name, d_c):
     medium = mdr.Medium(E_STAR, Q_C if d_c < math.inf else math.inf, work_of_adhesion=W)
     path = mdr.indent(profile, medium, depths)
     # One element is 1e-11 m; the force at the rim is E* Δl of it.
-    assert path.contact_radius == pytest.approx(np.array(radius), abs=3e-11)
-    assert path.force == pytest.approx(np.array(force), abs=3e-3 * np.abs(force).max())
+    assert path.contact_radius == approx(np.array(radius), abs=3e-11)
+    assert path.force == approx(np.array(force), abs=3e-3 * np.abs(force).max())
 
 
 def test_without_adhesion_nothing_changes():
@@ -161,7 +163,7 @@ def test_without_adhesion_nothing_changes():
         assert (mdr.indent(profile, none, path).force == plain.force).all()
         # Δl is √(w/E*): of 1e-30 J/m² it is 1e-14 of the depths.
         faint = mdr.indent(profile, mdr.Medium(E_STAR, Q_C, work_of_adhesion=1e-36), path)
-        assert faint.force == pytest.approx(plain.force, rel=1e-9, abs=1e-12 * plain.force.max())
+        assert faint.force == approx(plain.force, rel=1e-9, abs=1e-12 * plain.force.max())
     assert none == mdr.Medium(E_STAR, Q_C)
 
 
@@ -174,13 +176,13 @@ def test_fields_are_balanced():
         t = np.concatenate([edge * NODE, edge + (np.pi / 2 - edge) * NODE])
         weight = np.concatenate([edge * WEIGHT, (np.pi / 2 - edge) * WEIGHT])
         integral = (state.pressure(a * np.sin(t)) * np.sin(2 * t) * np.pi * a * a * weight).sum()
-        assert integral == pytest.approx(state.force, rel=1e-4)
+        assert integral == approx(state.force, rel=1e-4)
         r = np.linspace(0, 0.999, 7) * a
         whole = state.surface(r) + state.imprint(r)
-        assert whole == pytest.approx(state.depth - mdr.Cone(SLOPE).height(r), rel=1e-9, abs=1e-9 * D_C)
+        assert whole == approx(state.depth - mdr.Cone(SLOPE).height(r), rel=1e-9, abs=1e-9 * D_C)
         stress = state.stress(0.5 * a, [0.0, 1e-4 * a])
-        assert -stress.zz[0] == pytest.approx(state.pressure(0.5 * a), rel=1e-12)
-        assert stress.zz[1] == pytest.approx(stress.zz[0], rel=1e-3)
+        assert -stress.zz[0] == approx(state.pressure(0.5 * a), rel=1e-12)
+        assert stress.zz[1] == approx(stress.zz[0], rel=1e-3)
         assert [state.pressure(a), state.pressure(1.001 * a)] == [-math.inf, 0]
         assert state.line_load(0.999999 * a) < 0
     punch = mdr.indent(mdr.FlatPunch(B), ELASTIC, [1e-9, -1e-10])
@@ -197,14 +199,14 @@ def test_energy_of_separation_is_johnson_and_pollocks():
             return mp.quad(lambda x: (d - x * x) ** 2, [0, a]) - mp.pi * a * a
 
         expected = float(energy((k / 4) ** (mpf(2) / 3)) - energy(k ** (mpf(2) / 3)))
-    assert expected == pytest.approx(7.092196, abs=5e-7)
+    assert expected == approx(7.092196, abs=5e-7)
     hit = mdr.impact(mdr.Paraboloid(R), ELASTIC, 1e-12, np.array([1e-3, 1.0]))
     work = expected * (W**5 * R**4 / E_STAR**2) ** (1 / 3)
     assert hit.captured.tolist() == [True, False]
-    assert hit.adhesive_work[1] == pytest.approx(work, rel=1e-12)
-    assert hit.restitution == pytest.approx([0.0, math.sqrt(1 - work / 0.5e-12)], rel=1e-12)
+    assert hit.adhesive_work[1] == approx(work, rel=1e-12)
+    assert hit.restitution == approx([0.0, math.sqrt(1 - work / 0.5e-12)], rel=1e-12)
     low, high = mdr.capture_speeds(mdr.Paraboloid(R), ELASTIC, 1e-12)
-    assert low == pytest.approx(math.sqrt(2 * work / 1e-12), rel=1e-10)
+    assert low == approx(math.sqrt(2 * work / 1e-12), rel=1e-10)
     assert high == math.inf
 
 
@@ -217,14 +219,14 @@ def test_energies_of_impacts_sum_to_the_kinetic_energy(profile):
     kinetic = 0.5e-12 * speed**2
     total = hit.restitution**2 * kinetic + hit.plastic_work + hit.adhesive_work
     # The depth to rounding, with energies of adhesion of up to ten times the kinetic one.
-    assert total == pytest.approx(kinetic, rel=1e-10)
+    assert total == approx(kinetic, rel=1e-10)
     low, high = mdr.capture_speeds(profile, YIELDING, 1e-12)
     assert (hit.captured == ((speed < low) | (speed > high))).all()
     assert np.isinf(hit.contact_time[hit.captured]).all()
     # The deepest states of ascending speeds are those of one loading, to the rounding of the depth.
     state = mdr.indent(profile, YIELDING, hit.max_depth)
-    assert hit.max_force == pytest.approx(state.force, rel=1e-9, abs=1e-9 * np.abs(state.force).max())
-    assert hit.plastic_depth == pytest.approx(state.plastic_depth, rel=1e-9, abs=1e-12 * D_C)
+    assert hit.max_force == approx(state.force, rel=1e-9, abs=1e-9 * np.abs(state.force).max())
+    assert hit.plastic_depth == approx(state.plastic_depth, rel=1e-9, abs=1e-12 * D_C)
     edge = mdr.impact(profile, YIELDING, 1e-12, low * np.array([1 - 1e-6, 1 + 1e-6]))
     assert edge.captured.tolist() == [True, False]
 
@@ -262,17 +264,17 @@ def test_restitution_agrees_with_20_digits(name, speed):
         after = before - energy(end, d_p, c)
         e = float(mp.sqrt(after / (mpf("0.5e-12") * mpf(speed) ** 2)))
     # Rounding of the energies, which cancel to a hundredth.
-    assert mdr.impact(profile, YIELDING, 1e-12, speed).restitution == pytest.approx(e, rel=1e-11)
+    assert mdr.impact(profile, YIELDING, 1e-12, speed).restitution == approx(e, rel=1e-11)
 
 
 def test_a_cone_bounces_between_two_speeds():
     cone = mdr.Cone(SLOPE)
     hit = mdr.impact(cone, YIELDING, 1e-12, np.array([0.1, 1.0, 30.0, 36.0]))
     # Two digits of an independent chain.
-    assert hit.restitution[:3] == pytest.approx([0.92, 0.33, 0.024], rel=0.03)
+    assert hit.restitution[:3] == approx([0.92, 0.33, 0.024], rel=0.03)
     high = mdr.capture_speeds(cone, YIELDING, 1e-12)[1]
-    assert high == pytest.approx(35.188, rel=1e-5)
-    assert mdr.capture_speeds(cone, YIELDING, [1e-12, 4e-12])[1] == pytest.approx([high, high / 2])
+    assert high == approx(35.188, rel=1e-5)
+    assert mdr.capture_speeds(cone, YIELDING, [1e-12, 4e-12])[1] == approx([high, high / 2])
     # For large w/q_c there is no such window, without adhesion no end.
     strong = mdr.Medium(E_STAR, 0.1, work_of_adhesion=1.0)
     assert np.isnan(mdr.capture_speeds(cone, strong, 1e-12)).all()
@@ -292,17 +294,17 @@ def test_the_end_of_an_impact_is_the_pull_off():
     held = (states.contact_radius > 0)[1:]
     mean = (velocity[1:] + velocity[:-1]) / 2
     time = (np.abs(np.diff(path))[held & (mean > 0)] / mean[held & (mean > 0)]).sum()
-    assert hit.contact_time == pytest.approx(time, rel=1e-3)
+    assert hit.contact_time == approx(time, rel=1e-3)
     again = mdr.impact(mdr.Cone(SLOPE), YIELDING, 1e-12, 0.1, plastic_depth=hit.plastic_depth)
     total = again.restitution**2 * 0.5e-14 + again.plastic_work + again.adhesive_work
-    assert total == pytest.approx(0.5e-14, rel=1e-10)
+    assert total == approx(0.5e-14, rel=1e-10)
     assert again.restitution > hit.restitution
 
 
 def test_limits_say_tabors_parameter():
     state = mdr.indent(mdr.Paraboloid(R), ELASTIC, 1e-9)
     limit = next(each for each in state.limits if "Tabor" in each.what)
-    assert limit.value == pytest.approx((R * W**2 / (E_STAR**2 * 0.3e-9**3)) ** (1 / 3))
+    assert limit.value == approx((R * W**2 / (E_STAR**2 * 0.3e-9**3)) ** (1 / 3))
     assert (limit.exceeded, limit.bound) == (True, 5)
     assert not any("Tabor" in each.what for each in mdr.indent(mdr.Cone(SLOPE), ELASTIC, 1e-9).limits)
 
@@ -318,7 +320,7 @@ def test_limits_say_what_facets_change(count, exceeded):
     assert limit.exceeded == exceeded == (error > limit.bound)
     if not exceeded:
         # With many facets in the contact the estimate is good to its leading term.
-        assert limit.value == pytest.approx(error, rel=0.3)
+        assert limit.value == approx(error, rel=0.3)
 
 
 def test_samples_of_a_cone_have_no_facets():
@@ -344,7 +346,7 @@ def test_a_rim_that_jumps_from_facet_to_facet_names_the_way_out():
     ):
         with pytest.raises(ValueError, match="from facet to facet: take Smooth"):
             call(samples)
-        assert call(smooth) == pytest.approx(call(mdr.Paraboloid(R)), rel=1e-9)
+        assert call(smooth) == approx(call(mdr.Paraboloid(R)), rel=1e-9)
 
 
 @pytest.mark.parametrize(

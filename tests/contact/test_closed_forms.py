@@ -9,6 +9,7 @@ import mdr_core as mdr
 from mdr_core.contact.integrals import Integrals, QuadratureIntegrals, integrals
 from mdr_core.contact.live_interval import LiveInterval
 
+from ..approx import approx
 from ..shapes import POWER_LAWS, name
 
 MEDIUM = mdr.Medium(E_star=1e9, q_c=10.0)
@@ -63,8 +64,8 @@ def test_a_family_of_its_own_takes_part():
     assert type(integrals(Wide())) is QuadratureIntegrals
     known, wide, cone = (mdr.indent(p, MEDIUM, 5e-8) for p in (Known(), Wide(), mdr.Cone(0.5)))
     for quantity in ("force", "stored_energy", "plastic_work", "stiffness"):
-        assert getattr(known, quantity) == pytest.approx(getattr(wide, quantity), rel=1e-13, abs=0.0)
-        assert getattr(known, quantity) == pytest.approx(getattr(cone, quantity), rel=1e-15, abs=0.0)
+        assert getattr(known, quantity) == approx(getattr(wide, quantity), rel=1e-13, abs=0.0)
+        assert getattr(known, quantity) == approx(getattr(cone, quantity), rel=1e-15, abs=0.0)
     r = known.contact_radius * np.linspace(0, 1.2, 8)
     np.testing.assert_allclose(known.pressure(r), cone.pressure(r), rtol=1e-12)
     np.testing.assert_allclose(known.stress(r, 1e-8).zz, cone.stress(r, 1e-8).zz, rtol=1e-9)

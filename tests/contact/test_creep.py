@@ -7,6 +7,7 @@ from scipy.integrate import solve_ivp, trapezoid
 import mdr_core as mdr
 from mdr_core.foundation.force_path import chain_creep
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 
 E, TAU = 1e9, 1e-9
@@ -207,7 +208,7 @@ def test_states_agree_in_themselves(shape, given):
             np.linspace(0, path.contact_radius[i], 4001)[:-1], path.contact_radius[i] * (1 - 1e-12)
         )
         # Trapezia over a kink in the load, or its jump at the rim: the square of 1/4000.
-        assert 2 * trapezoid(path[i].line_load(x), x) == pytest.approx(path.force[i], rel=1e-6)
+        assert 2 * trapezoid(path[i].line_load(x), x) == approx(path.force[i], rel=1e-6)
     energy = path.stored_energy + path.plastic_work + path.viscous_work
     # Trapezia over steps in which the depth starts as a fractional power of the time.
     work = np.append(0.0, np.cumsum((path.force[1:] + path.force[:-1]) / 2 * np.diff(path.depth)))
@@ -272,11 +273,11 @@ def test_a_punch_of_a_metal_flows_beyond_its_hardness():
     medium, time = viscous({"hardness": hardness}), np.array([0.0, 0.1, 20.0, 21.0, 22.0, 30.0]) * TAU
     path = mdr.creep(mdr.FlatPunch(radius), medium, capacity * np.array([0, 2, 2, 2, 0, 0]), time)
     rate = (path.depth[3] - path.depth[2]) / TAU
-    assert rate == pytest.approx(capacity / (8 * ETA * radius), rel=1e-6)
+    assert rate == approx(capacity / (8 * ETA * radius), rel=1e-6)
     turned = path.depth[3] + capacity / (8 * ETA * radius) * TAU / 4
     # What it recovers is the cap.
-    assert path.plastic_depth[-1] == pytest.approx(turned - np.pi / 2 * hardness * radius / E, rel=1e-6)
-    assert path.depth[-1] == pytest.approx(path.plastic_depth[-1], rel=1e-3)
+    assert path.plastic_depth[-1] == approx(turned - np.pi / 2 * hardness * radius / E, rel=1e-6)
+    assert path.depth[-1] == approx(path.plastic_depth[-1], rel=1e-3)
 
 
 def test_what_it_does_not_compute_is_said():

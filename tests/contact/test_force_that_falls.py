@@ -5,6 +5,8 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
+
 
 def test_a_force_below_the_onset_leads_to_the_elastic_depth():
     """A later branch, past the fall, is no solution for forces below its own."""
@@ -31,6 +33,6 @@ def test_the_first_depth_that_carries_it(seed):
     for i in rng.choice(2000, 4):
         found = mdr.indent_to_force(tip, medium, forces[i])
         again = mdr.indent(tip, medium, found.depth).force
-        assert again == pytest.approx(forces[i], rel=1e-10)
+        assert again == approx(forces[i], rel=1e-10)
         enough = depth[np.argmax(forces >= forces[i] * (1 - 1e-12))]
         assert found.depth <= enough * (1 + 1e-9)

@@ -16,6 +16,7 @@ import mdr_core as mdr
 from mdr_core.contact.yielding import ConstantCap, RadiusCap
 from mdr_core.hardness import SumOfClasses
 
+from ..approx import approx
 from ..reference import Reference
 from ..shapes import SHAPES, name
 
@@ -125,10 +126,10 @@ def test_states_against_elements_in_45_digits(shape, mixture):
             exact = State(shape, medium, depth, largest)
             assert abs(state.plastic_depth - float(exact.plastic_depth)) <= 1e-13 * largest
             if exact.live_interval > 0:
-                assert state.force == pytest.approx(float(exact.force), rel=1e-12)
+                assert state.force == approx(float(exact.force), rel=1e-12)
                 assert abs(state.stored_energy - float(exact.stored_energy)) <= 1e-11 * total
         # The work of the elements is stored or plastic.
-        assert states.plastic_work[0] + states.stored_energy[0] == pytest.approx(
+        assert states.plastic_work[0] + states.stored_energy[0] == approx(
             work(shape, medium, largest), rel=1e-9
         )
 
@@ -184,13 +185,13 @@ class TestClosedLimits:
     def test_a_paraboloid(self):
         ball, medium = mdr.Paraboloid(radius=1e-5), mdr.Medium(E, hardness=9e9)
         onset = mdr.yield_depth(ball, medium)
-        assert onset == pytest.approx((np.pi * 9e9 / (2 * E)) ** 2 * 1e-5, rel=1e-14)
+        assert onset == approx((np.pi * 9e9 / (2 * E)) ** 2 * 1e-5, rel=1e-14)
         ratio = np.array([0.5, 1 + 1e-6, 3.0, 1e4])
         state = mdr.indent(ball, medium, onset * ratio)
         expected = np.maximum(ratio - np.sqrt(ratio), 0.0)
         np.testing.assert_allclose(state.plastic_depth / onset, expected, rtol=0, atol=1e-15 * ratio.max())
         # The mean pressure at the onset is 2H/3, as of every elastic paraboloid under its own line load.
-        assert mdr.indent(ball, medium, onset).mean_pressure == pytest.approx(6e9, rel=1e-14)
+        assert mdr.indent(ball, medium, onset).mean_pressure == approx(6e9, rel=1e-14)
 
     def test_johnsons_exponent(self):
         """e ∝ v^(−1/4) under a ball of constant hardness, within 2 % from 30 times the yield speed on."""
@@ -206,8 +207,8 @@ class TestClosedLimits:
         cone, medium = mdr.Cone(slope=0.3), mdr.Medium(E, f_c=1e-3)
         state = mdr.indent(cone, medium, 1e-6)
         u = cap(medium, state.contact_radius)
-        assert state.force == pytest.approx(np.pi * 1e-3 - E * 2 / (np.pi * 0.3) * u**2, rel=1e-12)
-        assert mdr.indent_to_force(cone, medium, state.force).depth == pytest.approx(1e-6, rel=1e-9)
+        assert state.force == approx(np.pi * 1e-3 - E * 2 / (np.pi * 0.3) * u**2, rel=1e-12)
+        assert mdr.indent_to_force(cone, medium, state.force).depth == approx(1e-6, rel=1e-9)
         with pytest.raises(ValueError, match="all of the contact yields, π f_c"):
             mdr.indent_to_force(cone, medium, np.pi * 1e-3)
 
@@ -273,9 +274,9 @@ def test_impacts_against_newtons_equation_over_elements(index, mixture, eta):
     hit = mdr.impact(shape, medium, 1e-12, 20.0)
     assert hit.plastic_work > 0.05 * 0.5e-12 * 20.0**2
     depth, e, time = rebound(shape, medium, 1e-12, 20.0)
-    assert hit.max_depth == pytest.approx(depth, rel=1e-8)
-    assert hit.restitution == pytest.approx(e, abs=1e-8)
-    assert hit.contact_time == pytest.approx(time, rel=1e-7)
+    assert hit.max_depth == approx(depth, rel=1e-8)
+    assert hit.restitution == approx(e, abs=1e-8)
+    assert hit.contact_time == approx(time, rel=1e-7)
 
 
 @pytest.mark.parametrize("mixture", MIXTURES)
@@ -290,20 +291,20 @@ def test_energy_balance_and_equation_of_motion_agree(shape, mixture):
         np.testing.assert_allclose(work, 1e-12 * hit.speed**2 / 2, rtol=1e-12)
         for i in range(3):
             motion = hit[i].motion(3)
-            assert -motion.velocity[-1] / hit.speed[i] == pytest.approx(hit.restitution[i], abs=1e-10)
-            assert motion.time[-1] == pytest.approx(hit.contact_time[i], rel=1e-9)
+            assert -motion.velocity[-1] / hit.speed[i] == approx(hit.restitution[i], abs=1e-10)
+            assert motion.time[-1] == approx(hit.contact_time[i], rel=1e-9)
             energy = motion.kinetic_energy + motion.stored_energy + motion.plastic_work
             np.testing.assert_allclose(energy, 1e-12 * hit.speed[i] ** 2 / 2, rtol=1e-9)
         # One by one, and in an ensemble of media.
         again = mdr.impact(shape, medium, 1e-12, hit.speed[2], plastic_depth=hit.plastic_depth[2] * 0)
         media = mdr.Medium(E, [medium.q_c, 100.0], hardness=[medium.hardness, 0.0], f_c=[medium.f_c, 0.0])
         many = mdr.impact(shape, media, 1e-12, hit.speed[2])
-        assert many.restitution[0] == pytest.approx(again.restitution, rel=1e-13)
-        assert many.contact_time[0] == pytest.approx(again.contact_time, rel=1e-11)
+        assert many.restitution[0] == approx(again.restitution, rel=1e-13)
+        assert many.contact_time[0] == approx(again.contact_time, rel=1e-11)
     path = mdr.indent(shape, medium, [first.max_depth[2], 0.0, second.max_depth[2]])
     assert second.max_depth[2] == path.depth[2]
-    assert second.plastic_depth[2] == pytest.approx(path.plastic_depth[2], rel=1e-12)
-    assert second.turning_point.force[2] == pytest.approx(path.force[2], rel=1e-11)
+    assert second.plastic_depth[2] == approx(path.plastic_depth[2], rel=1e-12)
+    assert second.turning_point.force[2] == approx(path.force[2], rel=1e-11)
 
 
 class TestFallingForce:
@@ -316,12 +317,12 @@ class TestFallingForce:
         force = mdr.indent(self.cone, self.medium, depth[:, None]).force[:, 0]
         onset = mdr.critical_force(self.cone, self.medium)
         later = depth > mdr.yield_depth(self.cone, self.medium)
-        assert force[later].min() == pytest.approx(0.978 * onset, rel=1e-3)
+        assert force[later].min() == approx(0.978 * onset, rel=1e-3)
         for share in (0.5, 0.999, 1.001, 1.02):
             state = mdr.indent_to_force(self.cone, self.medium, share * onset)
             first = depth[np.argmax(force >= share * onset)]
             assert 0 <= first - state.depth <= depth[1] - depth[0]
-            assert state.force == pytest.approx(share * onset, rel=1e-12)
+            assert state.force == approx(share * onset, rel=1e-12)
             jumps = [limit.sentence for limit in state.limits if limit.what == "jump"]
             assert len(jumps) == (share > 1)
             assert all("95.43 mm past" in sentence for sentence in jumps)
@@ -335,7 +336,7 @@ class TestFallingForce:
     def test_the_largest_force_of_an_impact_may_be_that_at_the_onset(self):
         speed = 1.5 * mdr.yield_speed(self.cone, self.medium, 1.0)
         hit = mdr.impact(self.cone, self.medium, 1.0, [speed, 9 * speed])
-        assert hit.max_force[0] == pytest.approx(mdr.critical_force(self.cone, self.medium), rel=1e-12)
+        assert hit.max_force[0] == approx(mdr.critical_force(self.cone, self.medium), rel=1e-12)
         assert hit.turning_point.force[0] < 0.99 * hit.max_force[0]
         assert hit.max_force[1] == hit.turning_point.force[1]
 
@@ -377,7 +378,7 @@ def test_smooth_shapes_are_checked_to_be_convex():
     with pytest.raises(ValueError, match="not convex"):
         mdr.indent(mdr.Smooth(lambda r: 1 / (1 + r / 1e-6)), glass, 1e-9)
     smooth = mdr.indent(mdr.Smooth(lambda r: r / 1e-5), glass, 1e-8)
-    assert smooth.force == pytest.approx(mdr.indent(mdr.Paraboloid(1e-5), glass, 1e-8).force, rel=1e-10)
+    assert smooth.force == approx(mdr.indent(mdr.Paraboloid(1e-5), glass, 1e-8).force, rel=1e-10)
 
 
 @pytest.mark.parametrize("past", [1e-5, 4e-5, 9e-5])
@@ -394,4 +395,4 @@ def test_plastic_work_of_a_paraboloid_just_past_the_onset(past):
         end = mpmath.sqrt(mpmath.mpf(float(depth)) / onset)
         integral = mpmath.quad(lambda r: r * mpmath.sqrt(r * r - r) * (2 * r - 1), [1, end])
         expected = 2 * E * mpmath.sqrt(mpmath.mpf(R)) * onset ** mpmath.mpf("2.5") * integral
-    assert work == pytest.approx(float(expected), rel=1e-10)
+    assert work == approx(float(expected), rel=1e-10)

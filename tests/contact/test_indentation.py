@@ -8,6 +8,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from ..shapes import SHAPES, integrate, name
 
 MEDIUM = mdr.Medium(E_star=1e9, q_c=1.0)
@@ -31,7 +32,7 @@ def breaks(s):
 def test_eq_11_fully_yielded_contact_carries_pi_q_c_a():
     punch = mdr.FlatPunch(radius=2e-6)
     force = mdr.indent(punch, MEDIUM, [D_C, 10 * D_C]).force
-    assert force == pytest.approx(math.pi * MEDIUM.q_c * 2e-6, rel=1e-15)
+    assert force == approx(math.pi * MEDIUM.q_c * 2e-6, rel=1e-15)
 
 
 class TestCone:
@@ -41,7 +42,7 @@ class TestCone:
     cone = mdr.Cone(slope)
 
     def test_eq_16_contact_radius(self):
-        assert mdr.indent(self.cone, MEDIUM, D_C).contact_radius == pytest.approx(2 * D_C / math.pi / 0.3)
+        assert mdr.indent(self.cone, MEDIUM, D_C).contact_radius == approx(2 * D_C / math.pi / 0.3)
 
     def test_eq_17_18_line_load(self):
         deep = mdr.indent(self.cone, MEDIUM, 3 * D_C)
@@ -57,13 +58,13 @@ class TestCone:
 
     def test_eq_20_critical_force(self):
         expected = math.pi * MEDIUM.q_c**2 / (2 * MEDIUM.E_star * self.slope)
-        assert mdr.indent(self.cone, MEDIUM, D_C).force == pytest.approx(expected, rel=1e-15)
+        assert mdr.indent(self.cone, MEDIUM, D_C).force == approx(expected, rel=1e-15)
 
     def test_eq_21_plastic_radius(self):
         deep = mdr.indent(self.cone, MEDIUM, 5 * D_C)
-        assert deep.plastic_radius == pytest.approx(2 * (5 * D_C - D_C) / (math.pi * self.slope), rel=1e-15)
+        assert deep.plastic_radius == approx(2 * (5 * D_C - D_C) / (math.pi * self.slope), rel=1e-15)
         width = deep.contact_radius - deep.plastic_radius
-        assert width == pytest.approx(MEDIUM.q_c / (MEDIUM.E_star * self.slope), rel=1e-14)
+        assert width == approx(MEDIUM.q_c / (MEDIUM.E_star * self.slope), rel=1e-14)
 
     def test_eq_22_force_grows_linearly_after_yield(self):
         depth = np.linspace(1, 10, 10) * D_C
@@ -78,7 +79,7 @@ class TestCone:
         r = np.linspace(0.01, 0.99, 30) * a
         expected = factor * (np.arccosh(a / r) - np.arccosh(np.maximum(c / r, 1)))
         np.testing.assert_allclose(deep.pressure(r), expected, rtol=1e-13)
-        assert deep.pressure(0.0) == pytest.approx(factor * math.log(a / c), rel=1e-14)
+        assert deep.pressure(0.0) == approx(factor * math.log(a / c), rel=1e-14)
 
 
 @pytest.mark.parametrize("history", HISTORIES)
@@ -93,18 +94,18 @@ class TestBalance:
             lambda r: 2 * math.pi * r * s.pressure(r), [*breaks(s), s.contact_radius * (1 - 1e-13)]
         )
         # The cut at the rim leaves out √(2e-13) of a singular one.
-        assert force == pytest.approx(s.force, rel=2e-6 if s.contact_radius >= shape.wall else 1e-8)
+        assert force == approx(s.force, rel=2e-6 if s.contact_radius >= shape.wall else 1e-8)
 
     def test_eq_9_line_load_integrates_to_the_force(self, shape, history):
         s = state(shape, history)
         force = 2 * integrate(s.line_load, [*breaks(s), s.contact_radius * (1 - 1e-15)])
         # d − g(x) keeps 13 digits at 40 d_c, and quad reaches 1e-10.
-        assert force == pytest.approx(s.force, rel=1e-9)
+        assert force == approx(s.force, rel=1e-9)
 
     def test_stored_energy_is_that_of_the_springs(self, shape, history):
         s = state(shape, history)
         energy = integrate(lambda x: s.line_load(x) ** 2, [*breaks(s), s.contact_radius]) / MEDIUM.E_star
-        assert energy == pytest.approx(s.stored_energy, rel=1e-9)
+        assert energy == approx(s.stored_energy, rel=1e-9)
 
     def test_surface_follows_the_indenter_in_contact(self, shape, history):
         s = state(shape, history)
@@ -116,13 +117,13 @@ class TestBalance:
         s = state(shape, history)
         r = 1e4 * s.contact_radius
         # arcsin(a/r) = a/r + O(a³/r³).
-        assert s.surface(r) == pytest.approx(s.force / (math.pi * MEDIUM.E_star * r), rel=1e-8)
+        assert s.surface(r) == approx(s.force / (math.pi * MEDIUM.E_star * r), rel=1e-8)
 
     def test_surface_is_continuous_at_the_contact_edge(self, shape, history):
         s = state(shape, history)
         below, above = s.surface(np.array([1 - 1e-12, 1 + 1e-12]) * s.contact_radius)
         # h has a square-root edge: √(2e-12) of the live depth at most.
-        assert above == pytest.approx(below, abs=2e-6 * D_C)
+        assert above == approx(below, abs=2e-6 * D_C)
 
     def test_work_of_the_force_is_stored_or_dissipated(self, shape, history):
         path = np.concatenate([[0.0], history])
@@ -135,7 +136,7 @@ class TestBalance:
             )
         s = state(shape, history)
         # Balance to quad's accuracy.
-        assert gained == pytest.approx(s.stored_energy + s.plastic_work, rel=1e-9)
+        assert gained == approx(s.stored_energy + s.plastic_work, rel=1e-9)
 
     def test_stiffness_is_the_slope_of_the_force(self, shape, history):
         s, h = state(shape, history), 1e-4 * D_C
@@ -148,7 +149,7 @@ class TestBalance:
         )
         # Second-order difference with h = 1e-4 d_c, where a jump by 2E*a/1e4 cannot hide.
         scale = 2 * MEDIUM.E_star * s.contact_radius
-        assert forward == pytest.approx(s.stiffness, abs=1e-5 * scale)
+        assert forward == approx(s.stiffness, abs=1e-5 * scale)
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
@@ -158,7 +159,7 @@ class TestMemory:
         down = np.linspace(peak, peak - D_C, 9)
         path = mdr.indent(shape, MEDIUM, np.concatenate([down, down[::-1], [9 * D_C]]))
         np.testing.assert_allclose(path.force[:9], path.force[9:18][::-1], rtol=ULPS)
-        assert path.force[-1] == pytest.approx(mdr.indent(shape, MEDIUM, 9 * D_C).force, rel=ULPS)
+        assert path.force[-1] == approx(mdr.indent(shape, MEDIUM, 9 * D_C).force, rel=ULPS)
 
     def test_contact_is_lost_at_the_plastic_depth(self, shape):
         path = mdr.indent(shape, MEDIUM, [4 * D_C, 2.9 * D_C, 1 * D_C, -1e-9])
@@ -175,18 +176,18 @@ class TestMemory:
             mdr.indent(shape, mdr.Medium(1e9), depth),
             mdr.indent(shape, mdr.Medium(1e9), 2.0 * D_C),
         )
-        assert path.force[-1] == pytest.approx(single.force, rel=ULPS)
+        assert path.force[-1] == approx(single.force, rel=ULPS)
         assert path.plastic_work[-1] == 0.0
 
     def test_elastic_curve_is_the_limit_of_large_yield_constant(self, shape):
         elastic, hard = (mdr.indent(shape, mdr.Medium(1e9, q), 2e-9) for q in (np.inf, 1e9))
-        assert hard.force == pytest.approx(elastic.force, rel=ULPS)
-        assert hard.pressure(1e-8) == pytest.approx(elastic.pressure(1e-8), rel=ULPS)
+        assert hard.force == approx(elastic.force, rel=ULPS)
+        assert hard.pressure(1e-8) == approx(elastic.pressure(1e-8), rel=ULPS)
 
     def test_scaling_of_modulus_and_yield_constant_together(self, shape):
         one, many = (mdr.indent(shape, mdr.Medium(k * 1e9, k), 3 * D_C) for k in (1.0, 1024.0))
-        assert many.force == pytest.approx(1024 * one.force, rel=ULPS)
-        assert many.contact_radius == pytest.approx(one.contact_radius, rel=ULPS)
+        assert many.force == approx(1024 * one.force, rel=ULPS)
+        assert many.contact_radius == approx(one.contact_radius, rel=ULPS)
 
     def test_rows_are_paths_of_their_own(self, shape):
         rows = np.array([[3.0, 2.5], [0.5, 2.5]]) * D_C
@@ -227,9 +228,9 @@ def test_live_depth_shorter_than_the_spacing_of_doubles(shape):
     s = mdr.indent(shape, MEDIUM, [deep, np.nextafter(deep - D_C, 1)])[-1]
     a, live = s.contact_radius, s.live_interval.length
     assert live > 0
-    assert s.force == pytest.approx(2 * MEDIUM.E_star * a * live, rel=1e-9)
-    assert s.pressure(0.5 * a) == pytest.approx(MEDIUM.E_star / math.pi * live / (a * 0.75**0.5), rel=1e-6)
-    assert s.surface(2 * a) == pytest.approx(live / 3, rel=1e-6)
+    assert s.force == approx(2 * MEDIUM.E_star * a * live, rel=1e-9)
+    assert s.pressure(0.5 * a) == approx(MEDIUM.E_star / math.pi * live / (a * 0.75**0.5), rel=1e-6)
+    assert s.surface(2 * a) == approx(live / 3, rel=1e-6)
 
 
 def test_results_do_not_change_under_the_hands():
@@ -266,7 +267,7 @@ def test_force_that_no_depth_is_enough_for():
     """Once r⁵⁰ yields, F ∝ d^(1/50): a billion times the force would need 10⁴⁵⁰ times the depth."""
     tip, medium = mdr.PowerLaw(1e294, 50.0), mdr.Medium(1e10, 1e-3)
     force = mdr.indent(tip, medium, 1e-6).force
-    assert mdr.indent_to_force(tip, medium, force).depth == pytest.approx(1e-6, rel=1e-9)
+    assert mdr.indent_to_force(tip, medium, force).depth == approx(1e-6, rel=1e-9)
     with pytest.raises(ValueError, match=r"presses deeper than the shape is known, 1e\+25 m"):
         mdr.indent_to_force(tip, medium, 1e9 * force)
 

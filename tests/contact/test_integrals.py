@@ -12,6 +12,7 @@ from mdr_core.contact.integrals import QuadratureIntegrals, integrals, tabulated
 from mdr_core.contact.live_interval import LiveInterval
 from mdr_core.profiles.radius_table import OneLength
 
+from ..approx import approx
 from ..hard_cases import EXTREMES, MEDIA, REGIMES, bounds, errors
 from ..shapes import SHAPES, name
 
@@ -74,13 +75,13 @@ def test_integrals_from_tables_are_those_of_quadrature(shape):
 def test_depths_beyond_the_tables():
     """Where a sphere is a paraboloid to any precision, a hyperboloid its cone, and a sphere all in."""
     for depth in (1e-40, 1e-32, 1e-28):
-        assert mdr.Sphere(1.0).contact_radius(depth) == pytest.approx(depth**0.5, rel=1e-15)
+        assert mdr.Sphere(1.0).contact_radius(depth) == approx(depth**0.5, rel=1e-15)
         energy = integrals(mdr.Sphere(1.0)).energy_integral(LiveInterval.elastic(np.array([depth])))[0]
-        assert energy == pytest.approx(4 / 15 * depth**2.5, rel=1e-14)
+        assert energy == approx(4 / 15 * depth**2.5, rel=1e-14)
     # The tables end at 2¹⁰⁰ times the length of the tip.
     wide = mdr.Hyperboloid(1.0, 1e-10).contact_radius(1e24)
-    assert wide == pytest.approx(1e24 / (np.pi / 2), rel=1e-15)
-    assert mdr.Sphere(1.0).contact_radius(99.0) == pytest.approx(1.0, rel=1e-15)
+    assert wide == approx(1e24 / (np.pi / 2), rel=1e-15)
+    assert mdr.Sphere(1.0).contact_radius(99.0) == approx(1.0, rel=1e-15)
 
 
 def _latitude(depth):

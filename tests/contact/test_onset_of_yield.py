@@ -5,6 +5,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 
 MEDIUM = mdr.Medium(E_star=1e9, q_c=10.0)
@@ -14,7 +15,7 @@ MEDIUM = mdr.Medium(E_star=1e9, q_c=10.0)
 def test_critical_force_is_that_at_the_critical_depth(shape):
     state = mdr.indent(shape, MEDIUM, MEDIUM.critical_depth)
     # Both are the same closed form or table, to rounding.
-    assert mdr.critical_force(shape, MEDIUM) == pytest.approx(state.force, rel=1e-13)
+    assert mdr.critical_force(shape, MEDIUM) == approx(state.force, rel=1e-13)
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
@@ -23,23 +24,23 @@ def test_impacts_yield_above_the_yield_speed(shape):
     slower, faster = (mdr.impact(shape, MEDIUM, 1e-9, share * speed) for share in (1 - 1e-9, 1 + 1e-9))
     assert slower.plastic_depth == 0.0
     assert faster.plastic_depth > 0.0
-    assert slower.max_depth == pytest.approx(MEDIUM.critical_depth, rel=1e-8)
+    assert slower.max_depth == approx(MEDIUM.critical_depth, rel=1e-8)
 
 
 def test_johnsons_sphere():
     """m v_y²/2 = (8/15) E* √R d_c^(5/2), and F_c = (4/3) E* √R d_c^(3/2), of a paraboloid."""
     radius, mass, d_c = 1e-3, 1e-6, MEDIUM.critical_depth
     force = 4 / 3 * MEDIUM.E_star * radius**0.5 * d_c**1.5
-    assert mdr.critical_force(mdr.Paraboloid(radius), MEDIUM) == pytest.approx(force, rel=1e-14)
+    assert mdr.critical_force(mdr.Paraboloid(radius), MEDIUM) == approx(force, rel=1e-14)
     energy = 8 / 15 * MEDIUM.E_star * radius**0.5 * d_c**2.5
     speed = mdr.yield_speed(mdr.Paraboloid(radius), MEDIUM, mass)
-    assert mass * speed**2 / 2 == pytest.approx(energy, rel=1e-14)
+    assert mass * speed**2 / 2 == approx(energy, rel=1e-14)
 
 
 def test_a_flat_punch_yields_all_at_once():
     """π q_c b, the force of Eq. (11) of a contact that has yielded everywhere."""
     force = mdr.critical_force(mdr.FlatPunch(1e-6), MEDIUM)
-    assert force == pytest.approx(np.pi * MEDIUM.q_c * 1e-6, rel=1e-14)
+    assert force == approx(np.pi * MEDIUM.q_c * 1e-6, rel=1e-14)
 
 
 def test_arrays_broadcast_and_what_never_yields_is_infinite():

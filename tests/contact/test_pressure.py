@@ -8,6 +8,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 from .test_indentation import D_C, HISTORIES, MEDIUM, state
 
@@ -46,8 +47,8 @@ def test_axis_pressure_and_stiffness_of_a_power_law_next_to_the_threshold(n, exc
     a = s.contact_radius
     expected = MEDIUM.E_star / math.pi * n * s.depth / a * (1 - ratio ** (n - 1)) / (n - 1)
     # Powers of a ratio down to 1e-12.
-    assert s.pressure(0.0) == pytest.approx(expected, rel=1e-12)
-    assert s.stiffness == pytest.approx(2 * MEDIUM.E_star * a * (1 - ratio), rel=1e-13)
+    assert s.pressure(0.0) == approx(expected, rel=1e-12)
+    assert s.stiffness == approx(2 * MEDIUM.E_star * a * (1 - ratio), rel=1e-13)
 
 
 @pytest.mark.parametrize("r", [1e-20, 1e-60])
@@ -56,7 +57,7 @@ def test_pressure_next_to_a_sharp_tip(tip, r):
     """p = (E*/2) arcosh(a/r): a logarithm, however small r is."""
     state = mdr.indent(tip, mdr.Medium(E_star=1e9), 1e-7)
     expected = 1e9 / 2 * (math.log(2 * state.contact_radius) - math.log(r))
-    assert state.pressure(r) == pytest.approx(expected, rel=1e-13)
+    assert state.pressure(r) == approx(expected, rel=1e-13)
 
 
 @pytest.mark.parametrize("shape", WET, ids=name)
@@ -97,7 +98,7 @@ def test_dashpots_press_as_a_flat_punch(shape):
     punch = load / math.pi / np.sqrt(a**2 - r**2)
     # A difference of pressures of one size.
     np.testing.assert_allclose(added[finite], punch[finite], rtol=1e-12)
-    assert state.force - slow.force == pytest.approx(2 * a * load, rel=1e-12)
+    assert state.force - slow.force == approx(2 * a * load, rel=1e-12)
     assert state.pressure(a) == math.inf
     assert state.pressure(1.001 * a) == 0.0
 
@@ -112,4 +113,4 @@ def test_pressure_within_a_rounding_of_the_plastic_radius(shape):
             continue
         near = [np.nextafter(c, 0), np.nextafter(np.nextafter(c, 0), 0), np.nextafter(c, 1)]
         # √(2·10⁻⁸) of the pressure, times a slope of some units.
-        assert s.pressure(near) == pytest.approx(s.pressure(c * (1 + 1e-8)), rel=1e-3)
+        assert s.pressure(near) == approx(s.pressure(c * (1 + 1e-8)), rel=1e-3)

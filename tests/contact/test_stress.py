@@ -9,6 +9,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.numerics.gauss import tanh_sinh
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 from .test_indentation import D_C, HISTORIES
 
@@ -120,7 +121,7 @@ def test_equilibrium_and_compatibility(shape, history):
 def test_every_plane_carries_the_force(shape, history):
     s = state(shape, history)
     for depth in (1e-4, 0.02, 0.3, 3.0):
-        assert carried(s, depth) == pytest.approx(s.force, rel=1e-6), depth
+        assert carried(s, depth) == approx(s.force, rel=1e-6), depth
 
 
 def carried(s, depth):
@@ -148,8 +149,8 @@ def test_far_beyond_the_critical_depth(shape, history):
     s = state(shape, history)
     a = s.contact_radius
     # Radii have 10⁻¹⁶ a, and the ring is 10⁻⁸ a wide.
-    assert carried(s, (a - s.plastic_radius) / a) == pytest.approx(s.force, rel=1e-6)
-    assert carried(s, 1.0) == pytest.approx(s.force, rel=1e-8)
+    assert carried(s, (a - s.plastic_radius) / a) == approx(s.force, rel=1e-6)
+    assert carried(s, 1.0) == approx(s.force, rel=1e-8)
 
 
 @pytest.mark.parametrize("history", HISTORIES)
@@ -257,8 +258,8 @@ def test_invariants_of_the_tensor():
         deviator = matrix - np.trace(matrix) / 3 * np.eye(3)
         # A few roundings.
         np.testing.assert_allclose(stress.principal, values, rtol=1e-12, atol=1e-12 * np.abs(values).max())
-        assert stress.max_shear == pytest.approx((values[0] - values[2]) / 2, rel=1e-12)
-        assert stress.von_mises == pytest.approx(math.sqrt(1.5 * np.sum(deviator**2)), rel=1e-12)
+        assert stress.max_shear == approx((values[0] - values[2]) / 2, rel=1e-12)
+        assert stress.von_mises == approx(math.sqrt(1.5 * np.sum(deviator**2)), rel=1e-12)
 
 
 def test_shapes_of_arrays():
@@ -271,7 +272,7 @@ def test_shapes_of_arrays():
     one = s.stress(0.5e-6, 0.5e-6)
     assert isinstance(one.rr, float)
     assert isinstance(one.max_shear, float)
-    assert one.rz == pytest.approx(grid.rz[1, 3], rel=1e-12)
+    assert one.rz == approx(grid.rz[1, 3], rel=1e-12)
     assert s.stress([], 1e-6).rr.shape == (0,)
 
 
@@ -284,7 +285,7 @@ def test_states_of_an_impact(shape):
     motion = mdr.impact(shape, WET, 1e-9, 0.1).motion(12)
     for i in (1, 4, 8, 10):
         s = motion.states[i]
-        assert carried(s, 0.2) == pytest.approx(motion.force[i], rel=1e-6)
+        assert carried(s, 0.2) == approx(motion.force[i], rel=1e-6)
     s, slow = motion.states[3], mdr.indent(shape, WET, motion.depth[3])
     a = s.contact_radius
     elastic = mdr.Medium(WET.E_star, poisson=WET.poisson)

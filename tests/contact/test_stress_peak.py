@@ -9,6 +9,7 @@ from scipy.optimize import minimize_scalar
 import mdr_core as mdr
 from mdr_core.contact.stress import StressPeak
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 from .test_indentation import D_C, HISTORIES
 from .test_stress import DEEP, MEDIUM, WET, state
@@ -29,19 +30,19 @@ def test_peak_of_hertz(nu):
     peak, equivalent = s.stress_peak(), s.stress_peak("von_mises")
     if nu == 0.3:
         assert (round(peak.value / p0, 3), round(peak.z / a, 3)) == (0.310, 0.481)
-    assert peak.value == pytest.approx(-top.fun * p0, rel=1e-8)
+    assert peak.value == approx(-top.fun * p0, rel=1e-8)
     # A top of curvature one is flat to the root of what the stress has.
-    assert peak.z / a == pytest.approx(top.x, abs=1e-3)
-    assert peak.r / a == pytest.approx(0, abs=1e-3)
+    assert peak.z / a == approx(top.x, abs=1e-3)
+    assert peak.r / a == approx(0, abs=1e-3)
     # On the axis two of three principal stresses are equal.
-    assert equivalent.value == pytest.approx(2 * peak.value, rel=1e-8)
+    assert equivalent.value == approx(2 * peak.value, rel=1e-8)
 
 
 def test_peak_of_a_cone():
     """Incompressible: σ_zz − σ_rr → 3 E* s/4 on the way to the tip. Otherwise infinite, as the pressure."""
     tip = mdr.Cone(0.3)
     peak = mdr.indent(tip, mdr.Medium(1e9), 1e-8).stress_peak()
-    assert peak.value == pytest.approx(3 / 8 * 1e9 * 0.3, rel=1e-6)
+    assert peak.value == approx(3 / 8 * 1e9 * 0.3, rel=1e-6)
     assert max(peak.r, peak.z) < 1e-3 * mdr.indent(tip, mdr.Medium(1e9), 1e-8).contact_radius
     assert mdr.indent(tip, mdr.Medium(1e9, poisson=0.49), 1e-8).stress_peak() == StressPeak(
         math.inf, 0.0, 0.0
@@ -69,7 +70,7 @@ def test_peak_at_the_edges_of_a_polygon():
     depth = float(tip.reduced(2.5e-7))
     peak = mdr.indent(tip, mdr.Medium(1e9, poisson=0.3), depth).stress_peak()
     assert peak.value == math.inf
-    assert peak.r == pytest.approx(2e-7, rel=1e-12)
+    assert peak.r == approx(2e-7, rel=1e-12)
     assert np.isfinite(mdr.indent(tip, mdr.Medium(1e9), depth).stress_peak().value)
 
 
@@ -92,7 +93,7 @@ def test_nothing_is_larger_than_the_peak(shape, history, quantity):
     z = np.append(rng.uniform(0, 1.5, 2000) * a, ring * 10 ** rng.uniform(-3, 0.5, 2000))
     assert np.max(getattr(s.stress(r, z), quantity)) <= peak.value * (1 + DEEP)
     if np.isfinite(peak.value):
-        assert getattr(s.stress(peak.r, peak.z), quantity) == pytest.approx(peak.value, rel=DEEP)
+        assert getattr(s.stress(peak.r, peak.z), quantity) == approx(peak.value, rel=DEEP)
 
 
 def test_largest_at_each_depth():
@@ -107,7 +108,7 @@ def test_largest_at_each_depth():
     # Rows with 3000 radii, each top of which is within (a/6000)² of the curvature there.
     np.testing.assert_allclose(largest, expected, rtol=1e-4)
     peak = path[1].stress_peak("von_mises")
-    assert path[1].largest_stress(peak.z, "von_mises") == pytest.approx(peak.value, rel=1e-6)
+    assert path[1].largest_stress(peak.z, "von_mises") == approx(peak.value, rel=1e-6)
 
 
 def test_largest_over_an_impact():

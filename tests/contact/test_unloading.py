@@ -9,6 +9,7 @@ from scipy.integrate import trapezoid
 import mdr_core as mdr
 from mdr_core.contact.unloading import adhesive_loop, unloading, unloading_curve
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 
 E_STAR, W, R = 1e9, 0.05, 1e-6
@@ -31,7 +32,7 @@ def test_unloading_is_the_path_back_and_gives_back_what_is_stored(shape, q_c):
     assert (states.depth[0], states.depth[-1]) == (state.depth, state.plastic_depth)
     assert states.force[-1] == 0
     # Chords of 4000 steps; an exponent of 1/2 has the largest error.
-    assert -trapezoid(states.force, states.depth) == pytest.approx(state.stored_energy, rel=1e-5)
+    assert -trapezoid(states.force, states.depth) == approx(state.stored_energy, rel=1e-5)
 
 
 @pytest.mark.parametrize("q_c", [2.0, math.inf])
@@ -53,7 +54,7 @@ def test_a_lifted_indenter_has_no_contact_and_leaves_the_imprint(q_c, w):
     # Without an imprint the pull-off is above the undeformed surface.
     assert (lost.depth < 0) == (q_c == math.inf)
     assert up.depth == (2 * lost.depth if lost.depth < 0 else 0.0)
-    assert lifted.depth == pytest.approx((lost.depth + up.depth) / 2, rel=1e-12)
+    assert lifted.depth == approx((lost.depth + up.depth) / 2, rel=1e-12)
     for each in (lifted, up):
         assert (each.force, each.contact_radius, each.pressure(0.0)) == (0, 0, 0)
         assert each.plastic_depth == state.plastic_depth
@@ -62,9 +63,9 @@ def test_a_lifted_indenter_has_no_contact_and_leaves_the_imprint(q_c, w):
 def test_under_a_force_the_end_is_the_pull_off_force():
     state = mdr.indent(mdr.Paraboloid(R), mdr.Medium(E_STAR, work_of_adhesion=W), 1e-7)
     _, force = unloading_curve(state, under_force=True)
-    assert force[-1] == pytest.approx(-1.5 * np.pi * W * R, rel=1e-9)
+    assert force[-1] == approx(-1.5 * np.pi * W * R, rel=1e-9)
     # At a given depth the contact is held further, under less tension.
-    assert unloading_curve(state)[1][-1] == pytest.approx(-5 / 6 * np.pi * W * R, rel=1e-9)
+    assert unloading_curve(state)[1][-1] == approx(-5 / 6 * np.pi * W * R, rel=1e-9)
 
 
 def test_elements_held_back_by_dashpots_are_unloaded_from_the_depth_of_the_state():
@@ -74,7 +75,7 @@ def test_elements_held_back_by_dashpots_are_unloaded_from_the_depth_of_the_state
     depth, force = unloading_curve(state)
     assert depth[0] == state.depth > state.live_interval.upper
     # Chords of 24 steps.
-    assert -trapezoid(force, depth) == pytest.approx(state.stored_energy, rel=3e-3)
+    assert -trapezoid(force, depth) == approx(state.stored_energy, rel=3e-3)
 
 
 @pytest.mark.parametrize("depth", [1e-9, 1e-8, 1e-7])
@@ -88,7 +89,7 @@ def test_an_elastic_loop_loses_what_jump_and_pull_off_take(depth):
     medium = mdr.Medium(E_STAR, work_of_adhesion=W)
     loop = adhesive_loop(mdr.indent(mdr.Paraboloid(R), medium, np.linspace(0, depth, 50)))
     # Chords of some 10⁻⁴.
-    assert loop.lost == pytest.approx(last - first, rel=1e-3)
+    assert loop.lost == approx(last - first, rel=1e-3)
     assert loop.gained == 0
 
 
@@ -99,4 +100,4 @@ def test_a_yielding_loop_has_the_area_of_its_path():
     loop = adhesive_loop(mdr.indent(cone, medium, down))
     path = mdr.indent(cone, medium, np.append(down, np.linspace(1e-7, -1e-7, 20_000)))
     # Before first contact there is no force, so that the jump is no work.
-    assert loop.lost - loop.gained == pytest.approx(trapezoid(path.force, path.depth), rel=2e-3)
+    assert loop.lost - loop.gained == approx(trapezoid(path.force, path.depth), rel=2e-3)

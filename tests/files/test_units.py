@@ -6,6 +6,8 @@ import pytest
 import mdr_core as mdr
 from mdr_core.files.units import unit_of
 
+from ..approx import approx
+
 #: Units as they stand in a header, and their sizes (SI).
 READ = {
     "Depth (nm)": 1e-9, "depth_nm": 1e-9, "Tiefe / µm": 1e-6, "Tiefe in nm": 1e-9,
@@ -50,7 +52,7 @@ OTHERS = (
 def test_units_are_read_with_what_scales_them(head, size):
     unit = unit_of(head)
     assert not unit.doubt
-    assert unit.size == pytest.approx(size, rel=1e-12)
+    assert unit.size == approx(size, rel=1e-12)
 
 
 @pytest.mark.parametrize("head", DOUBTFUL)

@@ -5,6 +5,8 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
+
 E, CONE = 70e9, mdr.Cone(0.3)
 EPSILON = 2 - 4 / np.pi
 DEPTH = np.linspace(0, 400e-9, 200)
@@ -17,8 +19,8 @@ def test_of_an_elastic_cone_they_are_the_same_at_all_depths():
     result = mdr.oliver_pharr(CONE, DEPTH, FORCE, stiffness=STIFFNESS, epsilon=EPSILON)
     assert result.shape == DEPTH.shape
     assert np.isnan(result.E_star[0])
-    assert result.E_star[1:] == pytest.approx(E, rel=1e-11)
-    assert result.hardness[1:] == pytest.approx(0.15 * E, rel=1e-11)
+    assert result.E_star[1:] == approx(E, rel=1e-11)
+    assert result.hardness[1:] == approx(0.15 * E, rel=1e-11)
     assert any("1 of 200 samples" in remark for remark in result.remarks)
 
 
@@ -26,7 +28,7 @@ def test_beta_and_samples_without_a_stiffness():
     stiffness = np.where(np.arange(200) % 10 == 5, np.nan, STIFFNESS)
     result = mdr.oliver_pharr(CONE, DEPTH, FORCE, stiffness=stiffness, epsilon=EPSILON, beta=1.034)
     assert np.count_nonzero(np.isnan(result.E_star)) == 21
-    assert np.nanmax(result.E_star) == pytest.approx(E / 1.034, rel=1e-11)
+    assert np.nanmax(result.E_star) == approx(E / 1.034, rel=1e-11)
     pytest.importorskip("pandas")
     table = result.to_pandas()
     assert table.index.name == "sample"
@@ -38,8 +40,8 @@ def test_first_contact_is_found_here_too():
     depth = np.append(np.linspace(-90e-9, 0, 80, endpoint=False), DEPTH) + 90e-9
     force, stiffness = np.append(np.zeros(80), FORCE), np.append(np.zeros(80), STIFFNESS)
     result = mdr.oliver_pharr(CONE, depth, force, stiffness=stiffness, epsilon=EPSILON)
-    assert result.contact_point[0] == pytest.approx(90e-9, rel=1e-6)
-    assert result.E_star[85:] == pytest.approx(E, rel=1e-6)
+    assert result.contact_point[0] == approx(90e-9, rel=1e-6)
+    assert result.E_star[85:] == approx(E, rel=1e-6)
 
 
 def test_errors_are_the_scatter_of_neighbours():
@@ -49,7 +51,7 @@ def test_errors_are_the_scatter_of_neighbours():
         CONE, DEPTH[50:], FORCE[50:], stiffness=(STIFFNESS * noise)[50:], epsilon=EPSILON
     )
     deviation = np.std(result.E_star - E)
-    assert result.standard_errors["E_star"][0] == pytest.approx(deviation, rel=0.4)
+    assert result.standard_errors["E_star"][0] == approx(deviation, rel=0.4)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from ..approx import approx
 from .families import KINDS, covered, fits, told, visible
 
 SEEDS = range(20)
@@ -66,4 +67,4 @@ def test_the_most_that_can_be_seen_is_the_significance_of_the_true_cause():
     gain = np.sum(fit.residuals**2, axis=1) / np.sum(free.residuals**2, axis=1) - 1
     seen = np.sqrt(np.maximum(gain, 0) * fit.depth.shape[1])
     # The mean of 20 deviates of width 1 is known to 0.22: four of these.
-    assert visible(kind, "tilt", 0.002) == pytest.approx(np.mean(seen), abs=0.9)
+    assert visible(kind, "tilt", 0.002) == approx(np.mean(seen), abs=0.9)

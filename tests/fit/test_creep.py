@@ -5,6 +5,8 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
+
 TIP, E, H, PEAK = mdr.Cone.berkovich(), 70e9, 9e9, 0.1
 
 
@@ -53,7 +55,7 @@ def test_where_the_depth_grows_while_the_force_falls(kind):
     """With times to 5 %; without them it is refused as creep."""
     time, depth, force = record(1.5, kind)
     result = mdr.oliver_pharr(TIP, depth, force, time=time)
-    assert result.E_star == pytest.approx(E, rel=0.05)
+    assert result.E_star == approx(E, rel=0.05)
     assert np.isnan(result.uncorrected.E_star)
     with pytest.raises(ValueError, match=r"creeps: it grows by .* while the force falls"):
         mdr.oliver_pharr(TIP, depth, force)
@@ -63,7 +65,7 @@ def test_less_than_a_twentieth_has_no_remark():
     time, depth, force = record(0.03, "viscous")
     result = mdr.oliver_pharr(TIP, depth, force, time=time)
     assert not any("creeps" in remark for remark in result.remarks)
-    assert result.E_star == pytest.approx(E, rel=1e-3)
+    assert result.E_star == approx(E, rel=1e-3)
 
 
 def test_without_a_hold_nothing_is_corrected():
@@ -95,7 +97,7 @@ def test_exponents_are_no_sign_of_creep(profile, epsilon):
     for time in (None, np.arange(200.0)):
         result = mdr.oliver_pharr(profile, depth, force, time=time, epsilon=epsilon)
         assert not any("creep" in remark for remark in result.remarks)
-        assert result.E_star == pytest.approx(E, rel=0.03)
+        assert result.E_star == approx(E, rel=0.03)
 
 
 def test_times_that_go_back_are_refused():

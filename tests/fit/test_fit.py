@@ -10,6 +10,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.fit.report import with_error
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 
 E, Q = 10e9, 127.3
@@ -63,11 +64,11 @@ class TestIndentation:
     def test_is_the_inverse_of_indent(self, profile):
         """To the precision of the table of radii, 10⁻¹³, times the condition number of a fit."""
         fit = mdr.fit_indentation(profile, OUT + 7e-9, curve(profile))
-        assert fit.medium.E_star == pytest.approx(E, rel=1e-9)
-        assert fit.medium.q_c == pytest.approx(Q, rel=1e-9)
-        assert fit.contact_point == pytest.approx(7e-9, rel=1e-9)
+        assert fit.medium.E_star == approx(E, rel=1e-9)
+        assert fit.medium.q_c == approx(Q, rel=1e-9)
+        assert fit.contact_point == approx(7e-9, rel=1e-9)
         assert not fit.remarks
-        assert fit.path.force == pytest.approx(curve(profile), rel=1e-8, abs=1e-12 * curve(profile).max())
+        assert fit.path.force == approx(curve(profile), rel=1e-8, abs=1e-12 * curve(profile).max())
 
     def test_baseline_and_a_frame_that_is_subtracted(self):
         profile, C, F0 = mdr.Paraboloid(1e-6), 2e-4, 1e-6
@@ -75,7 +76,7 @@ class TestIndentation:
         depth, force = OUT + C * F, F + F0
         fit = mdr.fit_indentation(profile, depth - C * force, force, baseline=None)
         values = fit.medium.E_star, fit.medium.q_c, fit.contact_point, fit.baseline
-        assert values == pytest.approx((E, Q, -C * F0, F0), rel=1e-8)
+        assert values == approx((E, Q, -C * F0, F0), rel=1e-8)
         assert len(fit.standard_errors) == len(fit.covariance) == 4
 
     @pytest.mark.parametrize("depth_noise", [0.0, 0.4e-9])
@@ -88,11 +89,11 @@ class TestIndentation:
             assert 0.72 < pull.std() < 1.28, parameter
             assert abs(pull.mean()) < 0.45, parameter
         # Where the noise is estimated from the residuals χ² is 1 by construction, which says nothing.
-        chi = pytest.approx(1.0, abs=0.06) if depth_noise else pytest.approx(np.nan, nan_ok=True)
+        chi = approx(1.0, abs=0.06) if depth_noise else approx(np.nan, nan_ok=True)
         assert np.mean(fit.reduced_chi_square) == chi
         # By the noise of force and depth the residuals have the size 1, but for the three values fitted.
-        assert np.mean((fit.residuals / fit.residual_noise) ** 2) == pytest.approx(1.0, abs=0.1)
-        assert np.median(fit.force_noise) == pytest.approx(0.004 * curve(profile).max(), rel=0.1)
+        assert np.mean((fit.residuals / fit.residual_noise) ** 2) == approx(1.0, abs=0.1)
+        assert np.median(fit.force_noise) == approx(0.004 * curve(profile).max(), rel=0.1)
 
     def test_depth_noise_does_not_count_as_largest_depth(self):
         """A running maximum of the samples makes E* several times too small; a remark says so."""
@@ -133,14 +134,14 @@ class TestIndentation:
         for i in range(3):
             single = mdr.fit_indentation(profile, depth[i], force[i])
             # The minimum is known to the square root of rounding, and to a last step of 10⁻¹¹.
-            assert single.medium.E_star == pytest.approx(fit[i].medium.E_star, rel=1e-7)
-            assert single.standard_errors["q_c"] == pytest.approx(fit.standard_errors["q_c"][i], rel=1e-5)
+            assert single.medium.E_star == approx(fit[i].medium.E_star, rel=1e-7)
+            assert single.standard_errors["q_c"] == approx(fit.standard_errors["q_c"][i], rel=1e-5)
 
     def test_held_parameters(self):
         profile = mdr.Cone(0.3)
         fit = mdr.fit_indentation(profile, OUT, 1.01 * curve(profile), E_star=E, q_c=Q, contact_point=0.0)
         assert (fit.medium.E_star, fit.medium.q_c, fit.contact_point) == (E, Q, 0.0)
-        assert fit.residuals == pytest.approx(0.01 * curve(profile), abs=1e-12 * curve(profile).max())
+        assert fit.residuals == approx(0.01 * curve(profile), abs=1e-12 * curve(profile).max())
         assert not fit.standard_errors
 
     def test_elastic_medium(self):
@@ -148,15 +149,15 @@ class TestIndentation:
         profile = mdr.Paraboloid(1e-6)
         force = 4 / 3 * E * np.sqrt(1e-6) * np.maximum(OUT, 0.0) ** 1.5
         fit = mdr.fit_indentation(profile, OUT + 3e-9, force)
-        assert fit.medium.E_star == pytest.approx(E, rel=1e-9)
+        assert fit.medium.E_star == approx(E, rel=1e-9)
         assert fit.medium.q_c == fit.standard_errors["q_c"] == np.inf
         assert "nothing has yielded" in fit.remarks[0]
         held = mdr.fit_indentation(profile, OUT + 3e-9, force, q_c=np.inf)
-        assert held.medium.E_star == pytest.approx(E, rel=1e-9)
+        assert held.medium.E_star == approx(E, rel=1e-9)
         # A second, deeper indentation: the class of hardness is not tested where all of the depth recovers.
         twice = np.append(OUT, 1.3 * OUT)
         held = mdr.fit_indentation(profile, twice, curve(profile, mdr.Medium(E), twice), q_c=np.inf)
-        assert held.medium.E_star == pytest.approx(E, rel=1e-9)
+        assert held.medium.E_star == approx(E, rel=1e-9)
         assert not held.remarks
 
     @pytest.mark.parametrize("profile", [mdr.Cone(0.3), mdr.Paraboloid(1e-6)], ids=name)
@@ -248,9 +249,9 @@ class TestRealCurves:
             fit = mdr.fit_indentation(HERTZ[model], depth[rows], force[rows], q_c=np.inf, baseline=None)
             # Loading, unloading and the largest depth so far mean nothing to an elastic medium.
             assert not any(word in " ".join(fit.remarks) for word in ("loading", "back and forth", "class"))
-            assert fit.medium.E_star == pytest.approx(reference["E_star"], rel=1e-4)
+            assert fit.medium.E_star == approx(reference["E_star"], rel=1e-4)
             squares = np.sum((1e9 * fit.residuals) ** 2)
-            assert squares == pytest.approx(reference["sum_of_squares"], rel=1e-3)
+            assert squares == approx(reference["sum_of_squares"], rel=1e-3)
 
     def test_unloading_alone(self):
         """The sum of squares is not larger than with any held contact point; E* is that of the best."""
@@ -263,7 +264,7 @@ class TestRealCurves:
         )
         squares = np.sum(scan.residuals**2, axis=1)
         assert np.sum(fit.residuals**2) <= squares.min()
-        assert fit.medium.E_star == pytest.approx(scan.medium.E_star[squares.argmin()], rel=0.02)
+        assert fit.medium.E_star == approx(scan.medium.E_star[squares.argmin()], rel=0.02)
         assert abs(fit.contact_point - points[squares.argmin()]) < 5e-8
 
     def test_two_minima(self):
@@ -286,7 +287,7 @@ class TestRealCurves:
     def test_made_unloading_alone(self, q_c):
         medium, depth = mdr.Medium(E, q_c), np.linspace(60e-9, 45e-9, 50)
         fit = mdr.fit_indentation(mdr.Cone(0.3), depth, curve(mdr.Cone(0.3), medium, depth))
-        assert (fit.medium.E_star, fit.medium.q_c) == pytest.approx((E, q_c), rel=1e-9)
+        assert (fit.medium.E_star, fit.medium.q_c) == approx((E, q_c), rel=1e-9)
 
 
 def test_paths_of_many_media():
@@ -295,9 +296,7 @@ def test_paths_of_many_media():
     path = mdr.indent(profile, media, OUT)
     for i, (modulus, q_c) in enumerate(((E, Q), (2 * E, 3 * Q))):
         # The same closed form on other array lengths: a few units of rounding.
-        assert path.force[i] == pytest.approx(
-            curve(profile, mdr.Medium(modulus, q_c)), rel=1e-13, abs=1e-20
-        )
+        assert path.force[i] == approx(curve(profile, mdr.Medium(modulus, q_c)), rel=1e-13, abs=1e-20)
     with pytest.raises(ValueError, match="path"):
         mdr.indent(profile, mdr.Medium([E, 2 * E]), [1e-9, 2e-9])
 
@@ -309,9 +308,9 @@ class TestHardness:
     def test_is_the_inverse_of_the_mean_pressure(self, profile):
         state = mdr.indent(profile, MEDIUM, self.DEPTH)
         fit = mdr.fit_hardness(profile, state.mean_pressure, state.contact_radius, E_star=E)
-        assert fit.medium.q_c == pytest.approx(Q, rel=1e-11)
+        assert fit.medium.q_c == approx(Q, rel=1e-11)
         assert fit.hardness_class == "b"
-        assert fit.slope == pytest.approx(-1.0, rel=1e-10)
+        assert fit.slope == approx(-1.0, rel=1e-10)
 
     @pytest.mark.parametrize(("power", "name"), [(0.0, "a"), (-1.0, "b"), (-2.0, "c"), (-0.6, None)])
     def test_class(self, power, name):
@@ -342,12 +341,12 @@ class TestHardness:
         fit = mdr.fit_hardness(*data, E_star=E, **dict.fromkeys(constants))
         for constant in ("hardness", "q_c", "f_c"):
             true = constants.get(constant, 0.0)
-            assert getattr(fit.medium, constant) == pytest.approx(true, rel=1e-9)
+            assert getattr(fit.medium, constant) == approx(true, rel=1e-9)
         assert not fit.remarks
         if len(constants) > 1:
             first, second = constants
             held = mdr.fit_hardness(*data, E_star=E, **{first: constants[first], second: None})
-            assert getattr(held.medium, second) == pytest.approx(constants[second], rel=1e-9)
+            assert getattr(held.medium, second) == approx(constants[second], rel=1e-9)
 
     def test_errors_of_two_constants(self):
         """Pulls of 200 fits have the width of Student's t, √(10/8) for 10 degrees of freedom."""
@@ -360,7 +359,7 @@ class TestHardness:
             fit = mdr.fit_hardness(mdr.Cone(0.3), p_m, state.contact_radius, **given)
             deviations.append(list(pulls(fit, hardness=0.2e9, q_c=20.0).values()))
         # Four times the 5 % to which the width is known.
-        assert np.std(deviations, axis=0) == pytest.approx(np.sqrt(1.25), rel=0.2)
+        assert np.std(deviations, axis=0) == approx(np.sqrt(1.25), rel=0.2)
         assert np.abs(np.mean(deviations, axis=0)).max() < 4 * np.sqrt(1.25 / 200)
 
     def test_constants_that_radii_do_not_tell_apart(self):
@@ -413,4 +412,4 @@ def test_the_error_of_a_modulus_alone_is_that_of_a_regression():
     fit = mdr.fit_indentation(mdr.Cone(0.3), depth, measured, **held)
     assert fit.block_length == 1
     expected = noise / np.sqrt(np.sum((force / 1e9) ** 2))
-    assert fit.standard_errors["E_star"] == pytest.approx(expected, rel=1e-9)
+    assert fit.standard_errors["E_star"] == approx(expected, rel=1e-9)

@@ -8,6 +8,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from ..shapes import name
 
 DATA = Path(__file__).parents[1] / "data"
@@ -60,9 +61,9 @@ class TestInverse:
         z, force = made(profile, mdr.Medium(E, eta=ETA), PATHS[path])
         fit = mdr.fit_indentation(profile, z, force, time=TIME, q_c=np.inf, **FREE)
         values = fit.medium.E_star, fit.medium.eta, fit.contact_point, fit.baseline, fit.tilt, fit.drag
-        assert values == pytest.approx((E, ETA, POINT, *BACKGROUND.values()), rel=1e-4)
+        assert values == approx((E, ETA, POINT, *BACKGROUND.values()), rel=1e-4)
         background = fit.baseline + fit.tilt * z + fit.drag * np.gradient(z, TIME)
-        model = pytest.approx(force - background - fit.residuals, abs=1e-6 * force.max())
+        model = approx(force - background - fit.residuals, abs=1e-6 * force.max())
         assert fit.path.force == model
 
     def test_yielding(self):
@@ -71,7 +72,7 @@ class TestInverse:
         z, force = made(profile, medium, PATHS["hold"])
         fit = mdr.fit_indentation(profile, z, force, time=TIME, **FREE)
         values = fit.medium.E_star, fit.medium.q_c, fit.medium.eta, fit.drag
-        assert values == pytest.approx((E, medium.q_c, ETA, DRAG), rel=1e-4)
+        assert values == approx((E, medium.q_c, ETA, DRAG), rel=1e-4)
 
     def test_hold_cut_out(self):
         """A gap in time changes nothing: rates at its edges are those of the nearer samples."""
@@ -79,7 +80,7 @@ class TestInverse:
         z, force = made(profile, mdr.Medium(E, eta=ETA), PATHS["hold"])
         keep = (TIME < 0.36) | (TIME > 0.64)
         fit = mdr.fit_indentation(profile, z[keep], force[keep], time=TIME[keep], q_c=np.inf, **FREE)
-        assert (fit.medium.E_star, fit.medium.eta) == pytest.approx((E, ETA), rel=1e-4)
+        assert (fit.medium.E_star, fit.medium.eta) == approx((E, ETA), rel=1e-4)
 
     @pytest.mark.parametrize("path", PATHS)
     def test_errors_are_those_of_repeated_measurements(self, path):
@@ -159,8 +160,8 @@ class TestSamples:
         keep = np.isfinite(depth + broken)
         fit = mdr.fit_indentation(self.PROFILE, depth, broken)
         other = mdr.fit_indentation(self.PROFILE, z[keep], force[keep])
-        assert fit.to_dict() == pytest.approx(other.to_dict(), rel=1e-9)
-        assert fit.residuals[keep] == pytest.approx(other.residuals, rel=1e-6)
+        assert fit.to_dict() == approx(other.to_dict(), rel=1e-9)
+        assert fit.residuals[keep] == approx(other.residuals, rel=1e-6)
         assert np.isnan(fit.residuals[~keep]).all()
         assert "left out: 3 of 180 samples" in fit.remarks[-1]
 
@@ -171,8 +172,8 @@ class TestSamples:
         noise = np.where(np.arange(z.size) < 60, sigma / np.sqrt(2), sigma)
         fit = mdr.fit_indentation(self.PROFILE, z, force, force_noise=noise)
         other = mdr.fit_indentation(self.PROFILE, z[twice], force[twice], force_noise=sigma)
-        assert fit.to_dict() == pytest.approx(other.to_dict(), rel=1e-6)
-        assert fit.force_noise == pytest.approx(noise)
+        assert fit.to_dict() == approx(other.to_dict(), rel=1e-6)
+        assert fit.force_noise == approx(noise)
 
     def test_curves_of_different_lengths(self):
         z, force, _ = self.noisy(3)
@@ -183,9 +184,9 @@ class TestSamples:
         assert fits.residuals.shape == fits.path.shape == (3, 180)
         for i, (depth, row) in enumerate(zip(*curves, strict=True)):
             single = mdr.fit_indentation(self.PROFILE, depth, row)
-            assert fits[i].to_dict() == pytest.approx(single.to_dict(), rel=1e-9)
+            assert fits[i].to_dict() == approx(single.to_dict(), rel=1e-9)
             assert fits[i].depth.shape == fits[i].path.shape == depth.shape
-            assert fits[i].residuals == pytest.approx(single.residuals, rel=1e-6)
+            assert fits[i].residuals == approx(single.residuals, rel=1e-6)
             assert fits[i].remarks == single.remarks
         assert np.isnan(fits.residuals[1, 120:]).all()
         for chosen in ([False, True, True], [1, 2], np.array([1, 2]), slice(1, None)):
@@ -232,8 +233,8 @@ class TestSamples:
         fits = mdr.fit_indentation(self.PROFILE, [z, z[:-9]], [force[0], force[1, :-9]], q_c=np.inf)
         data = fits.to_xarray()
         assert dict(data.sizes) == {"curve": 2, "sample": 180, "parameter": 2, "other_parameter": 2}
-        assert (data.model + data.residuals).values == pytest.approx(data.force.values, nan_ok=True)
-        assert data.depth.values[0] == pytest.approx(z)
+        assert (data.model + data.residuals).values == approx(data.force.values, nan_ok=True)
+        assert data.depth.values[0] == approx(z)
         assert data.E_star_error.attrs["units"] == "Pa"
         assert data.attrs["remarks"].splitlines() == list(fits.remarks)
 
@@ -245,10 +246,10 @@ class TestSamples:
         fit = mdr.fit_indentation(self.PROFILE, z, force, depth_noise=1e-10, force_noise=1e-8)
         curve, residual = fit.plot()
         (points,) = [e for e in curve if isinstance(e, hv.Scatter)]
-        assert 1e-9 * points.dimension_values(0) == pytest.approx(z)
-        assert 1e-6 * points.dimension_values(1) == pytest.approx(force)
+        assert 1e-9 * points.dimension_values(0) == approx(z)
+        assert 1e-6 * points.dimension_values(1) == approx(force)
         (band,) = [e for e in residual if isinstance(e, hv.Polygons)]
         largest = np.hypot(1e-8, 1e-10 * fit.path.stiffness.max())
-        assert 1e-6 * band.dimension_values(1).max() == pytest.approx(largest)
+        assert 1e-6 * band.dimension_values(1).max() == approx(largest)
         with pytest.raises(ValueError, match="of one curve"):
             mdr.fit_indentation(self.PROFILE, [z, z], [force, force]).plot()

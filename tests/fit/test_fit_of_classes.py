@@ -8,6 +8,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.fit.curves import Curves
 
+from ..approx import approx
 from ..shapes import name
 from .test_fit import DATA, pulls, silica
 
@@ -65,12 +66,12 @@ def test_is_the_inverse_of_indent(profile, constants):
     """To the precision of the table of radii, 10⁻¹³, times the condition number of a fit."""
     force = made(profile, constants)
     fit = mdr.fit_indentation(profile, OUT + 7e-9, force, **dict.fromkeys(constants))
-    assert fit.medium.E_star == pytest.approx(E, rel=1e-8)
-    assert fit.contact_point == pytest.approx(7e-9, rel=1e-8)
+    assert fit.medium.E_star == approx(E, rel=1e-8)
+    assert fit.contact_point == approx(7e-9, rel=1e-8)
     for constant in ("hardness", "q_c", "f_c"):
-        assert getattr(fit.medium, constant) == pytest.approx(constants.get(constant, 0.0), rel=1e-7)
+        assert getattr(fit.medium, constant) == approx(constants.get(constant, 0.0), rel=1e-7)
     assert not fit.remarks
-    assert fit.path.force == pytest.approx(force, rel=1e-7, abs=1e-11 * force.max())
+    assert fit.path.force == approx(force, rel=1e-7, abs=1e-11 * force.max())
     assert set(fit.standard_errors) == {"E_star", "contact_point", *constants}
 
 
@@ -102,7 +103,7 @@ def test_derivatives_are_those_of_the_force(profile, constants):
         difference = (curves.residuals(x + step)[0] - curves.residuals(x - step)[0]) / 2e-6
         size = np.abs(difference).max()
         assert size > 0
-        assert jacobian[..., i] == pytest.approx(difference, abs=1e-7 * size), curves.free[i]
+        assert jacobian[..., i] == approx(difference, abs=1e-7 * size), curves.free[i]
 
 
 @pytest.mark.parametrize("constants", [MIXTURES[0], MIXTURES[2]], ids=" and ".join)
@@ -140,14 +141,14 @@ class TestConstants:
         for held, free in ((("hardness", 0.3e9), ("q_c", 60.0)), (("q_c", 60.0), ("hardness", 0.3e9))):
             names, medium = self.free(force, **dict([held]), **{free[0]: None})
             assert names == {"E_star", free[0]}
-            assert getattr(medium, free[0]) == pytest.approx(free[1], rel=1e-8)
+            assert getattr(medium, free[0]) == approx(free[1], rel=1e-8)
             assert getattr(medium, held[0]) == held[1]
 
     def test_all_held(self):
         force = made(self.PROFILE, {"hardness": 0.3e9, "q_c": 60.0})
         names, medium = self.free(force, hardness=0.3e9, q_c=60.0)
         assert names == {"E_star"}
-        assert medium.E_star == pytest.approx(E, rel=1e-9)
+        assert medium.E_star == approx(E, rel=1e-9)
 
     @pytest.mark.parametrize(
         ("given", "message"),
@@ -170,7 +171,7 @@ class TestConstants:
         given = {"hardness": [0.3e9, 0.2e9], "q_c": None}
         fit = mdr.fit_indentation(self.PROFILE, depth, np.array([force, force]), **given)
         assert fit.medium.hardness.tolist() == given["hardness"]
-        assert fit.medium.q_c[0] == pytest.approx(60.0, rel=1e-8)
+        assert fit.medium.q_c[0] == approx(60.0, rel=1e-8)
         assert fit.medium.q_c[1] > 65.0
         with pytest.raises(ValueError, match="hardness is 0 for some of the curves"):
             mdr.fit_indentation(self.PROFILE, depth, depth, hardness=[0.0, 1e9], q_c=None)
@@ -216,7 +217,7 @@ class TestRemarks:
     def test_elastic(self, profile):
         """Harder than E* s under a cone, κ ≥ 1: nothing yields, at any depth."""
         force = made(profile, {"hardness": 9e9}, 1, seed=4)[0]
-        assert force == pytest.approx(made(profile, {}, 1, seed=4)[0], rel=1e-12)
+        assert force == approx(made(profile, {}, 1, seed=4)[0], rel=1e-12)
         for free in ({"hardness": None}, {"hardness": None, "q_c": None}):
             fit = mdr.fit_indentation(profile, OUT + 3e-9, force, **free)
             assert "the medium is elastic" in fit.remarks[0]
@@ -245,9 +246,9 @@ class TestVerdict:
         fit = mdr.fit_indentation(self.PROFILE, OUT + 3e-9, force)
         assert list(fit.classes) == ["a", "b", "c"]
         own = fit.classes[letter]
-        assert own.misfit == pytest.approx(0.004, rel=0.15)
+        assert own.misfit == approx(0.004, rel=0.15)
         for constant, value in ALONE[letter].items():
-            assert getattr(own.medium, constant) == pytest.approx(value, rel=0.02)
+            assert getattr(own.medium, constant) == approx(value, rel=0.02)
         assert min(each.misfit for other, each in fit.classes.items() if other != letter) > 1.5 * own.misfit
         assert f"class of hardness        ({letter}): misfit" in repr(fit)
         # The fit is that of q_c: at the head, below the number to quote, a report says what to do instead.
@@ -271,12 +272,12 @@ class TestVerdict:
         # With a free baseline over the range of the record, which is the same for all classes.
         own, load = fit.classes["a"], np.ptp(fit.force, axis=1)
         # The same problem twice.
-        assert own.medium.hardness == pytest.approx(fit.medium.hardness, rel=1e-9)
-        assert own.misfit == pytest.approx(np.sqrt(np.mean(fit.residuals**2, axis=1)) / load, rel=1e-9)
+        assert own.medium.hardness == approx(fit.medium.hardness, rel=1e-9)
+        assert own.misfit == approx(np.sqrt(np.mean(fit.residuals**2, axis=1)) / load, rel=1e-9)
         single = fit[1].classes
         for letter, each in fit.classes.items():
             # The minimum is known to the square root of rounding.
-            assert single[letter].misfit == pytest.approx(each.misfit[1], rel=1e-6)
+            assert single[letter].misfit == approx(each.misfit[1], rel=1e-6)
 
     @pytest.mark.parametrize(
         "free", [{"baseline": None}, {"baseline": None, "tilt": None}], ids=" and ".join
@@ -350,7 +351,7 @@ class TestVerdict:
         found = [
             float(text) for text in re.findall(r"(?:²\)  *|, |H )([\d.]+)(?: ± [\d.]+)? GPa", repr(fit))
         ]
-        assert 1e9 * np.array(found[-3:]) == pytest.approx([mean, H, other], rel=0.01)
+        assert 1e9 * np.array(found[-3:]) == approx([mean, H, other], rel=0.01)
 
 
 # Residuals (rms, % of the largest force) by an independent fit: of (a) at most, of (b) at least.
@@ -368,9 +369,9 @@ def test_measured_curves_of_class_a(file):
     assert 100 * misfit(inverse) >= least
     if file == "silica":
         # An independent fit by brute force: H 14.3 GPa, E* 82.7 GPa.
-        assert constant.medium.hardness == pytest.approx(14.3e9, rel=0.03)
-        assert constant.medium.E_star == pytest.approx(82.7e9, rel=0.01)
+        assert constant.medium.hardness == approx(14.3e9, rel=0.03)
+        assert constant.medium.E_star == approx(82.7e9, rel=0.01)
     misfits = {letter: each.misfit for letter, each in inverse.classes.items()}
-    assert misfits["a"] == pytest.approx(misfit(constant), rel=1e-6)
+    assert misfits["a"] == approx(misfit(constant), rel=1e-6)
     assert min(misfits, key=misfits.get) == "a"
     assert ("cannot be told, (a) or (b)" in repr(inverse)) == (file == "steel")

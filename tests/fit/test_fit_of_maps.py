@@ -8,6 +8,8 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
+
 BALL, COUNT = mdr.Paraboloid(1e-5), 12
 MODULI = 1e4 * (1 + np.arange(COUNT))
 PATH = np.append(np.linspace(-1e-6, 1e-6, 125), np.linspace(1e-6, -1e-6, 125))
@@ -46,10 +48,10 @@ class TestInvalidCurves:
         fit = mdr.fit_indentation(BALL, depth, force, **ELASTIC, invalid="nan")
         only = mdr.fit_indentation(BALL, depth[ALIVE], force[ALIVE], **ELASTIC)
         for name, values in only.to_dict().items():
-            assert fit.to_dict()[name][ALIVE] == pytest.approx(values, rel=1e-9, abs=1e-20)
-        assert fit.medium.E_star[ALIVE] == pytest.approx(MODULI[ALIVE], rel=0.01)
+            assert fit.to_dict()[name][ALIVE] == approx(values, rel=1e-9, abs=1e-20)
+        assert fit.medium.E_star[ALIVE] == approx(MODULI[ALIVE], rel=0.01)
         assert type(fit[ALIVE].medium) is mdr.Medium
-        assert fit.path.force[ALIVE] == pytest.approx(only.path.force, rel=1e-9, abs=1e-18)
+        assert fit.path.force[ALIVE] == approx(only.path.force, rel=1e-9, abs=1e-18)
 
     def test_each_has_nan_and_its_reason(self):
         fit = mdr.fit_indentation(BALL, *a_map(), **ELASTIC, invalid="nan")
@@ -88,7 +90,7 @@ class TestInvalidCurves:
         fit = mdr.fit_indentation(BALL, *a_map(dead), **given, invalid="nan")
         assert fit.invalid.keys() == dead.keys()
         others = [i for i in range(COUNT) if i not in dead]
-        assert fit.medium.E_star[others] == pytest.approx(MODULI[others], rel=0.05)
+        assert fit.medium.E_star[others] == approx(MODULI[others], rel=0.05)
 
     def test_of_times_that_do_not_ascend(self):
         depth, force = a_map({})
@@ -145,7 +147,7 @@ class TestDatasets:
         dataset = fit.to_xarray(position=np.column_stack([x, y]))
         grid = dataset.E_star.set_index(curve=["y", "x"]).unstack("curve")
         assert grid.shape == (3, 4)
-        assert grid.values.ravel() == pytest.approx(fit.medium.E_star, nan_ok=True)
+        assert grid.values.ravel() == approx(fit.medium.E_star, nan_ok=True)
         assert dataset.x.attrs["units"] == "m"
         assert dataset.attrs["invalid_count"] == 5
         assert dataset.attrs["invalid"].startswith("curve 2: not fitted: depth and force have no samples")

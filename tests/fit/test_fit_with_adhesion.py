@@ -8,6 +8,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.fit.adhesion import adhesive_states
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 
 MEDIUM = mdr.Medium(1e9, work_of_adhesion=0.2)
@@ -117,11 +118,11 @@ def test_a_pull_off_before_that_of_the_model_is_said_and_changes_nothing():
     force = mdr.indent(profile, MEDIUM, np.append(0.0, retract)).force[1:]
     force = np.where(np.arange(force.size) > force.argmin(), 0.0, force)
     fit = mdr.fit_indentation(profile, retract, force, q_c=np.inf, work_of_adhesion=None)
-    assert fit.medium.work_of_adhesion == pytest.approx(0.2, rel=1e-8)
+    assert fit.medium.work_of_adhesion == approx(0.2, rel=1e-8)
     (remark,) = fit.remarks
     difference = float(re.search(r"model less data (\S+) nm", remark)[1])
     delta = (np.pi**2 * 0.2**2 * 1e-6 / 1e9**2) ** (1 / 3)
-    assert 1e-9 * difference == pytest.approx((3 ** (1 / 3) - 3) / 4 * delta, abs=1.1 * 80e-9 / 999)
+    assert 1e-9 * difference == approx((3 ** (1 / 3) - 3) / 4 * delta, abs=1.1 * 80e-9 / 999)
 
 
 def test_nothing_is_determined_without_tension():

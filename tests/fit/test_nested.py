@@ -7,6 +7,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from .test_fit import AFM, measured
 from .test_fit_in_time import fit_of
 
@@ -53,7 +54,7 @@ class TestElastic:
         fit, free = elastic(extra=extra), elastic(extra=extra, **{parameter: None})
         factor, step = told(fit, parameter)
         assert factor > 1.5
-        assert step == pytest.approx(change(fit, free), rel=0.5, abs=0.1)
+        assert step == approx(change(fit, free), rel=0.5, abs=0.1)
         assert f"give {parameter}=None" in fit.remarks[0]
         assert not free.remarks
 
@@ -64,9 +65,9 @@ class TestElastic:
         whole = (GEL.E_star - fit.medium.E_star) / fit.standard_errors["E_star"]
         assert factor > 1.6
         assert whole > 1
-        assert step == pytest.approx(whole, rel=0.2)
+        assert step == approx(whole, rel=0.2)
         speed = re.search(r"a drift of (\S+) nm/s", fit.remarks[0])[1]
-        assert float(speed) == pytest.approx(60, rel=0.1)
+        assert float(speed) == approx(60, rel=0.1)
         assert "rest: drift, or a medium that relaxes" in fit.remarks[0]
 
     def test_a_solid_that_relaxes_is_told_from_a_viscous_one(self):
@@ -75,7 +76,7 @@ class TestElastic:
         increments, force = np.diff(np.maximum(depth, 0.0) ** 1.5, prepend=0.0), np.zeros_like(TIME)
         for k, step in enumerate(increments):
             force[k:] += 4 / 3 * np.sqrt(1e-5) * step * (5e3 + 5e3 * np.exp(-(TIME[k:] - TIME[k]) / 0.3))
-        assert force[-1] / force.max() == pytest.approx(2 / 3, abs=0.05)
+        assert force[-1] / force.max() == approx(2 / 3, abs=0.05)
         force = force + 2e-3 * force.max() * np.random.default_rng(4).normal(size=force.size)
         fit = mdr.fit_indentation(BALL, depth, force, time=TIME, q_c=np.inf, baseline=None, eta=None)
         assert told(fit, "drift")[0] > 1.6
@@ -117,7 +118,7 @@ class TestYielding:
         said = float(re.search(r"one of 100 pm/s over the .* changes E\* by (\S+) %", str(fit))[1])
         bias = 100 * (fit.medium.E_star / METAL.E_star - 1)
         assert 1 < bias < 6
-        assert said == pytest.approx(-bias, abs=0.1 * bias)
+        assert said == approx(-bias, abs=0.1 * bias)
 
     def test_a_hold_tells_it(self):
         fit = self.fit(self.HOLD, 1e-10)
@@ -126,8 +127,8 @@ class TestYielding:
             r"depth changes by (\S+) pm/s: creep, or a drift.* by (\S+) %", remark
         ).groups()
         # Less what of the hold is not the hold: the force is the same to half a per cent.
-        assert float(rate) == pytest.approx(100, rel=0.05)
-        assert float(said) == pytest.approx(-100 * (fit.medium.E_star / METAL.E_star - 1), rel=0.15)
+        assert float(rate) == approx(100, rel=0.05)
+        assert float(said) == approx(-100 * (fit.medium.E_star / METAL.E_star - 1), rel=0.15)
         # Where nothing drifts nothing is said, of a common drift neither.
         assert not self.fit(self.HOLD, 0.0).remarks
 
@@ -138,7 +139,7 @@ class TestYielding:
         fit = self.fit(depth, 1e-10, noise, mdr.Medium(70e9, 2e3))
         (remark,) = [text for text in fit.remarks if "hold at" in text]
         rate = float(re.search(r"depth changes by (\S+) pm/s", remark)[1])
-        assert rate == pytest.approx(100, rel=0.05)
+        assert rate == approx(100, rel=0.05)
         assert not [text for text in fit.remarks if "no hold" in text]
         # A ramp is none, whatever the noise.
         ramp = self.fit(self.RAMP, 1e-10, noise, mdr.Medium(70e9, 2e3))

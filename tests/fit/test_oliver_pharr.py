@@ -7,6 +7,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from .test_fit import silica
 
 E = 10e9
@@ -40,17 +41,17 @@ def test_elastic_unloadings_are_power_laws(profile, epsilon, exponent):
     loaded = state[50]
     expected = loaded.stiffness, E, loaded.mean_pressure, exponent
     values = result.stiffness, result.E_star, result.hardness, result.exponent
-    assert values == pytest.approx(expected, rel=1e-11)
+    assert values == approx(expected, rel=1e-11)
     assert not any("creep" in remark for remark in result.remarks)
     height = profile.height(loaded.contact_radius)
-    assert result.contact_depth == pytest.approx(height, rel=1e-11, abs=1e-18)
+    assert result.contact_depth == approx(height, rel=1e-11, abs=1e-18)
 
 
 def test_beta_and_scale():
     """E* goes as 1/β, and everything as the units do, from nm to km."""
     profile, F = mdr.Cone(0.3), mdr.indent(mdr.Cone(0.3), mdr.Medium(E), DEPTH).force
     result = mdr.oliver_pharr(profile, 1e12 * DEPTH, 1e24 * F, epsilon=CONE, beta=1.25)
-    assert result.E_star == pytest.approx(E / 1.25, rel=1e-11)
+    assert result.E_star == approx(E / 1.25, rel=1e-11)
     assert result.to_dict().keys() >= {"E_star", "E_star_error", "hardness", "contact_depth_error"}
     assert "effective modulus E*     8" in repr(result)
 
@@ -64,9 +65,9 @@ def test_a_yielded_cone_has_the_stiffness_of_the_model_at_another_radius():
     depth = np.append(np.linspace(0, 60e-9, 50), np.linspace(60e-9, 59.95e-9, 50))
     state = mdr.indent(profile, medium, depth)
     result = mdr.oliver_pharr(profile, depth, state.force, epsilon=CONE)
-    assert result.stiffness == pytest.approx(2 * E * state[50].contact_radius, rel=1e-3)
-    assert result.E_star == pytest.approx(2 / np.pi * E, rel=2e-3)
-    assert result.hardness == pytest.approx(4 / np.pi**2 * state[50].mean_pressure, rel=4e-3)
+    assert result.stiffness == approx(2 * E * state[50].contact_radius, rel=1e-3)
+    assert result.E_star == approx(2 / np.pi * E, rel=2e-3)
+    assert result.hardness == approx(4 / np.pi**2 * state[50].mean_pressure, rel=4e-3)
 
 
 @pytest.mark.slow
@@ -95,8 +96,8 @@ def test_fused_silica():
     """
     depth, force, _ = silica()
     result = mdr.oliver_pharr(mdr.Cone.from_half_angle(70.3), depth, force)
-    assert result.E_star == pytest.approx(70.9e9, rel=0.02)
-    assert result.hardness == pytest.approx(9.42e9, rel=0.04)
+    assert result.E_star == approx(70.9e9, rel=0.02)
+    assert result.hardness == approx(9.42e9, rel=0.04)
     # Parts of the unloading from 90 to 99 % down to 30 to 50 % of the force give 69.37 to 69.63 GPa.
     assert 0.13e9 <= result.standard_errors["E_star"] < 0.01 * result.E_star
 
@@ -231,11 +232,11 @@ class TestCycles:
         """To some hundred roundings, as for one unloading; S and h_c grow as the root of the force."""
         result = mdr.oliver_pharr(BERKOVICH, *cycles(self.MODULUS), cycles=True)
         assert result.shape == (3,)
-        assert result.E_star == pytest.approx(self.MODULUS, rel=1e-11)
-        assert result.hardness == pytest.approx(9.2e9, rel=1e-11)
+        assert result.E_star == approx(self.MODULUS, rel=1e-11)
+        assert result.hardness == approx(9.2e9, rel=1e-11)
         a = np.sqrt(np.array(PEAKS) / (np.pi * 9.2e9))
-        assert result.stiffness == pytest.approx(2 * self.MODULUS * a, rel=1e-11)
-        assert result.contact_depth == pytest.approx(BERKOVICH.height(a), rel=1e-11)
+        assert result.stiffness == approx(2 * self.MODULUS * a, rel=1e-11)
+        assert result.contact_depth == approx(BERKOVICH.height(a), rel=1e-11)
         assert not any("unloading" in remark for remark in result.remarks)
 
     def test_they_are_one_table(self):
@@ -282,7 +283,7 @@ class TestCycles:
         relaxed[second] = depth[547]
         relaxed[698:897] = np.linspace(depth[547], depth[896], 199)
         result = mdr.oliver_pharr(BERKOVICH, relaxed, force, cycles=True)
-        assert result.E_star == pytest.approx([self.MODULUS] * 2, rel=1e-11)
+        assert result.E_star == approx([self.MODULUS] * 2, rel=1e-11)
         remark, _ = result.remarks
         assert remark.startswith("unloading 2 of 3 is left out:")
         assert "depth and force must fall" in remark

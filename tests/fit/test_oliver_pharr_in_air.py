@@ -5,6 +5,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from .test_fit import silica
 
 TIP = mdr.Cone.berkovich()
@@ -34,9 +35,9 @@ def test_without_noise_it_is_exact(medium, air, samples, baseline):
     force = mdr.indent(TIP, medium, LOADED).force
     expected = mdr.oliver_pharr(TIP, LOADED, force)
     result = mdr.oliver_pharr(TIP, *with_air(LOADED, force, air, samples, baseline=baseline))
-    assert result.contact_point == pytest.approx(air, abs=4e-12)
-    assert result.E_star == pytest.approx(expected.E_star, rel=1e-4)
-    assert result.hardness == pytest.approx(expected.hardness, rel=1e-4)
+    assert result.contact_point == approx(air, abs=4e-12)
+    assert result.E_star == approx(expected.E_star, rel=1e-4)
+    assert result.hardness == approx(expected.hardness, rel=1e-4)
     assert "begins in the air" in result.remarks[-1]
 
 
@@ -60,7 +61,7 @@ def test_silica_with_air_before_it():
     depth, force, _ = silica()
     expected = mdr.oliver_pharr(TIP, depth, force).E_star
     result = mdr.oliver_pharr(TIP, *with_air(depth, force, 200e-9, 100, noise=1e-4))
-    assert result.E_star == pytest.approx(expected, rel=0.007)
+    assert result.E_star == approx(expected, rel=0.007)
     assert abs(result.E_star - expected) < 2 * result.standard_errors["E_star"]
 
 
@@ -89,8 +90,8 @@ def test_each_unloading_has_it():
     force = mdr.indent(TIP, MEDIA["glass, class (a)"], depth).force
     expected = mdr.oliver_pharr(TIP, depth, force, cycles=True)
     result = mdr.oliver_pharr(TIP, *with_air(depth, force, 60e-9, 40), cycles=True)
-    assert result.E_star == pytest.approx(expected.E_star, rel=1e-6)
-    assert result.contact_point == pytest.approx([60e-9] * 2, rel=1e-6)
+    assert result.E_star == approx(expected.E_star, rel=1e-6)
+    assert result.contact_point == approx([60e-9] * 2, rel=1e-6)
 
 
 def test_a_fit_of_another_class_quotes_it_from_the_air():
@@ -100,7 +101,7 @@ def test_a_fit_of_another_class_quotes_it_from_the_air():
     fit = mdr.fit_indentation(TIP, *with_air(LOADED, force, 90e-9, 70))
     assert any("not class (b)" in remark for remark in fit.remarks)
     assert fit.quoted.source == "unloading"
-    assert fit.quoted.value == pytest.approx(expected, rel=1e-4)
+    assert fit.quoted.value == approx(expected, rel=1e-4)
     assert "in the air" in fit.quoted.reason
     assert repr(fit).splitlines()[2].startswith("  to quote")
 

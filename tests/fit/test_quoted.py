@@ -5,6 +5,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from .test_creep import record
 from .test_fit import silica
 
@@ -20,7 +21,7 @@ def test_of_an_elastic_medium_it_is_the_modulus_of_the_fit():
     fit = mdr.fit_indentation(CONE, DEPTH, force(mdr.Medium(E)), q_c=np.inf)
     quoted = fit.quoted
     assert (quoted.quantity, quoted.source) == ("E_star", "fit")
-    assert quoted.value == fit.medium.E_star == pytest.approx(E)
+    assert quoted.value == fit.medium.E_star == approx(E)
     assert quoted.standard_error == fit.standard_errors["E_star"]
     assert "elastic" in quoted.reason
     assert repr(quoted) == "E* 10 GPa by the fit: the medium is elastic"
@@ -32,7 +33,7 @@ def test_of_a_medium_that_yields_it_is_that_of_the_unloading():
     fit = mdr.fit_indentation(CONE, DEPTH + 5e-9, F, hardness=None)
     expected = mdr.oliver_pharr(CONE, DEPTH, F).E_star
     assert fit.quoted.source == "unloading"
-    assert fit.quoted.value == pytest.approx(expected, rel=1e-6)
+    assert fit.quoted.value == approx(expected, rel=1e-6)
     assert fit.quoted.value < 0.95 * fit.medium.E_star
 
 
@@ -62,7 +63,7 @@ def test_silica_with_the_contact_of_its_file():
     depth, F, _ = silica()
     fit = mdr.fit_indentation(mdr.Cone.berkovich(), depth, F, hardness=None, contact_point=0.0)
     assert fit.quoted.source == "unloading"
-    assert fit.quoted.value == pytest.approx(69.62e9, abs=0.1e9)
+    assert fit.quoted.value == approx(69.62e9, abs=0.1e9)
     assert 0.1e9 < fit.quoted.standard_error < 0.3e9
 
 
@@ -71,8 +72,8 @@ def test_silica_in_any_class_has_one_number():
     depth, F, _ = silica()
     for hardness in ({}, {"hardness": None}):
         quoted = mdr.fit_indentation(mdr.Cone.berkovich(), depth, F, **hardness).quoted
-        assert quoted.value == pytest.approx(69.62e9, abs=0.1e9)
-        assert quoted.standard_error == pytest.approx(0.14e9, abs=0.03e9)
+        assert quoted.value == approx(69.62e9, abs=0.1e9)
+        assert quoted.standard_error == approx(0.14e9, abs=0.03e9)
 
 
 def test_a_yielded_curve_that_is_held_elastic_has_none():
@@ -90,4 +91,4 @@ def test_creep_is_corrected_where_it_is_not_small():
         for t in (None, time)
     ]
     assert fits[0].quoted.value > 1.1 * 70e9
-    assert fits[1].quoted.value == pytest.approx(70e9, rel=0.01)
+    assert fits[1].quoted.value == approx(70e9, rel=0.01)

@@ -9,6 +9,7 @@ from scipy.integrate import cumulative_trapezoid, trapezoid
 
 import mdr_core as mdr
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 from .small_steps import SmallSteps
 
@@ -145,7 +146,7 @@ def test_states_and_fields():
     angle = (np.arange(2000) + 0.5) * math.pi / 4000
     r = state.contact_radius * np.sin(angle)
     ring = 2 * math.pi * r * state.contact_radius * np.cos(angle) * math.pi / 4000
-    assert state.pressure(r) @ ring == pytest.approx(state.force, rel=1e-4)
+    assert state.pressure(r) @ ring == approx(state.force, rel=1e-4)
 
 
 def test_depths_of_a_million_critical_depths_and_negative_ones():

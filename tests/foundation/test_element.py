@@ -8,6 +8,7 @@ from scipy.integrate import quad
 
 import mdr_core as mdr
 
+from ..approx import approx
 from .small_steps import SmallSteps
 
 # τ = 1 ns.
@@ -29,9 +30,9 @@ def test_every_event_of_an_element(pace, reduced):
         for k in range(1, last):
             foundation = foundation.advance(PATH[k] - reduced, time[k] - time[k - 1])
         steps = SmallSteps(VISCOUS, reduced).follow(time[:last], PATH[:last], 300)
-        assert foundation.plastic[0] == pytest.approx(float(steps.plastic), abs=1e-14 * D_C)
+        assert foundation.plastic[0] == approx(float(steps.plastic), abs=1e-14 * D_C)
         # The small steps delay an event by up to one, at most 3.3 d_c/300.
-        assert foundation.elastic[0] == pytest.approx(float(steps.elastic), abs=1.2e-2 * D_C)
+        assert foundation.elastic[0] == approx(float(steps.elastic), abs=1.2e-2 * D_C)
         assert foundation.contact[0] == steps.contact
 
 
@@ -50,7 +51,7 @@ def test_work_of_the_force_goes_into_the_ledger(pace):
         foundation = foundation.advance(PATH[k], dt)
         # Jumps of the force where contact begins limit quad to 1e-8 of the largest contribution.
         energy = foundation.stored_energy + foundation.plastic_work + foundation.viscous_work
-        assert energy == pytest.approx(work, rel=1e-6)
+        assert energy == approx(work, rel=1e-6)
 
 
 @pytest.mark.parametrize("tau", [1e-8, 1e-3, 1.0, 1e3, 1e8])
@@ -67,7 +68,7 @@ def test_a_ramp_in_one_step_or_in_many(tau):
         np.testing.assert_allclose(whole.elastic, parts.elastic, rtol=0, atol=1e-13 * D_C)
         np.testing.assert_allclose(whole.plastic, parts.plastic, rtol=0, atol=1e-13 * D_C)
         np.testing.assert_array_equal(whole.contact, parts.contact)
-        assert whole.viscous_work == pytest.approx(parts.viscous_work, rel=1e-10)
+        assert whole.viscous_work == approx(parts.viscous_work, rel=1e-10)
 
 
 @pytest.mark.parametrize("moves", list(itertools.product(MOVES, repeat=3)))

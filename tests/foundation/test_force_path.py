@@ -9,6 +9,8 @@ from scipy.integrate import trapezoid
 import mdr_core as mdr
 from mdr_core.foundation.force_path import chain_creep
 
+from ..approx import approx
+
 MEDIUM = mdr.Medium(E_star=1e9, q_c=1.0, eta=0.25)
 DRY = mdr.Medium(E_star=1e9, q_c=1.0)
 D_C, TAU = MEDIUM.critical_depth, MEDIUM.relaxation_time
@@ -34,7 +36,7 @@ def test_after_yield_a_flat_punch_flows_at_a_constant_rate():
     time = np.array([0, 0.1, 20.0, 22.0]) * TAU
     result = mdr.creep(mdr.FlatPunch(radius), MEDIUM, force, time)
     rate = (result.depth[3] - result.depth[2]) / (time[3] - time[2])
-    assert rate == pytest.approx(0.5 * capacity / (8 * MEDIUM.eta * radius), rel=1e-3)
+    assert rate == approx(0.5 * capacity / (8 * MEDIUM.eta * radius), rel=1e-3)
 
 
 @pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Sphere(1e-5)])
@@ -46,9 +48,9 @@ def test_creep_ends_at_the_depth_of_the_slow_path_and_recovery_at_the_imprint(sh
     assert np.all(np.diff(result.depth[:3]) > 0)
     assert result.depth[1] < 0.9 * 3 * D_C
     # The springs of the ring relax all dashpots: e^(−100(a − c)/a), less than e^(−18), remains.
-    assert result.depth[2] == pytest.approx(3 * D_C, rel=1e-3)
-    assert result.depth[4] == pytest.approx(slow.plastic_depth, rel=2e-3)
-    assert result.plastic_depth[4] == pytest.approx(slow.plastic_depth, rel=2e-3)
+    assert result.depth[2] == approx(3 * D_C, rel=1e-3)
+    assert result.depth[4] == approx(slow.plastic_depth, rel=2e-3)
+    assert result.plastic_depth[4] == approx(slow.plastic_depth, rel=2e-3)
     x = np.linspace(0, 1.1, 20) * slow.contact_radius
     # Springs have the error of the depth, 10⁻³ of 3 d_c, and dashpots compensate for it.
     atol = 6e-3 * MEDIUM.yield_line_load
@@ -67,7 +69,7 @@ def test_states_of_creep_agree_in_themselves():
     for i in range(1, 5):
         # Trapezia on kinked loads: the square of a four thousandth.
         x = np.linspace(0, path.contact_radius[i] * (1 - 1e-9), 4001)
-        assert 2 * trapezoid(path[i].line_load(x), x) == pytest.approx(path.force[i], rel=1e-5)
+        assert 2 * trapezoid(path[i].line_load(x), x) == approx(path.force[i], rel=1e-5)
 
 
 @pytest.mark.slow

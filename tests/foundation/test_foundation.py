@@ -8,6 +8,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.foundation.fronts import force_and_radius
 
+from ..approx import approx
 from ..shapes import POWER_LAWS, SHAPES, name
 
 MEDIUM = mdr.Medium(E_star=1e9, q_c=1.0)
@@ -72,7 +73,7 @@ def test_a_thousand_elements_give_the_force_to_a_millionth(shape, history):
     foundation, state = pressed(shape, history, 1000)
     assert len(foundation.x) == 1000
     # h²/24 g″ summed, with h = a/500: 0.5e-6 for the paraboloid, 1.0e-6 for n = 1/2.
-    assert foundation.force == pytest.approx(state.force, rel=1e-6)
+    assert foundation.force == approx(state.force, rel=1e-6)
 
 
 @pytest.mark.parametrize(("medium", "dt"), [(MEDIUM, np.inf), (VISCOUS, TAU)], ids=["slow", "viscous"])
@@ -85,18 +86,18 @@ def test_force_with_fronts_from_first_contact_on(medium, dt):
         rate = depth / dt
         expected = (medium.E_star * depth + 8 * medium.eta * rate) * cone.contact_radius(depth)
         # Straight line loads, summed over twenty elements.
-        assert force == pytest.approx(expected, rel=1e-12, abs=0)
-        assert radius == pytest.approx(cone.contact_radius(depth), rel=1e-14, abs=0)
+        assert force == approx(expected, rel=1e-12, abs=0)
+        assert radius == approx(cone.contact_radius(depth), rel=1e-14, abs=0)
 
 
 def test_force_is_the_sum_over_the_elements():
     foundation, state = pressed(mdr.Cone(0.3), (3 * D_C,), 100)
     assert np.all(np.diff(foundation.x) > 0)
     np.testing.assert_array_equal(foundation.x, -foundation.x[::-1])
-    assert np.sum(foundation.width) == pytest.approx(2 * foundation.half_width, rel=1e-14)
+    assert np.sum(foundation.width) == approx(2 * foundation.half_width, rel=1e-14)
     # A straight line load, with its kinks on edges: exact.
-    assert np.sum(foundation.line_load * foundation.width) == pytest.approx(state.force, rel=1e-14)
-    assert foundation.force == pytest.approx(state.force, rel=1e-14)
+    assert np.sum(foundation.line_load * foundation.width) == approx(state.force, rel=1e-14)
+    assert foundation.force == approx(state.force, rel=1e-14)
 
 
 @pytest.mark.parametrize("shape", [mdr.FlatPunch(1e-6), mdr.ParabolicPunch(1e-5, 1e-6)], ids=name)
@@ -119,8 +120,8 @@ def test_a_contact_narrower_than_an_element(shape, given, history):
         row = row.advance(depth)
     state = mdr.indent(shape, medium, history)[-1]
     assert 0 < state.contact_radius < row.width[0]
-    assert row.force == pytest.approx(float(state.force), rel=1e-13)
-    assert row.stored_energy == pytest.approx(float(state.stored_energy), rel=1e-12)
+    assert row.force == approx(float(state.force), rel=1e-13)
+    assert row.stored_energy == approx(float(state.stored_energy), rel=1e-12)
 
 
 def test_dashpots_of_a_contact_narrower_than_an_element():
@@ -128,10 +129,10 @@ def test_dashpots_of_a_contact_narrower_than_an_element():
     cone, medium = mdr.Cone(0.3), mdr.Medium(1e9, eta=0.25)
     pressed = mdr.Foundation(cone, medium, 20, half_width=100e-9).advance(1e-9, dt=2e-9)
     a = cone.contact_radius(1e-9)
-    assert pressed.force == pytest.approx(1e9 * a * 1e-9 + 8 * 0.25 * a * 0.5, rel=1e-13)
-    assert pressed.advance(1e-9, dt=1e-9).force == pytest.approx(1e9 * a * 1e-9, rel=1e-13)
+    assert pressed.force == approx(1e9 * a * 1e-9 + 8 * 0.25 * a * 0.5, rel=1e-13)
+    assert pressed.advance(1e-9, dt=1e-9).force == approx(1e9 * a * 1e-9, rel=1e-13)
     a = cone.contact_radius(0.8e-9)
-    assert pressed.advance(0.9e-9, dt=1e-9).force == pytest.approx(1e9 * a * 0.8e-9, rel=1e-13)
+    assert pressed.advance(0.9e-9, dt=1e-9).force == approx(1e9 * a * 0.8e-9, rel=1e-13)
 
 
 def test_a_foundation_does_not_change():
@@ -151,8 +152,8 @@ def test_unloading_from_a_billion_critical_depths():
     foundation = mdr.Foundation(punch, MEDIUM, 10, 1e-6).advance(deep)
     live = (deep - 0.25 * D_C) - deep + D_C
     back = foundation.advance(deep - 0.25 * D_C)
-    assert back.elastic[0] == pytest.approx(live, rel=1e-15)
-    assert back.line_load[0] == pytest.approx(MEDIUM.E_star * live, rel=1e-15)
+    assert back.elastic[0] == approx(live, rel=1e-15)
+    assert back.line_load[0] == approx(MEDIUM.E_star * live, rel=1e-15)
 
 
 def test_without_yield_there_is_no_imprint():
@@ -168,7 +169,7 @@ def test_a_million_elements():
     """Many elements in a call: the force of a sphere to the rounding of the sum."""
     shape = mdr.Sphere(1e-5)
     foundation, state = pressed(shape, (3 * D_C,), 10**6)
-    assert foundation.force == pytest.approx(state.force, rel=1e-11)
+    assert foundation.force == approx(state.force, rel=1e-11)
 
 
 def test_bad_arguments_are_refused():

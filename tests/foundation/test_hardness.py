@@ -5,6 +5,8 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
+
 E, H, L = 70e9, 2e9, 1e-6
 CASES = [
     (mdr.Cone(slope=0.3), {"hardness": H}),
@@ -40,13 +42,13 @@ def test_an_impact_of_the_chain(shape, given, eta):
         mdr.chain_impact(shape, medium, 1e-12, 20.0, tolerance=1e-5),
     )
     assert hit.plastic_work > 0.05 * 0.5e-12 * 20.0**2
-    assert hit.restitution == pytest.approx(chain.restitution, abs=1e-5)
-    assert hit.max_depth == pytest.approx(chain.max_depth, rel=1e-5)
-    assert hit.plastic_work == pytest.approx(chain.plastic_work, rel=3e-5)
+    assert hit.restitution == approx(chain.restitution, abs=1e-5)
+    assert hit.max_depth == approx(chain.max_depth, rel=1e-5)
+    assert hit.plastic_work == approx(chain.plastic_work, rel=3e-5)
     for name in ("contact_time", "max_force"):
         estimate = getattr(chain.errors, name)
         assert estimate < 1e-2
-        assert getattr(chain, name) == pytest.approx(getattr(hit, name), rel=max(estimate, 1e-5))
+        assert getattr(chain, name) == approx(getattr(hit, name), rel=max(estimate, 1e-5))
     motion = chain.motion()
     energy = motion.kinetic_energy + motion.stored_energy + motion.plastic_work + motion.viscous_work
     # To the tolerance of Newton's method in each step.

@@ -7,6 +7,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from ..shapes import POWER_LAWS, SHAPES, name
 from .small_steps import SmallSteps, scalar_impact
 
@@ -38,24 +39,24 @@ def test_against_the_scalar_equation(shape, times):
     hit = mdr.chain_impact(shape, medium, MASS, speed)
     # The default tolerance.
     assert hit.error <= 1e-6
-    assert hit.restitution == pytest.approx(restitution, abs=1e-6)
-    assert hit.max_depth == pytest.approx(max_depth, rel=1e-6)
+    assert hit.restitution == approx(restitution, abs=1e-6)
+    assert hit.max_depth == approx(max_depth, rel=1e-6)
     # Of second order in the last of some 200 steps, extrapolated.
-    assert hit.contact_time == pytest.approx(duration, rel=2e-5)
+    assert hit.contact_time == approx(duration, rel=2e-5)
     lost = hit.plastic_work + hit.viscous_work
-    assert lost == pytest.approx(MASS * speed**2 / 2 * (1 - restitution**2), rel=1e-5)
+    assert lost == approx(MASS * speed**2 / 2 * (1 - restitution**2), rel=1e-5)
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_without_viscosity_it_is_the_dry_impact(shape):
     speed = speed_to_depth(shape, 6 * D_C)
     hit, dry = (impact(shape, DRY, MASS, speed) for impact in (mdr.chain_impact, mdr.impact))
-    assert hit.restitution == pytest.approx(dry.restitution, abs=1e-6)
+    assert hit.restitution == approx(dry.restitution, abs=1e-6)
     for quantity in ("max_depth", "plastic_depth", "plastic_work", "contact_radius", "plastic_radius"):
-        assert getattr(hit, quantity) == pytest.approx(getattr(dry, quantity), rel=2e-6), quantity
+        assert getattr(hit, quantity) == approx(getattr(dry, quantity), rel=2e-6), quantity
     # The largest force is a power of the depth, whose error is the tolerance.
-    assert hit.max_force == pytest.approx(dry.max_force, rel=1e-5)
-    assert hit.contact_time == pytest.approx(dry.contact_time, rel=3e-5)
+    assert hit.max_force == approx(dry.max_force, rel=1e-5)
+    assert hit.contact_time == approx(dry.contact_time, rel=3e-5)
 
 
 @pytest.mark.parametrize("times", [0.01, 0.3, 10.0])
@@ -69,13 +70,13 @@ def test_every_estimate_covers_its_error(shape, depth, times):
     for tolerance in (1e-4, 1e-6):
         hit = mdr.chain_impact(shape, medium, MASS, speed, tolerance=tolerance)
         errors = hit.errors.restitution * hit.restitution, hit.errors.max_depth
-        assert hit.error == pytest.approx(max(errors), rel=1e-15)
+        assert hit.error == approx(max(errors), rel=1e-15)
         assert hit.error <= tolerance
-        assert hit.restitution == pytest.approx(exact.restitution, rel=hit.errors.restitution, abs=0)
+        assert hit.restitution == approx(exact.restitution, rel=hit.errors.restitution, abs=0)
         # The equation of motion itself is good to 1e-9.
-        assert hit.max_depth == pytest.approx(exact.max_depth, rel=hit.errors.max_depth + 1e-9)
-        assert hit.contact_time == pytest.approx(exact.contact_time, rel=hit.errors.contact_time)
-        assert hit.max_force == pytest.approx(exact.max_force, rel=hit.errors.max_force)
+        assert hit.max_depth == approx(exact.max_depth, rel=hit.errors.max_depth + 1e-9)
+        assert hit.contact_time == approx(exact.contact_time, rel=hit.errors.contact_time)
+        assert hit.max_force == approx(exact.max_force, rel=hit.errors.max_force)
 
 
 @pytest.mark.parametrize("times", [1e2, 1e3])
@@ -87,16 +88,16 @@ def test_body_that_nearly_sticks(shape, times):
     exact = mdr.impact(shape, medium, MASS, speed)
     hit = mdr.chain_impact(shape, medium, MASS, speed)
     # The tolerance is relative to the impact speed; nevertheless small e have four digits.
-    assert hit.restitution == pytest.approx(exact.restitution, rel=1e-4)
-    assert hit.max_depth == pytest.approx(exact.max_depth, rel=1e-6)
-    assert hit.contact_time == pytest.approx(exact.contact_time, rel=hit.errors.contact_time)
+    assert hit.restitution == approx(exact.restitution, rel=1e-4)
+    assert hit.max_depth == approx(exact.max_depth, rel=1e-6)
+    assert hit.contact_time == approx(exact.contact_time, rel=hit.errors.contact_time)
 
 
 def test_force_is_largest_where_a_flat_face_touches():
     """Far above critical damping the dashpots alone stop the body: F = 8ηb v₀ at once, then less."""
     punch, medium = mdr.FlatPunch(1e-6), mdr.Medium(1e9, eta=1.0)
     hit = mdr.chain_impact(punch, medium, 1e-15, 1.0, tolerance=1e-4)
-    assert hit.max_force == pytest.approx(8 * 1.0 * 1e-6 * 1.0, rel=1e-8)
+    assert hit.max_force == approx(8 * 1.0 * 1e-6 * 1.0, rel=1e-8)
 
 
 @pytest.mark.parametrize("times", [0.0, 0.3])
@@ -130,8 +131,8 @@ def test_flat_punch_without_yield_is_a_damped_oscillator(zeta):
     hit = mdr.chain_impact(mdr.FlatPunch(0.5), mdr.Medium(1.0, eta=zeta / 2), 1.0, 3.0)
     root = math.sqrt(1 - zeta**2)
     angle = math.atan2(root, zeta - 1 / (2 * zeta))
-    assert hit.restitution == pytest.approx(math.exp(-zeta * angle / root), abs=1e-6)
-    assert hit.contact_time == pytest.approx(angle / root, rel=1e-4)
+    assert hit.restitution == approx(math.exp(-zeta * angle / root), abs=1e-6)
+    assert hit.contact_time == approx(angle / root, rel=1e-4)
 
 
 @pytest.mark.parametrize("times", [0.0, 1.0, 100.0])
@@ -155,7 +156,7 @@ def test_the_error_is_within_every_tolerance():
     for tolerance in (1e-3, 1e-5):
         hit = mdr.chain_impact(shape, medium, MASS, speed, tolerance=tolerance)
         assert hit.error <= tolerance
-        assert hit.restitution == pytest.approx(exact, abs=tolerance)
+        assert hit.restitution == approx(exact, abs=tolerance)
 
 
 class TestSecondImpact:
@@ -168,13 +169,13 @@ class TestSecondImpact:
         lifted = first.foundation.advance(-3 * D_C)
         second = mdr.chain_impact(self.shape, DRY, MASS, first.rebound_speed, start=lifted)
         # The tolerance of both impacts.
-        assert second.restitution == pytest.approx(1.0, abs=2e-6)
-        assert second.max_depth == pytest.approx(first.max_depth, rel=2e-6)
-        assert second.plastic_work == pytest.approx(0.0, abs=2e-6 * first.plastic_work)
+        assert second.restitution == approx(1.0, abs=2e-6)
+        assert second.max_depth == approx(first.max_depth, rel=2e-6)
+        assert second.plastic_work == approx(0.0, abs=2e-6 * first.plastic_work)
         # Contact begins at the bottom of the imprint.
         dry = mdr.impact(self.shape, DRY, MASS, first.rebound_speed, plastic_depth=first.plastic_depth)
-        assert second.contact_time == pytest.approx(dry.contact_time, rel=second.errors.contact_time)
-        assert second.max_force == pytest.approx(dry.max_force, rel=1e-5)
+        assert second.contact_time == approx(dry.contact_time, rel=second.errors.contact_time)
+        assert second.max_force == approx(dry.max_force, rel=1e-5)
 
     @pytest.mark.parametrize("wait", [0.05, 1.0, 100.0])
     def test_against_small_steps(self, wait):
@@ -190,12 +191,12 @@ class TestSecondImpact:
         foundation = SmallSteps(medium, self.shape.reduced((edges[1:] + edges[:-1]) / 2))
         dt = first.contact_time / 6000
         depth, velocity, _ = foundation.fly(np.diff(edges), MASS, 0.0, self.speed, dt)
-        assert -velocity / self.speed == pytest.approx(first.restitution, abs=1e-3)
+        assert -velocity / self.speed == approx(first.restitution, abs=1e-3)
         for k in range(1, 501):
             foundation.step(depth * (1 - k / 500), -depth / (wait * tau), wait * tau / 500)
         depth, velocity, _ = foundation.fly(np.diff(edges), MASS, 0.0, self.speed, dt)
         # First order in steps of 1/6000 of the contact.
-        assert -velocity / self.speed == pytest.approx(second.restitution, abs=1e-3)
+        assert -velocity / self.speed == approx(second.restitution, abs=1e-3)
 
     def test_repeated_impacts_deepen_the_imprint(self):
         medium, start, depths = viscous(self.speed, 5 * D_C, 0.2), None, []
@@ -213,8 +214,8 @@ def test_units_do_not_matter():
     scaled = mdr.chain_impact(
         mdr.Cone(0.5), mdr.Medium(2.0**40, 2.0**40, 2.0**40), 2.0**40, 1.0, tolerance=1e-4
     )
-    assert scaled.restitution == pytest.approx(base.restitution, rel=1e-9)
-    assert scaled.max_depth == pytest.approx(base.max_depth, rel=1e-9)
+    assert scaled.restitution == approx(base.restitution, rel=1e-9)
+    assert scaled.max_depth == approx(base.max_depth, rel=1e-9)
 
 
 def test_bad_arguments_are_refused():

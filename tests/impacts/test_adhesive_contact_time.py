@@ -7,6 +7,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from ..shapes import name
 from ..slow_reference import RATE, WAY, Springs
 
@@ -102,6 +103,6 @@ def test_across_kinks(tip, speed):
     hit = mdr.impact(tip, MEDIUM, MASS, speed)
     assert hit.restitution > 0
     expected = contact_time(Sticky(tip, MEDIUM, 7.5e-7), speed)
-    assert hit.contact_time == pytest.approx(expected, rel=2e-8)
+    assert hit.contact_time == approx(expected, rel=2e-8)
     many = mdr.impact(tip, MEDIUM, MASS, [speed, 0.1, 0.25, 0.3])
-    assert many.contact_time[0] == pytest.approx(hit.contact_time, rel=1e-10)
+    assert many.contact_time[0] == approx(hit.contact_time, rel=1e-10)

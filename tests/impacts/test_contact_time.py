@@ -9,6 +9,7 @@ from scipy.integrate import cumulative_trapezoid, trapezoid
 
 import mdr_core as mdr
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 from .test_energy_balance import D_C, MEDIUM, hit_to_depth
 
@@ -38,7 +39,7 @@ def test_elastic_contact_time_of_power_laws(n):
     expected = 2 * math.sqrt(math.pi) * math.gamma(1 + q) / math.gamma(0.5 + q)
     hit = mdr.impact(mdr.PowerLaw(1e-4, n), ELASTIC, 1.0, 1.0)
     # Few roundings times 40 nodes; for small n the largest depth to a high power.
-    assert hit.contact_time * hit.speed / hit.max_depth == pytest.approx(expected, rel=1e-12)
+    assert hit.contact_time * hit.speed / hit.max_depth == approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize("times", [0.7, 1 + 1e-5, 1.5, 30.0, 150.0])
@@ -61,7 +62,7 @@ def test_contact_time_by_direct_quadrature(shape, times):
     loading = time(d_max, lambda y: (d_max - y)[:, None])
     unloading = time(live, lambda y: d_max - y)
     # Trapezoids of 1/4000, and a kink of the force at d_c.
-    assert hit.contact_time == pytest.approx(loading + unloading, rel=1e-6)
+    assert hit.contact_time == approx(loading + unloading, rel=1e-6)
 
 
 def test_depths_of_metres_at_the_threshold_of_yield():
@@ -70,7 +71,7 @@ def test_depths_of_metres_at_the_threshold_of_yield():
         hit = mdr.impact(shape, mdr.Medium(1e9, 1e13), 200.0, 1e5)
         elastic = mdr.impact(shape, mdr.Medium(1e9), 200.0, 1e5)
         assert hit.plastic_work == 0.0
-        assert hit.contact_time == pytest.approx(elastic.contact_time, rel=1e-13)
+        assert hit.contact_time == approx(elastic.contact_time, rel=1e-13)
 
 
 KINKED = (
@@ -86,11 +87,11 @@ def test_turning_exactly_on_a_kink(shape, beyond):
     """Restitution and time go through the kink without a jump: of the contact, or of the plastic zone."""
     at = shape.kinks[0] + beyond
     hit, before, after = (hit_to_depth(shape, MEDIUM, at * (1 + step)) for step in (0.0, -1e-7, 1e-7))
-    assert hit.max_depth == pytest.approx(at, rel=1e-14)
+    assert hit.max_depth == approx(at, rel=1e-14)
     for quantity in ("restitution", "contact_time", "max_force"):
         values = [getattr(each, quantity) for each in (before, after)]
         # Straight over 10⁻⁷ but for a root of it, of which the kink's next power is the third.
-        assert getattr(hit, quantity) == pytest.approx(sum(values) / 2, rel=1e-9), quantity
+        assert getattr(hit, quantity) == approx(sum(values) / 2, rel=1e-9), quantity
 
 
 def behind_a_face(s, sqrt):

@@ -6,6 +6,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.impacts import dense_motion
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 from .test_equation_of_motion import E_STAR, MASS, SPEED, medium
 
@@ -39,9 +40,9 @@ def test_ends_are_exact():
     start, turn, end = (path.at(np.array([t])) for t in (0.0, path.turning_time, path.end_time))
     assert (start.depth[0], start.velocity[0]) == (0.0, SPEED)
     assert turn.velocity[0] == 0.0
-    assert turn.depth[0] == pytest.approx(hit.max_depth, rel=1e-15)
+    assert turn.depth[0] == approx(hit.max_depth, rel=1e-15)
     assert end.interval.length[0] == 0.0
-    assert path.end_time == pytest.approx(hit.contact_time, rel=1e-9)
+    assert path.end_time == approx(hit.contact_time, rel=1e-9)
 
 
 def test_an_oblique_impact_and_its_motion_solve_the_normal_motion_once(monkeypatch):

@@ -7,6 +7,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 
 MEDIUM = mdr.Medium(E_star=1e9, q_c=1.0)
@@ -25,9 +26,9 @@ def test_largest_depth_from_energy_balance(shape, times):
     depth = min(times * D_C, 100e-5 if isinstance(shape, mdr.Sphere) else math.inf)
     hit = hit_to_depth(shape, MEDIUM, depth)
     # Work grows at least in proportion to depth: the roundings of the energy, no more.
-    assert hit.max_depth == pytest.approx(depth, rel=1e-14)
-    assert hit.stored_energy + hit.plastic_work == pytest.approx(hit.speed**2 / 2, rel=1e-13)
-    assert hit.rebound_speed**2 / 2 == pytest.approx(hit.stored_energy, rel=1e-13)
+    assert hit.max_depth == approx(depth, rel=1e-14)
+    assert hit.stored_energy + hit.plastic_work == approx(hit.speed**2 / 2, rel=1e-13)
+    assert hit.rebound_speed**2 / 2 == approx(hit.stored_energy, rel=1e-13)
 
 
 @pytest.mark.parametrize(
@@ -40,7 +41,7 @@ def test_largest_depth_from_energy_balance(shape, times):
 )
 def test_restitution_at_given_depth(shape, expected):
     for times, e in zip((2, 5, 10), expected, strict=True):
-        assert hit_to_depth(shape, MEDIUM, times * D_C).restitution == pytest.approx(e, abs=5e-10)
+        assert hit_to_depth(shape, MEDIUM, times * D_C).restitution == approx(e, abs=5e-10)
 
 
 def test_slow_impact_damages_nothing():
@@ -75,13 +76,13 @@ class TestRepeatedImpacts:
         first = mdr.impact(shape, medium, 1e-9, 0.05)
         second = mdr.impact(shape, medium, 1e-9, 0.1, plastic_depth=first.plastic_depth)
         path = mdr.indent(shape, medium, [first.max_depth, 0.0, second.max_depth])
-        assert second.max_force == pytest.approx(path.force[-1], rel=1e-11)
-        assert second.plastic_depth == pytest.approx(path.plastic_depth[-1], rel=1e-12)
-        assert second.plastic_work == pytest.approx(path.plastic_work[-1] - path.plastic_work[0], rel=1e-9)
+        assert second.max_force == approx(path.force[-1], rel=1e-11)
+        assert second.plastic_depth == approx(path.plastic_depth[-1], rel=1e-12)
+        assert second.plastic_work == approx(path.plastic_work[-1] - path.plastic_work[0], rel=1e-9)
         work = second.stored_energy + second.plastic_work
-        assert work == pytest.approx(1e-9 * 0.1**2 / 2, rel=1e-12)
+        assert work == approx(1e-9 * 0.1**2 / 2, rel=1e-12)
         # The same from the equation of motion.
-        assert second.motion(2).time[-1] == pytest.approx(second.contact_time, rel=1e-9)
+        assert second.motion(2).time[-1] == approx(second.contact_time, rel=1e-9)
 
     def test_a_softer_impact_is_elastic(self):
         medium, cone = mdr.Medium(1e9, 10.0), mdr.Cone(0.3)

@@ -7,6 +7,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 
 QUANTITIES = (
@@ -49,7 +50,7 @@ def test_parameters_broadcast(shape):
         one = mdr.impact(indenters.entries(i), media.entries(i), mass[i], speed[i])
         for quantity in QUANTITIES:
             # What is promised of viscous ones: each comes by steps of its own.
-            expected = pytest.approx(getattr(one, quantity), rel=1e-9, abs=0.0)
+            expected = approx(getattr(one, quantity), rel=1e-9, abs=0.0)
             assert getattr(hits, quantity)[i] == expected, quantity
             assert getattr(hits[i], quantity) == expected, quantity
 
@@ -68,7 +69,7 @@ def test_neighbours_do_not_matter(shape, eta):
         values = getattr(together, quantity)
         # Arrays of another length or order are summed in another order: some units of rounding.
         np.testing.assert_allclose(getattr(shuffled, quantity), values[order], rtol=1e-13, err_msg=quantity)
-        assert getattr(alone, quantity) == pytest.approx(values[17], rel=1e-11), quantity
+        assert getattr(alone, quantity) == approx(values[17], rel=1e-11), quantity
 
 
 TIP = mdr.Sampled(1e-6 * np.arange(61), 1e-7 * np.arange(61) + 2e-9 * np.arange(61.0) ** 2)
@@ -86,7 +87,7 @@ def test_thousands_are_as_exact_as_one(shape, before):
         one = mdr.impact(shape, media.entries(i), 1e-9, speed[i], plastic_depth=before)
         for quantity in ("max_depth", "max_force", "restitution", "damaged_area", "stored_energy"):
             # Roundings of the energy, and of powers of the depth.
-            expected = pytest.approx(getattr(one, quantity), rel=1e-12, abs=0.0)
+            expected = approx(getattr(one, quantity), rel=1e-12, abs=0.0)
             assert getattr(hits, quantity)[i] == expected, (quantity, i)
     balance = (hits.stored_energy + hits.plastic_work) / (1e-9 * speed**2 / 2)
     np.testing.assert_allclose(balance, 1.0, rtol=1e-12)
@@ -114,7 +115,7 @@ def test_a_thousand_exponents_are_solved_each_on_its_own():
     one = mdr.impact(hits[321].profile, medium, 1e-9, 0.05)
     for quantity in QUANTITIES:
         # The same steps, summed in another order.
-        assert getattr(hits, quantity)[321] == pytest.approx(getattr(one, quantity), rel=1e-10), quantity
+        assert getattr(hits, quantity)[321] == approx(getattr(one, quantity), rel=1e-10), quantity
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 
 import mdr_core as mdr
 
+from ..approx import approx
 from ..foundation.small_steps import scalar_impact
 from ..shapes import SHAPES, name
 from .test_contact_time import KINKED
@@ -92,7 +93,7 @@ def test_against_steps_in_time(curve, share, q_c):
     hit = mdr.impact(shape, material, MASS, SPEED)
     expected = by_steps(phi, radius, material.relaxation_time, min(material.critical_depth, 1.0))
     # The steps follow the square roots where contact begins and ends to some 1e-9.
-    assert (hit.max_depth, hit.restitution, hit.contact_time) == pytest.approx(expected, rel=2e-9)
+    assert (hit.max_depth, hit.restitution, hit.contact_time) == approx(expected, rel=2e-9)
 
 
 @pytest.mark.parametrize("zeta", [1e-4, 0.5, 1.999, 2.001, 10.0, 1e4])
@@ -116,16 +117,16 @@ def test_flat_punch_is_a_damped_oscillator(zeta):
         expected = [float(part) for part in (way(turn), -way(end, 1), end)]
     hit = mdr.impact(mdr.FlatPunch(1.0), mdr.Medium(0.5, eta=zeta / 8), 1.0, 1.0)
     # Exponentials over few steps; far overdamped, twenty times as many.
-    assert (hit.max_depth, hit.restitution, hit.contact_time) == pytest.approx(expected, rel=1e-11)
-    assert hit.viscous_work == pytest.approx((1 - expected[1] ** 2) / 2, rel=1e-9)
+    assert (hit.max_depth, hit.restitution, hit.contact_time) == approx(expected, rel=1e-11)
+    assert hit.viscous_work == approx((1 - expected[1] ** 2) / 2, rel=1e-9)
 
 
 def test_force_of_a_flat_face_jumps_at_first_touch():
     """8 η b v₀, and that is the largest force where viscosity governs."""
     hit = mdr.impact(mdr.FlatPunch(1e-6), mdr.Medium(E_STAR, eta=1e4), MASS, SPEED)
-    assert hit.motion(11).force[0] == pytest.approx(8 * 1e4 * 1e-6 * SPEED, rel=1e-13)
+    assert hit.motion(11).force[0] == approx(8 * 1e4 * 1e-6 * SPEED, rel=1e-13)
     # The largest value of a polynomial through the first step, which ends in this force.
-    assert hit.max_force == pytest.approx(8 * 1e4 * 1e-6 * SPEED, rel=1e-12)
+    assert hit.max_force == approx(8 * 1e4 * 1e-6 * SPEED, rel=1e-12)
 
 
 @pytest.mark.parametrize("q_c", [math.inf, 10.0])
@@ -134,10 +135,10 @@ def test_elastic_limit(shape, q_c):
     """For τ → 0 the dry impact is approached in proportion to τ."""
     dry = mdr.impact(shape, mdr.Medium(E_STAR, q_c), MASS, SPEED)
     one, two = (mdr.impact(shape, medium(share, shape, q_c), MASS, SPEED) for share in (1e-6, 2e-6))
-    assert one.contact_time == pytest.approx(dry.contact_time, rel=1e-4)
+    assert one.contact_time == approx(dry.contact_time, rel=1e-4)
     first, second = (1 - hit.restitution / dry.restitution for hit in (one, two))
     # Relative corrections of order τ/T; flat faces jump in force, but not in energy.
-    assert second / first == pytest.approx(2, rel=1e-4)
+    assert second / first == approx(2, rel=1e-4)
 
 
 def test_overdamped_bodies_hardly_rebound():
@@ -145,8 +146,8 @@ def test_overdamped_bodies_hardly_rebound():
     tau = 1e3
     material = mdr.Medium(0.5, eta=tau * 0.5 / 4)
     hit = mdr.impact(mdr.FlatPunch(1.0), material, 1.0, 1.0)
-    assert hit.max_depth == pytest.approx(1 / tau, rel=1e-4)
-    assert hit.rebound_speed == pytest.approx(hit.max_depth / tau, rel=1e-4)
+    assert hit.max_depth == approx(1 / tau, rel=1e-4)
+    assert hit.rebound_speed == approx(hit.max_depth / tau, rel=1e-4)
 
 
 def test_viscosity_may_keep_a_body_from_reaching_the_end_of_its_shape():
@@ -175,9 +176,9 @@ def test_turning_just_beyond_the_critical_depth(shape, times):
     medium = mdr.Medium(E_STAR, 10.0)
     dry = hit_to_depth(shape, medium, times * medium.critical_depth)
     hit = mdr.impact(shape, mdr.Medium(E_STAR, 10.0, 1e-6 * dry.contact_time * E_STAR / 4), MASS, dry.speed)
-    assert hit.max_depth == pytest.approx(dry.max_depth, rel=2e-5)
-    assert hit.restitution == pytest.approx(dry.restitution, rel=2e-5)
-    assert hit.contact_time == pytest.approx(dry.contact_time, rel=2e-5)
+    assert hit.max_depth == approx(dry.max_depth, rel=2e-5)
+    assert hit.restitution == approx(dry.restitution, rel=2e-5)
+    assert hit.contact_time == approx(dry.contact_time, rel=2e-5)
 
 
 def test_punch_that_turns_between_two_nodes():
@@ -188,9 +189,9 @@ def test_punch_that_turns_between_two_nodes():
     dry = mdr.impact(shape, medium, mass, speed)
     hit = mdr.impact(shape, mdr.Medium(medium.E_star, medium.q_c, 3.13e-06), mass, speed)
     # τ/T is 10⁻⁶.
-    assert hit.max_depth == pytest.approx(dry.max_depth, rel=1e-5)
-    assert hit.contact_time == pytest.approx(dry.contact_time, rel=1e-5)
-    assert hit.motion(31).kinetic_energy[-1] == pytest.approx(hit.mass * hit.rebound_speed**2 / 2, rel=1e-8)
+    assert hit.max_depth == approx(dry.max_depth, rel=1e-5)
+    assert hit.contact_time == approx(dry.contact_time, rel=1e-5)
+    assert hit.motion(31).kinetic_energy[-1] == approx(hit.mass * hit.rebound_speed**2 / 2, rel=1e-8)
 
 
 @pytest.mark.parametrize("q_c", [np.inf, 100.0])
@@ -232,7 +233,7 @@ def test_largest_force(exponent, share, q_c):
     largest = load(finer, course.sol(finer)[0]).max()
     hit = mdr.impact(shape, mdr.Medium(E_STAR, q_c, tau * E_STAR / 4), MASS, dry.speed)
     # The fine grid misses the top by its spacing squared, the dense output adds about 10⁻⁹.
-    assert hit.max_force == pytest.approx(largest, rel=1e-8)
+    assert hit.max_force == approx(largest, rel=1e-8)
 
 
 @pytest.mark.parametrize("tip", [2e-10, 3e-9, 1e-8, 5e-7])
@@ -244,9 +245,9 @@ def test_blunt_tip_far_below_the_depth(tip):
     )
     # The tip lies this much above the cone's, and the depth changes by less; both end to 1e-9.
     height = tip * 1.5e-4 / sharp.max_depth
-    assert blunted.max_depth == pytest.approx(sharp.max_depth, rel=height + 1e-9)
-    assert blunted.contact_time == pytest.approx(sharp.contact_time, rel=height + 1e-9)
-    assert blunted.restitution == pytest.approx(sharp.restitution, abs=height + 1e-9)
+    assert blunted.max_depth == approx(sharp.max_depth, rel=height + 1e-9)
+    assert blunted.contact_time == approx(sharp.contact_time, rel=height + 1e-9)
+    assert blunted.restitution == approx(sharp.restitution, abs=height + 1e-9)
 
 
 def turning_at(shape, medium, depth):
@@ -268,7 +269,7 @@ def test_turning_a_hundred_thousandth_beyond_the_critical_depth(shape):
     assert 0 < hit.plastic_depth < 1.01e-5 * D_C
     found = hit.restitution, hit.max_depth, hit.contact_time
     # The reference has eleven digits in every step, and leaves few of them behind.
-    assert found == pytest.approx(scalar_impact(shape, material, MASS, hit.speed), rel=2e-8)
+    assert found == approx(scalar_impact(shape, material, MASS, hit.speed), rel=2e-8)
 
 
 @pytest.mark.parametrize("q_c", [1e4, 10.0])
@@ -277,9 +278,9 @@ def test_turning_exactly_on_a_kink(shape, q_c):
     """The depth at which steps end is the one at which the body turns round, yielding or not."""
     material = mdr.Medium(E_STAR, q_c, eta=3.0)
     hit = turning_at(shape, material, shape.kinks[0])
-    assert hit.max_depth == pytest.approx(shape.kinks[0], rel=1e-13)
+    assert hit.max_depth == approx(shape.kinks[0], rel=1e-13)
     found = hit.restitution, hit.max_depth, hit.contact_time
-    assert found == pytest.approx(scalar_impact(shape, material, MASS, hit.speed), rel=2e-8)
+    assert found == approx(scalar_impact(shape, material, MASS, hit.speed), rel=2e-8)
     motion = hit.motion(51)
     ledger = motion.kinetic_energy + motion.stored_energy + motion.plastic_work + motion.viscous_work
     # What is promised.
@@ -296,9 +297,9 @@ def test_a_cylinder_that_has_yielded_up_to_its_wall():
     flat = d_c / tau
     depth = inertia / (tau * b) * (speed - flat * math.log1p(speed / flat))
     # Before full yield, over a depth of d_c, the force is smaller.
-    assert hit.max_depth == pytest.approx(depth, rel=2 * d_c / depth)
+    assert hit.max_depth == approx(depth, rel=2 * d_c / depth)
     lost = hit.plastic_work + hit.viscous_work + mass * hit.rebound_speed**2 / 2
-    assert lost == pytest.approx(mass * speed**2 / 2, rel=1e-9)
+    assert lost == approx(mass * speed**2 / 2, rel=1e-9)
 
 
 def test_an_imprint_that_ends_on_a_kink():
@@ -308,4 +309,4 @@ def test_an_imprint_that_ends_on_a_kink():
     depth = 1e-8 * (1 + np.array([-1e-6, 0.0, 1e-6]))
     force = mdr.impact(shape, medium, 1e-9, 0.1, plastic_depth=depth).max_force
     # Straight over 10⁻⁶ but for the square of it.
-    assert force[1] == pytest.approx((force[0] + force[2]) / 2, rel=1e-9)
+    assert force[1] == approx((force[0] + force[2]) / 2, rel=1e-9)

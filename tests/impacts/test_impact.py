@@ -8,6 +8,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.impacts.equation_of_motion import Bodies
 
+from ..approx import approx
 from .test_energy_balance import D_C, MEDIUM, hit_to_depth
 
 
@@ -16,14 +17,14 @@ class TestFastLimit:
     def test_restitution(self, shape, n):
         """e² → (1 + 1/n) d_c/(2 d_max), with a relative error of order d_c/d_max."""
         hit = hit_to_depth(shape, MEDIUM, 1e6 * D_C)
-        assert hit.restitution**2 == pytest.approx((1 + 1 / n) / 2e6, rel=2e-6)
+        assert hit.restitution**2 == approx((1 + 1 / n) / 2e6, rel=2e-6)
 
     def test_slope_of_restitution_against_speed(self, shape, n):
         """e ∝ v^(−1/2) for the cone, v^(−2/3) for the paraboloid; −1/4 at constant hardness."""
         hit = mdr.impact(shape, MEDIUM, 1.0, [1e4, 1e5])
         slope = np.diff(np.log(hit.restitution)) / np.diff(np.log(hit.speed))
         # d_max ∝ v^(2/(1 + 1/n)) and e² ∝ 1/d_max.
-        assert slope[0] == pytest.approx(-n / (n + 1), rel=1e-4)
+        assert slope[0] == approx(-n / (n + 1), rel=1e-4)
 
 
 def test_eq_23_24_work_and_damaged_area_of_a_fast_cone():
@@ -44,7 +45,7 @@ def test_arguments_broadcast_and_order_does_not_matter():
     np.testing.assert_allclose(flipped.contact_time[::-1, ::-1], grid.contact_time, rtol=1e-14)
     one = mdr.impact(mdr.Paraboloid(1e-3), MEDIUM, 1e-3, 1e-2)
     assert isinstance(one.contact_time, float)
-    assert one.contact_time == pytest.approx(grid.contact_time[1, 1], rel=1e-14)
+    assert one.contact_time == approx(grid.contact_time[1, 1], rel=1e-14)
 
 
 @pytest.mark.parametrize("eta", [0.0, 1e-3])
@@ -64,7 +65,7 @@ def test_indices_are_those_of_arrays(eta):
 def test_one_of_many():
     grid = mdr.impact(mdr.Cone(0.3), MEDIUM, 1e-3, [[0.01, 0.1], [1.0, 10.0]])
     # Few roundings, of an array of another length.
-    assert grid[1, 0].restitution == pytest.approx(grid.restitution[1, 0], rel=1e-14)
+    assert grid[1, 0].restitution == approx(grid.restitution[1, 0], rel=1e-14)
     assert grid[1].contact_time.shape == (2,)
 
 

@@ -8,6 +8,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.impacts.motion import released_compression
 
+from ..approx import approx
 from ..shapes import SHAPES, name
 from .test_equation_of_motion import E_STAR, MASS, SPEED, medium
 
@@ -31,14 +32,14 @@ def test_energy_ledger_is_closed_at_every_instant(shape, share, q_c):
 def test_motion_ends_in_the_impact(shape, q_c):
     hit = mdr.impact(shape, medium(0.3, shape, q_c), MASS, SPEED)
     motion = hit.motion(4001)
-    assert motion.time[-1] == pytest.approx(hit.contact_time, rel=1e-12)
-    assert -motion.velocity[-1] == pytest.approx(hit.rebound_speed, rel=1e-9)
+    assert motion.time[-1] == approx(hit.contact_time, rel=1e-12)
+    assert -motion.velocity[-1] == approx(hit.rebound_speed, rel=1e-9)
     # Between two instants near a maximum, the square of half an interval.
-    assert motion.depth.max() == pytest.approx(hit.max_depth, rel=1e-6)
+    assert motion.depth.max() == approx(hit.max_depth, rel=1e-6)
     assert motion.force.max() <= hit.max_force * (1 + 1e-9)
-    assert motion.plastic_depth[-1] == pytest.approx(hit.plastic_depth, rel=1e-12)
+    assert motion.plastic_depth[-1] == approx(hit.plastic_depth, rel=1e-12)
     lost = hit.plastic_work + hit.viscous_work
-    assert hit.restitution**2 == pytest.approx(1 - lost / ENERGY, rel=1e-8)
+    assert hit.restitution**2 == approx(1 - lost / ENERGY, rel=1e-8)
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
@@ -62,8 +63,8 @@ def test_without_viscosity_the_motion_is_that_of_the_energy_balance(shape):
     """Two ways to the same numbers: quadrature of dd/v, and the equation of motion."""
     hit = mdr.impact(shape, mdr.Medium(E_STAR, 10.0), MASS, SPEED)
     motion = hit.motion(2)
-    assert motion.time[-1] == pytest.approx(hit.contact_time, rel=1e-9)
-    assert -motion.velocity[-1] == pytest.approx(hit.rebound_speed, rel=1e-9)
+    assert motion.time[-1] == approx(hit.contact_time, rel=1e-9)
+    assert -motion.velocity[-1] == approx(hit.rebound_speed, rel=1e-9)
 
 
 def test_a_second_viscous_impact_loses_less_to_yield():
@@ -73,10 +74,10 @@ def test_a_second_viscous_impact_loses_less_to_yield():
     assert second.plastic_work < first.plastic_work
     assert second.plastic_depth > first.plastic_depth
     motion = second.motion(51)
-    assert motion.depth[0] == pytest.approx(first.plastic_depth, rel=1e-15)
+    assert motion.depth[0] == approx(first.plastic_depth, rel=1e-15)
     # The bottom of the imprint is met at once: 8 η c v₀.
     c = first.plastic_radius
-    assert motion.force[0] == pytest.approx(8 * 10.0 * c * SPEED, rel=1e-12)
+    assert motion.force[0] == approx(8 * 10.0 * c * SPEED, rel=1e-12)
     total = motion.kinetic_energy + motion.stored_energy + motion.plastic_work + motion.viscous_work
     np.testing.assert_allclose(total, ENERGY, rtol=1e-9)
 
@@ -103,9 +104,9 @@ def test_the_turning_point_is_among_the_instants(shape, eta, n):
     turn = motion.turning_index
     assert motion.velocity[turn] == 0.0
     # The same number, read off.
-    assert motion.depth[turn] == pytest.approx(hit.max_depth, rel=1e-15)
+    assert motion.depth[turn] == approx(hit.max_depth, rel=1e-15)
     assert motion.kinetic_energy[turn] == 0.0
-    assert motion.stored_energy[turn] == pytest.approx(hit.stored_energy, rel=1e-12)
+    assert motion.stored_energy[turn] == approx(hit.stored_energy, rel=1e-12)
     assert np.all(motion.velocity[:turn] > 0)
     assert np.all(motion.velocity[turn + 1 :] < 0)
     assert (motion.time.size, motion.velocity[0]) == (n, SPEED)
@@ -128,7 +129,7 @@ def test_a_flat_punch_is_a_damped_oscillator():
         velocity = SPEED * np.exp(-damping * natural * motion.time) * swing
         # About ten steps, of each of which the polynomial may miss the velocity by 1e-10.
         np.testing.assert_allclose(motion.velocity, velocity, rtol=0, atol=1e-9 * SPEED)
-        assert phase[-1] == pytest.approx(math.pi - 2 * math.asin(damping), rel=1e-9)
+        assert phase[-1] == approx(math.pi - 2 * math.asin(damping), rel=1e-9)
 
 
 @pytest.mark.parametrize("q_c", [math.inf, 10.0])

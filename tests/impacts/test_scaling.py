@@ -6,6 +6,8 @@ from scipy.stats import linregress
 
 import mdr_core as mdr
 
+from ..approx import approx
+
 MEDIUM = mdr.Medium(E_star=1e9, q_c=10.0)
 
 
@@ -30,7 +32,7 @@ MEDIUM = mdr.Medium(E_star=1e9, q_c=10.0)
     ],
 )
 def test_known_powers(hardness, exponent, quantity, power):
-    assert getattr(mdr.ScalingLaw(hardness, exponent), quantity) == pytest.approx(power, rel=1e-15)
+    assert getattr(mdr.ScalingLaw(hardness, exponent), quantity) == approx(power, rel=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -44,10 +46,10 @@ def test_impacts_follow_the_law_of_class_b(shape, n):
         return np.diff(np.log(values))[0] / np.diff(against)[0]
 
     # Relative corrections of order d_c/d_max.
-    assert power(hit.max_depth, energy) == pytest.approx(law.depth, rel=1e-4)
-    assert power(hit.contact_radius, energy) == pytest.approx(law.radius, rel=1e-4)
-    assert power(hit.damaged_area, energy) == pytest.approx(law.area, rel=1e-4)
-    assert power(hit.restitution, energy / 2) == pytest.approx(law.restitution, rel=1e-4)
+    assert power(hit.max_depth, energy) == approx(law.depth, rel=1e-4)
+    assert power(hit.contact_radius, energy) == approx(law.radius, rel=1e-4)
+    assert power(hit.damaged_area, energy) == approx(law.area, rel=1e-4)
+    assert power(hit.restitution, energy / 2) == approx(law.restitution, rel=1e-4)
 
 
 def test_eq_23_24_fast_limit_of_a_cone():
@@ -88,8 +90,8 @@ def test_imprints_tell_the_class(hardness, n):
     assert abs(found.slope - mdr.ScalingLaw(hardness, n).radius) < 4 * found.slope_error
     line = linregress(np.log(energy), np.log(radius))
     # The rounding of twelve terms.
-    assert found.slope == pytest.approx(line.slope, rel=1e-12)
-    assert found.slope_error == pytest.approx(line.stderr, rel=1e-10)
+    assert found.slope == approx(line.slope, rel=1e-12)
+    assert found.slope_error == approx(line.stderr, rel=1e-10)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,8 @@ import pytest
 import mdr_core as mdr
 from mdr_core import abel
 
+from ..approx import approx
+
 RNG = np.random.default_rng(20150401)
 
 
@@ -62,11 +64,9 @@ class TestStressFromLineLoad:
     def test_axis(self):
         x = np.linspace(0, 1, 5)
         assert abel.stress_from_line_load(x, 1 - x, 0.0) == -math.inf
-        assert abel.stress_from_line_load(x, np.ones(5), 0.0) == pytest.approx(-1 / math.pi, rel=1e-15)
+        assert abel.stress_from_line_load(x, np.ones(5), 0.0) == approx(-1 / math.pi, rel=1e-15)
         # q constant to 0.5, then straight to 0: ∫ q′/x dx = −2 ln 2.
-        assert abel.stress_from_line_load([0, 0.5, 1], [1, 1, 0], 0.0) == pytest.approx(
-            -2 * math.log(2) / math.pi
-        )
+        assert abel.stress_from_line_load([0, 0.5, 1], [1, 1, 0], 0.0) == approx(-2 * math.log(2) / math.pi)
 
     def test_a_state_of_the_solver(self):
         medium = mdr.Medium(1e9, 1.0)
@@ -119,7 +119,7 @@ class TestStressFromLineLoad:
                 exact
             )
 
-        assert math.log(error(40) / error(320), 8) == pytest.approx(1.5, abs=0.15)
+        assert math.log(error(40) / error(320), 8) == approx(1.5, abs=0.15)
 
     def test_large_loads_are_finite(self):
         assert np.isfinite(abel.stress_from_line_load([0.0, 1e-59, 1.0], [1e60, -1e60, 0.0], 0.5))
@@ -171,7 +171,7 @@ class TestCallables:
     def test_closed_pairs(self, slope, reduced):
         for x in (0.0, 1e-8, 0.5, 1.9):
             g = abel.reduce_slope(slope, x)
-            assert g == pytest.approx(reduced(x), rel=1e-13)
+            assert g == approx(reduced(x), rel=1e-13)
 
     @pytest.mark.parametrize(
         ("slope", "says"),

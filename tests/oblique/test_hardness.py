@@ -5,6 +5,8 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
+
 MASS, MU, KAPPA = 1e-9, 0.3, 2 / 3
 #: χ = κ m/(2 m_t) is 7/6.
 BALL = 2 * MASS / 7
@@ -29,8 +31,8 @@ def test_a_punch_without_slip(medium):
     assert hit.plastic_work > 0
     omega = np.sqrt(2 * KAPPA * 1e9 * b / BALL)
     # What is asked for is 10⁻⁵.
-    assert -hit.tangential_restitution == pytest.approx(np.cos(omega * hit.contact_time), abs=1e-5)
-    assert hit.max_tangential_force == pytest.approx(BALL * omega * 0.05, rel=1e-5)
+    assert -hit.tangential_restitution == approx(np.cos(omega * hit.contact_time), abs=1e-5)
+    assert hit.max_tangential_force == approx(BALL * omega * 0.05, rel=1e-5)
 
 
 @pytest.mark.parametrize("eta", [0.0, 5.0])
@@ -51,7 +53,7 @@ def test_a_cone_of_constant_hardness_has_no_length_of_its_own(psi, eta):
     # The same steps in other units; viscous motions are solved to some 10⁻⁹.
     np.testing.assert_allclose(*found, rtol=1e-7)
     if not eta:
-        assert found[0][0] ** 2 == pytest.approx(share * (3 - 2 * share) / (2 - share), rel=1e-9)
+        assert found[0][0] ** 2 == approx(share * (3 - 2 * share) / (2 - share), rel=1e-9)
 
 
 def test_no_hardness_that_is_reached_is_as_elastic():
@@ -78,8 +80,8 @@ def test_no_hardness_that_is_reached_is_as_elastic():
         )
         assert hit.plastic_work == 0
         # The levels are the same but for that of the onset, which is not reached.
-        assert hit.tangential_restitution == pytest.approx(expected.tangential_restitution, abs=2e-5)
-        assert hit.max_tangential_force == pytest.approx(expected.max_tangential_force, rel=2e-5)
+        assert hit.tangential_restitution == approx(expected.tangential_restitution, abs=2e-5)
+        assert hit.max_tangential_force == approx(expected.max_tangential_force, rel=2e-5)
 
 
 @pytest.mark.parametrize("shape", [mdr.Cone, mdr.Sphere, mdr.TruncatedCone], ids=lambda x: x.__name__)
@@ -102,8 +104,8 @@ def test_many_are_as_one_by_one(shape):
         one = mdr.oblique_impact(
             own, mdr.Medium(1e9, hardness=hardness[i], f_c=f_c[i]), MASS, speed[i], 0.1, MU, tolerance=1e-3
         )
-        assert hits.tangential_velocity[i] == pytest.approx(one.tangential_velocity, rel=1e-8)
-        assert hits.max_tangential_force[i] == pytest.approx(one.max_tangential_force, rel=1e-8)
+        assert hits.tangential_velocity[i] == approx(one.tangential_velocity, rel=1e-8)
+        assert hits.max_tangential_force[i] == approx(one.max_tangential_force, rel=1e-8)
 
 
 def test_slip_inside_ends_with_the_rate_of_the_bound():

@@ -13,6 +13,7 @@ from mdr_core.oblique.dry_friction import DryRun
 from mdr_core.oblique.dry_levels import NormalMotions
 from mdr_core.oblique.viscous_friction import slide
 
+from ..approx import approx
 from ..benchmarks.oblique import Case, compression, limits
 from ..shapes import SHAPES, name
 
@@ -81,9 +82,9 @@ def test_against_small_steps(shape, medium):
     )
     ratio, largest, friction = 2 * fine - coarse
     assert not hit.slips_throughout
-    assert -hit.tangential_restitution == pytest.approx(ratio, abs=1e-3)
-    assert hit.max_tangential_force == pytest.approx(largest, rel=2e-3)
-    assert hit.friction_work == pytest.approx(friction, rel=2e-3)
+    assert -hit.tangential_restitution == approx(ratio, abs=1e-3)
+    assert hit.max_tangential_force == approx(largest, rel=2e-3)
+    assert hit.friction_work == approx(friction, rel=2e-3)
 
 
 class TestMaw:
@@ -94,8 +95,8 @@ class TestMaw:
             hit = hit_at(4 * CHI, shape, medium, tolerance=1e-2)
             assert hit.slips_throughout
             change = -MU * MASS / BALL * (1 + hit.restitution) * SPEED
-            assert hit.velocity_change == pytest.approx(change, rel=1e-9)
-            assert hit.max_tangential_force == pytest.approx(MU * hit.max_force, rel=1e-9)
+            assert hit.velocity_change == approx(change, rel=1e-9)
+            assert hit.max_tangential_force == approx(MU * hit.max_force, rel=1e-9)
 
     def test_stick_begins_as_slip_throughout_ends(self):
         """At ψ₁ = 4χ − 1 the chain goes over into the closed form, ψ₂ = −1."""
@@ -103,8 +104,8 @@ class TestMaw:
         assert not below.slips_throughout
         assert above.slips_throughout
         for hit in (below, above):
-            assert hit.tangential_velocity * KAPPA / (MU * SPEED) == pytest.approx(-1.0, abs=1e-5)
-        assert below.friction_work == pytest.approx(above.friction_work, rel=1e-5)
+            assert hit.tangential_velocity * KAPPA / (MU * SPEED) == approx(-1.0, abs=1e-5)
+        assert below.friction_work == approx(above.friction_work, rel=1e-5)
 
     def test_elements_find_slip_throughout(self):
         """The same rows where the closed form is known: the impulse is that of the normal force.
@@ -114,7 +115,7 @@ class TestMaw:
         """
         hit = hit_at(4.5, medium=VISCOUS)
         run, coarse = (_run(hit, halvings).quantities for halvings in (3, 2))
-        assert run.change + (run.change - coarse.change) / 3 == pytest.approx(
+        assert run.change + (run.change - coarse.change) / 3 == approx(
             hit.velocity_change / speed_at(4.5), abs=1e-7
         )
         for medium in (ELASTIC, DRY):
@@ -157,11 +158,11 @@ class TestFlatPunch:
         omega, time = np.sqrt(squared - damping**2), hit.contact_time
         ratio = np.exp(-damping * time) * (np.cos(omega * time) - damping / omega * np.sin(omega * time))
         # What is asked for is 10⁻⁵, and more than that is found.
-        assert -hit.tangential_restitution == pytest.approx(ratio, abs=1e-5)
+        assert -hit.tangential_restitution == approx(ratio, abs=1e-5)
         if not eta:
             # What the springs hold when they are let go is lost to friction.
             lost = BALL * 0.05**2 * (1 - ratio**2) / 2
-            assert hit.friction_work == pytest.approx(lost, rel=2e-5)
+            assert hit.friction_work == approx(lost, rel=2e-5)
 
     @pytest.mark.parametrize("psi", [0.1, 0.2, 0.3, 0.4, 0.6])
     def test_largest_force_where_slip_begins(self, psi):
@@ -207,7 +208,7 @@ def jaeger(psi, steps=1000):
 @pytest.mark.parametrize("psi", [0.6, 1.8])
 def test_against_superposition(psi):
     """Its steps leave some 10⁻⁵."""
-    assert -hit_at(psi, tolerance=1e-5).tangential_restitution == pytest.approx(jaeger(psi), abs=5e-5)
+    assert -hit_at(psi, tolerance=1e-5).tangential_restitution == approx(jaeger(psi), abs=5e-5)
 
 
 def _run(hit, halvings):
@@ -329,8 +330,8 @@ def test_coarse_runs_that_agree_by_chance():
     for tolerance in (1e-3, 1e-4, 1e-5):
         hit = case.solve(tolerance=tolerance)
         assert abs(-hit.tangential_restitution - ratio) <= 10 * hit.errors.tangential_velocity
-    assert -hit.tangential_restitution == pytest.approx(ratio, abs=2e-5)
-    assert -hit.tangential_restitution == pytest.approx(ratio, abs=hit.errors.tangential_velocity + 1e-6)
+    assert -hit.tangential_restitution == approx(ratio, abs=2e-5)
+    assert -hit.tangential_restitution == approx(ratio, abs=hit.errors.tangential_velocity + 1e-6)
 
 
 def test_largest_force_beside_the_turning_point():
@@ -388,8 +389,8 @@ def test_errors_of_a_family_of_impacts_are_relative():
         )
         for size in (1.0, 100.0)
     )  # fmt: skip
-    assert large.friction_work == pytest.approx(1e6 * small.friction_work, rel=1e-9)
-    assert large.errors == pytest.approx(small.errors, rel=1e-6)
+    assert large.friction_work == approx(1e6 * small.friction_work, rel=1e-9)
+    assert large.errors == approx(small.errors, rel=1e-6)
 
 
 def solvable(shape, medium):
@@ -408,7 +409,7 @@ def test_levels_beside_the_turning_point(shape, medium):
     for units in (1, 2, 8, 1e4):
         found = motions.levels(32, 32, [hit.max_depth * (1 - units * 2.0**-53)])
         # Of fourth order in the levels.
-        assert found.step.sum() == pytest.approx(hit.contact_time, rel=1e-6)
+        assert found.step.sum() == approx(hit.contact_time, rel=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -422,8 +423,8 @@ def test_just_past_a_flat_face(shape, speed):
         for shape in (shape, mdr.FlatPunch(1e-6))
     )
     # The contact is wider by less than 10⁻¹⁰.
-    assert hit.tangential_restitution == pytest.approx(punch.tangential_restitution, abs=1e-8)
-    assert hit.max_tangential_force == pytest.approx(punch.max_tangential_force, rel=1e-8)
+    assert hit.tangential_restitution == approx(punch.tangential_restitution, abs=1e-8)
+    assert hit.max_tangential_force == approx(punch.max_tangential_force, rel=1e-8)
 
 
 @OF_ALL
@@ -441,7 +442,7 @@ def test_every_shape(shape, medium):
     assert np.all(motion.slip_radius <= motion.stick_radius)
     assert np.all(motion.stick_radius <= motion.contact_radius * (1 + 1e-6))
     lost = MASS * SPEED**2 * (1 - hit.restitution**2) + BALL * (0.06**2 - hit.tangential_velocity**2)
-    assert hit.friction_work + hit.plastic_work + hit.viscous_work == pytest.approx(lost / 2, rel=1e-5)
+    assert hit.friction_work + hit.plastic_work + hit.viscous_work == approx(lost / 2, rel=1e-5)
 
 
 class TestExtremes:
@@ -461,11 +462,11 @@ class TestExtremes:
         )
         assert none.tangential_velocity == none.friction_work == none.max_tangential_force == 0.0
         for hit in (slow, rough):
-            assert hit.tangential_restitution == pytest.approx(none.tangential_restitution, abs=1e-5)
+            assert hit.tangential_restitution == approx(none.tangential_restitution, abs=1e-5)
 
     def test_grazing(self):
         hit = mdr.oblique_impact(PARABOLOID, DRY, MASS, 1e-6, 1.0, MU)
-        assert hit.velocity_change == pytest.approx(-MU * (1 + hit.restitution) * 1e-6, rel=1e-9)
+        assert hit.velocity_change == approx(-MU * (1 + hit.restitution) * 1e-6, rel=1e-9)
 
     @pytest.mark.parametrize("medium", [ELASTIC, DRY, VISCOUS], ids=["elastic", "yielding", "viscous"])
     @pytest.mark.parametrize(("speed", "mu"), [(0.06, 0.0), (0.06, 1e-60), (1e3, MU), (1e60, MU)])
@@ -476,7 +477,7 @@ class TestExtremes:
         rounding = 1e-12 * mu * hit.max_force
         np.testing.assert_allclose(motion.tangential_force, mu * motion.force, rtol=1e-10, atol=rounding)
         # Viscous runs have errors of their own.
-        assert motion.friction_work[-1] == pytest.approx(hit.friction_work, rel=1e-4, abs=0)
+        assert motion.friction_work[-1] == approx(hit.friction_work, rel=1e-4, abs=0)
         assert not motion.sticks.any()
 
     def test_arrays(self):
@@ -491,9 +492,7 @@ class TestExtremes:
         assert isinstance(one.tangential_velocity, float)
         for quantity in one.to_dict():
             # The same steps, from an impact that was solved among others.
-            assert getattr(hits[1, 2], quantity) == pytest.approx(getattr(one, quantity), rel=1e-9), (
-                quantity
-            )
+            assert getattr(hits[1, 2], quantity) == approx(getattr(one, quantity), rel=1e-9), quantity
 
     @pytest.mark.parametrize(
         ("change", "says"),
@@ -529,16 +528,16 @@ class TestBall:
                 tolerance=1e-3,
             )
             after, turn = ball.rebound(hit, speed, spin)
-            assert ball.contact_speed(after, turn) == pytest.approx(hit.tangential_velocity, abs=1e-15)
-            assert MASS * 1e-5 * (after - speed) == pytest.approx(ball.inertia * (turn - spin), rel=1e-12)
+            assert ball.contact_speed(after, turn) == approx(hit.tangential_velocity, abs=1e-15)
+            assert MASS * 1e-5 * (after - speed) == approx(ball.inertia * (turn - spin), rel=1e-12)
             lost = MASS * (speed**2 - after**2) + ball.inertia * (spin**2 - turn**2)
-            assert hit.friction_work == pytest.approx(lost / 2, rel=1e-5)
+            assert hit.friction_work == approx(lost / 2, rel=1e-5)
 
     def test_angles(self):
         normal, tangential = mdr.at_angle(2.0, np.radians([0.0, 60.0]))
         np.testing.assert_allclose([normal, tangential], [[2.0, 1.0], [0.0, 3**0.5]], atol=1e-15)
         hit = mdr.oblique_impact(PARABOLOID, ELASTIC, MASS, *mdr.at_angle(0.1, 0.4), 0.0)
-        assert hit.rebound_angle == pytest.approx(0.4, rel=1e-12)
+        assert hit.rebound_angle == approx(0.4, rel=1e-12)
         with pytest.raises(ValueError, match="from degrees"):
             mdr.at_angle(1.0, 45.0)
 
@@ -582,21 +581,21 @@ class TestLimitsOfStick:
         onset = 2e-9
         radius = float(cone.contact_radius(onset))
         line = mdr.Medium(1e9, f_c=2e9 / np.pi * onset * radius)
-        assert float(mdr.yield_depth(cone, line)) == pytest.approx(onset)
+        assert float(mdr.yield_depth(cone, line)) == approx(onset)
         hit = hit_at(0.5, cone, line, tolerance=1e-3)
         depth = hit.max_depth / onset
         assert depth > 32
-        assert limit_of("depth", hit).value == pytest.approx(depth**2, rel=1e-9)
+        assert limit_of("depth", hit).value == approx(depth**2, rel=1e-9)
         assert limit_of("depth", hit).exceeded
         hit = hit_at(0.5, cone, mdr.Medium(1e9, hardness=0.1 * 0.3e9), tolerance=1e-3)
-        assert limit_of("depth", hit).value == pytest.approx(10.0, rel=1e-9)
+        assert limit_of("depth", hit).value == approx(10.0, rel=1e-9)
         assert limit_of("depth", hit).holds
 
     def test_of_many_the_worst_that_sticks(self):
         """Closed forms have no such limits."""
         hits = hit_at(np.array([0.5, 5000.0]), medium=DRY, mass=np.array([BALL, 1e-3 * MASS]))
         assert hits.slips_throughout.tolist() == [False, True]
-        assert limit_of("mass", hits).value == pytest.approx(MASS / BALL)
+        assert limit_of("mass", hits).value == approx(MASS / BALL)
         assert not {"tolerance", "depth", "mass"} & {limit.what for limit in hits[1].limits}
 
     @pytest.mark.parametrize("eta", [0.0, 20.0])

@@ -9,6 +9,7 @@ from scipy.integrate import quad
 import mdr_core as mdr
 from mdr_core.profiles.radius_table import OneLength
 
+from ..approx import approx
 from ..shapes import name
 
 MEDIUM = mdr.Medium(E_star=1e9, q_c=10.0)
@@ -75,12 +76,12 @@ class TestToldAgain:
         )
         # What is promised for every shape.
         for quantity in ("contact_radius", "plastic_radius", "force", "stored_energy", "plastic_work"):
-            assert getattr(told, quantity) == pytest.approx(getattr(exact, quantity), rel=1e-12), quantity
+            assert getattr(told, quantity) == approx(getattr(exact, quantity), rel=1e-12), quantity
         r = np.array([1e-3, 0.3, 0.9, 0.999]) * exact.contact_radius
         np.testing.assert_allclose(told.pressure(r), exact.pressure(r), rtol=1e-10)
         np.testing.assert_allclose(told.surface(r), exact.surface(r), rtol=1e-10)
         force = mdr.indent_to_force(Told(known), MEDIUM, mdr.indent(known, MEDIUM, 3 * D_C).force)
-        assert force.depth == pytest.approx(3 * D_C, rel=1e-12)
+        assert force.depth == approx(3 * D_C, rel=1e-12)
 
     @pytest.mark.parametrize("share", [0.0, 0.3])
     def test_impact(self, known, share):
@@ -89,7 +90,7 @@ class TestToldAgain:
         told, exact = (mdr.impact(shape, medium, MASS, SPEED) for shape in (Told(known), known))
         for quantity in ("max_depth", "restitution", "contact_time", "max_force", "plastic_work"):
             # 1e-9 is promised of each.
-            assert getattr(told, quantity) == pytest.approx(getattr(exact, quantity), rel=2e-9), quantity
+            assert getattr(told, quantity) == approx(getattr(exact, quantity), rel=2e-9), quantity
 
     def test_chain(self, known):
         half_width = known.contact_radius(3 * D_C)
@@ -98,7 +99,7 @@ class TestToldAgain:
             for shape in (Told(known), known)
         )
         # The elements stand alike, but for the rounding of where kinks are.
-        assert told.force == pytest.approx(exact.force, rel=1e-12)
+        assert told.force == approx(exact.force, rel=1e-12)
 
 
 class TestPencil:
@@ -113,11 +114,11 @@ class TestPencil:
     def test_force_and_pressure_by_quadrature(self, times):
         state = mdr.indent(self.shape, MEDIUM, times * D_C)
         a, c = (self.radius(d) for d in (state.depth, max(state.depth - D_C, 0.0)))
-        assert state.contact_radius == pytest.approx(a, rel=1e-14)
+        assert state.contact_radius == approx(a, rel=1e-14)
         ends = max(state.depth - D_C, 0.0), state.depth
         # Quad's own accuracy.
         force = 2 * MEDIUM.E_star * quad(self.radius, *ends, epsabs=0, epsrel=1e-12)[0]
-        assert state.force == pytest.approx(force, rel=1e-11)
+        assert state.force == approx(force, rel=1e-11)
         r = 0.7 * a
 
         def punches(t):
@@ -128,14 +129,14 @@ class TestPencil:
         pressure = (
             MEDIUM.E_star / np.pi * quad(punches, 0, np.sqrt(a - max(r, c)), epsabs=0, epsrel=1e-12)[0]
         )
-        assert state.pressure(r) == pytest.approx(pressure, rel=1e-10)
+        assert state.pressure(r) == approx(pressure, rel=1e-10)
 
     def test_impact_against_the_chain(self):
         medium = mdr.Medium(MEDIUM.E_star, MEDIUM.q_c, eta=20.0)
         hit = mdr.impact(self.shape, medium, MASS, SPEED)
         chain = mdr.chain_impact(self.shape, medium, MASS, SPEED)
-        assert hit.restitution == pytest.approx(chain.restitution, abs=chain.error)
-        assert hit.max_depth == pytest.approx(chain.max_depth, rel=chain.error)
+        assert hit.restitution == approx(chain.restitution, abs=chain.error)
+        assert hit.max_depth == approx(chain.max_depth, rel=chain.error)
         assert 0.1 < hit.restitution < 0.9
 
 
@@ -156,7 +157,7 @@ def test_many_at_once(kind, eta):
         one = mdr.impact(kind(float(slope), float(radius)), medium, MASS, speeds[i])
         for quantity in ("max_depth", "max_force", "restitution", "contact_time", "plastic_work"):
             # What is promised of times and viscous impacts, which take steps of their own.
-            assert getattr(hits, quantity)[i] == pytest.approx(getattr(one, quantity), rel=1e-9), quantity
+            assert getattr(hits, quantity)[i] == approx(getattr(one, quantity), rel=1e-9), quantity
 
 
 def test_a_shape_that_may_change_is_refused():
@@ -222,7 +223,7 @@ def test_a_polygon_has_a_contact_radius_at_any_depth():
         close = 8 * np.finfo(float).eps * (depth + radius * polygon.reduced_slope_at(radius))
     assert np.all(np.abs(polygon.reduced_at(radius) - depth) <= close)
     alone = polygon.contact_radius(3.5575617283436532e-06)
-    assert alone == pytest.approx(radius[-1], rel=1e-14)
+    assert alone == approx(radius[-1], rel=1e-14)
 
 
 def test_scales_of_a_class_are_one_where_its_parameters_are():

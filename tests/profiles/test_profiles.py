@@ -12,6 +12,7 @@ from mpmath import mp, mpf
 import mdr_core as mdr
 from mdr_core.abel import kappa
 
+from ..approx import approx
 from ..hard_cases import EXTREMES
 from ..reference import Reference
 from ..shapes import POWER_LAWS, SHAPES, integrate, name
@@ -27,25 +28,25 @@ def test_eq_3_reduced_profile_is_the_transform_of_the_height(shape):
         breaks = [0.0, *(math.asin(k / r) for k in (0.3e-6, 1e-6) if k < r), math.pi / 2]
         height = integrate(lambda t, r=r: shape.reduced(r * math.sin(t)), breaks)
         # The quadrature's own error; just behind a kink r itself is known to 3 digits less.
-        assert 2 / math.pi * height == pytest.approx(shape.height(r), rel=1e-9, abs=1e-22)
+        assert 2 / math.pi * height == approx(shape.height(r), rel=1e-9, abs=1e-22)
 
 
 @pytest.mark.parametrize("shape", POWER_LAWS, ids=name)
 def test_eq_5_power_law_keeps_its_exponent(shape):
     n = math.log(shape.height(2e-6) / shape.height(1e-6)) / math.log(2)
-    assert shape.reduced(2e-6) / shape.reduced(1e-6) == pytest.approx(2**n, rel=1e-14)
+    assert shape.reduced(2e-6) / shape.reduced(1e-6) == approx(2**n, rel=1e-14)
 
 
 def test_eq_7_known_coefficients():
-    assert kappa(1.0) == pytest.approx(math.pi / 2, rel=2e-16)
-    assert kappa(2.0) == pytest.approx(2.0, rel=2e-16)
+    assert kappa(1.0) == approx(math.pi / 2, rel=2e-16)
+    assert kappa(2.0) == approx(2.0, rel=2e-16)
 
 
 @pytest.mark.parametrize("n", [1e-6, 0.1, 1.0, 7.5, 50.0, 99.0])
 def test_eq_7_recurrence(n):
     """κₙ κₙ₊₁ = (π/2)(n + 1), from the duplication of the gamma function."""
     # Each κ carries the few roundings of two gamma functions.
-    assert kappa(n) * kappa(n + 1) == pytest.approx(math.pi / 2 * (n + 1), rel=5e-15)
+    assert kappa(n) * kappa(n + 1) == approx(math.pi / 2 * (n + 1), rel=5e-15)
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
@@ -80,10 +81,10 @@ def test_reduced_slope_on_a_kink_is_that_of_its_outer_side():
     assert mdr.TruncatedParaboloid(1e-6, 1e-5).reduced_slope(1e-6) == math.inf
     assert mdr.RoundedPunch(1e-6, 1e-5).reduced_slope(1e-6) == 0.0
     # b = sR: 2b/R on either side.
-    assert mdr.RoundedCone(1e-6, 0.3).reduced_slope(0.3e-6) == pytest.approx(0.6, rel=1e-15)
+    assert mdr.RoundedCone(1e-6, 0.3).reduced_slope(0.3e-6) == approx(0.6, rel=1e-15)
     tip = mdr.Sampled([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 3.0, 6.0])
     np.testing.assert_array_equal(tip.reduced_slope([1.0, 2.0, -2.0]), [math.inf, math.inf, -math.inf])
-    assert tip.reduced_slope(np.nextafter(1.0, 0)) == pytest.approx(math.pi / 2, rel=1e-15)
+    assert tip.reduced_slope(np.nextafter(1.0, 0)) == approx(math.pi / 2, rel=1e-15)
     for flat in (mdr.TruncatedCone(1e-6, 0.3), mdr.FlatPunch(1e-6)):
         assert flat.reduced_slope(0.999e-6) == 0.0
     for walled in (mdr.FlatPunch(1e-6), mdr.ParabolicPunch(1e-5, 1e-6)):
@@ -107,17 +108,15 @@ def test_limits_of_families():
     cone = mdr.Cone(slope=0.3).contact_radius(depth)
     # b/a → 0: g = s x (π/2 − b/x), so a grows by (2/π) b.
     b = 1e-6 * cone
-    assert mdr.TruncatedCone(b, 0.3).contact_radius(depth) - cone == pytest.approx(
-        2 / math.pi * b, rel=1e-5
-    )
+    assert mdr.TruncatedCone(b, 0.3).contact_radius(depth) - cone == approx(2 / math.pi * b, rel=1e-5)
     # a/R → 0: g = x²/R (1 + x²/(3R²)), so a shrinks by a³/(6R²).
     paraboloid = mdr.Paraboloid(1e-3).contact_radius(depth)
     change = mdr.Sphere(1e-3).contact_radius(depth) - paraboloid
-    assert change == pytest.approx(-(paraboloid**3) / 6e-6, rel=1e-5)
+    assert change == approx(-(paraboloid**3) / 6e-6, rel=1e-5)
     # a ≫ sR: g = s (π/2 x − sR).
     blunt = 1e-6 * cone
     hyperboloid = mdr.Hyperboloid(0.3, blunt / 0.3).contact_radius(depth)
-    assert hyperboloid - cone == pytest.approx(2 / math.pi * blunt, rel=1e-5)
+    assert hyperboloid - cone == approx(2 / math.pi * blunt, rel=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -146,19 +145,19 @@ def test_bad_shapes_and_arguments_are_refused(make, says):
 
 @pytest.mark.parametrize(("degrees", "slope"), [(45.0, 1.0), (60.0, 3**-0.5), (30.0, 3**0.5)])
 def test_cone_from_its_half_angle(degrees, slope):
-    assert mdr.Cone.from_half_angle(degrees).slope == pytest.approx(slope, rel=1e-15)
+    assert mdr.Cone.from_half_angle(degrees).slope == approx(slope, rel=1e-15)
 
 
 def test_the_cone_of_a_pyramid_has_its_force():
     """F = 0.7453 E* d² tan α of Bilodeau (1992): a cone of the same angle makes 17 % more of E*."""
     depth, tangent = np.linspace(0, 1e-6, 50), np.tan(np.radians(35.0))
     force = 0.7453 * 20e3 * depth**2 * tangent
-    assert mdr.indent(mdr.Cone.pyramid(35.0), mdr.Medium(20e3), depth).force == pytest.approx(force)
+    assert mdr.indent(mdr.Cone.pyramid(35.0), mdr.Medium(20e3), depth).force == approx(force)
     moduli = [
         mdr.fit_indentation(tip, depth, force, q_c=np.inf).medium.E_star
         for tip in (mdr.Cone.pyramid(35.0), mdr.Cone.from_half_angle(35.0))
     ]
-    assert moduli == pytest.approx([20e3, 23.41e3], rel=1e-3)
+    assert moduli == approx([20e3, 23.41e3], rel=1e-3)
     with pytest.raises(ValueError, match="half-angle"):
         mdr.Cone.pyramid(95.0)
 
@@ -166,8 +165,8 @@ def test_the_cone_of_a_pyramid_has_its_force():
 def test_the_cone_of_a_berkovich_tip():
     """Oliver and Pharr: half-angle 70.3°, A = 24.5 h² (three figures as they are quoted)."""
     cone = mdr.Cone.berkovich()
-    assert cone.slope == pytest.approx(mdr.Cone.from_half_angle(70.3).slope, rel=3e-4)
-    assert np.pi / cone.slope**2 == pytest.approx(24.5, abs=0.05)
+    assert cone.slope == approx(mdr.Cone.from_half_angle(70.3).slope, rel=3e-4)
+    assert np.pi / cone.slope**2 == approx(24.5, abs=0.05)
 
 
 @pytest.mark.parametrize("degrees", [0.0, 90.0, -70.3, np.nan, [45.0, 91.0]])

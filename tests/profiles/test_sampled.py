@@ -10,6 +10,7 @@ import mdr_core as mdr
 from mdr_core.profiles.sampled import tip_through
 from mdr_core.profiles.samples import axis_of_symmetry
 
+from ..approx import approx
 from ..shapes import integrate, lower_hull
 
 MEDIUM = mdr.Medium(1e9, 1.0)
@@ -28,7 +29,7 @@ def states(first, second, history):
 
 def assert_same(sampled, exact, tolerance):
     for field in ("contact_radius", "force", "stored_energy", "plastic_work", "stiffness"):
-        assert getattr(sampled, field) == pytest.approx(getattr(exact, field), rel=tolerance), field
+        assert getattr(sampled, field) == approx(getattr(exact, field), rel=tolerance), field
     r = np.array([1e-3, 0.3, 0.9, 0.999, 1.5]) * exact.contact_radius
     np.testing.assert_allclose(sampled.pressure(r), exact.pressure(r), rtol=50 * tolerance)
     np.testing.assert_allclose(sampled.surface(r), exact.surface(r), rtol=50 * tolerance)
@@ -90,7 +91,7 @@ def test_pressure_integrates_to_the_force():
     edges = np.unique([*r[r < state.contact_radius], state.plastic_radius, state.contact_radius])
     force = integrate(lambda r: 2 * math.pi * r * state.pressure(r), edges)
     # The logarithms at the vertices cost the adaptive quadrature some digits.
-    assert force == pytest.approx(state.force, rel=1e-8)
+    assert force == approx(state.force, rel=1e-8)
 
 
 def test_heights_count_from_the_first_sample():
@@ -125,7 +126,7 @@ def test_bad_samples_are_refused(r, z, says):
 def test_deeper_than_measured_is_refused():
     tip = mdr.Sampled([0, 1e-6], [0, 1e-7])
     # The whole tip: (π/2) z at its last sample.
-    assert mdr.indent(tip, MEDIUM, math.pi / 2 * 1e-7 * (1 - 1e-15)).contact_radius == pytest.approx(1e-6)
+    assert mdr.indent(tip, MEDIUM, math.pi / 2 * 1e-7 * (1 - 1e-15)).contact_radius == approx(1e-6)
     with pytest.raises(ValueError, match=r"depth\[1\] = 1.6e-07 m is deeper than the shape is known, 1.57"):
         mdr.indent(tip, MEDIUM, [0, 1.6e-7])
     with pytest.raises(ValueError, match="beyond the radius up to which the shape is known"):
@@ -151,9 +152,9 @@ def test_impact_of_the_polygon_of_a_paraboloid():
     hits = [mdr.impact(shape, medium, 1e-9, 0.03) for shape in (polygon, exact)]
     for quantity in ("max_depth", "restitution", "contact_time"):
         # The chords lie above the curve by 1/8 of the squared spacing over R: 10⁻³ of the height.
-        assert getattr(hits[0], quantity) == pytest.approx(getattr(hits[1], quantity), rel=5e-3), quantity
+        assert getattr(hits[0], quantity) == approx(getattr(hits[1], quantity), rel=5e-3), quantity
     lost = (hits[0].plastic_work + hits[0].viscous_work) / (1e-9 * 0.03**2 / 2)
-    assert hits[0].restitution ** 2 + lost == pytest.approx(1, rel=1e-9)
+    assert hits[0].restitution ** 2 + lost == approx(1, rel=1e-9)
 
 
 TIPS = {
@@ -202,10 +203,8 @@ class TestInverse:
 
     def test_the_deepest_itself_is_known(self, tip):
         tip = mdr.Sampled(*TIPS[tip])
-        assert tip.contact_radius(tip.known_depth) == pytest.approx(tip.r[-1], rel=4e-16)
-        assert mdr.indent(tip, MEDIUM, tip.known_depth).contact_radius == pytest.approx(
-            tip.r[-1], rel=4e-16
-        )
+        assert tip.contact_radius(tip.known_depth) == approx(tip.r[-1], rel=4e-16)
+        assert mdr.indent(tip, MEDIUM, tip.known_depth).contact_radius == approx(tip.r[-1], rel=4e-16)
         with pytest.raises(ValueError, match="is deeper than the shape is known"):
             tip.contact_radius(np.nextafter(tip.known_depth, np.inf))
 
@@ -438,9 +437,9 @@ def test_the_axis_of_a_tip_that_is_measured_on_both_sides(noise):
     z = (r - axis) ** 2 / 2e-6 + np.random.default_rng(5).normal(0.0, noise, r.size)
     # Linear interpolation between samples; noise over the mean slope of 0.5 and the root of their number.
     tolerance = 1e-3 * 1e-6 + 4 * noise / 0.5 / np.sqrt(r.size)
-    assert axis_of_symmetry(r, z) == pytest.approx(axis, abs=tolerance)
+    assert axis_of_symmetry(r, z) == approx(axis, abs=tolerance)
     # The order of the samples does not matter.
-    assert axis_of_symmetry(r[::-1], z[::-1]) == pytest.approx(axis, abs=tolerance)
+    assert axis_of_symmetry(r[::-1], z[::-1]) == approx(axis, abs=tolerance)
 
 
 def test_few_convex_samples_are_the_tip_as_they_are():
@@ -457,10 +456,10 @@ def test_noisy_samples_about_any_axis_become_a_convex_tip_of_few(rows):
     tip, scatter = tip_through(r, z, 60, 2000)
     assert len(tip.r) <= 60
     # Of 41 samples the standard deviation is known to a ninth, and the fit takes some of it.
-    assert scatter == pytest.approx(noise, rel=0.35)
+    assert scatter == approx(noise, rel=0.35)
     exact = mdr.indent(mdr.Paraboloid(1e-6), MEDIUM, 2e-7).force
     # Noise of the height of the apex, of a few samples, over the depth; forces go with its power 3/2.
-    assert mdr.indent(tip, MEDIUM, 2e-7).force == pytest.approx(exact, rel=1.5 * noise / 2e-7 * 2)
+    assert mdr.indent(tip, MEDIUM, 2e-7).force == approx(exact, rel=1.5 * noise / 2e-7 * 2)
 
 
 def test_a_repaired_area_function_says_by_how_much():
@@ -473,6 +472,6 @@ def test_a_repaired_area_function_says_by_how_much():
     (remark,) = repaired.remarks
     # Two digits are written, and the table of heights is finer.
     said = float(re.search(r"changed by up to ([\d.]+) pm", remark)[1])
-    assert said == pytest.approx(1e3 * change, rel=0.06)
+    assert said == approx(1e3 * change, rel=0.06)
     assert remark in repr(repaired)
     assert mdr.Sampled.from_area_function([24.5], 1e-6).remarks == ()

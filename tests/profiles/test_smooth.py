@@ -5,6 +5,8 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
+
 MEDIUM = mdr.Medium(1e9, 1.0)
 D_C = MEDIUM.critical_depth
 R = 1e-5
@@ -26,9 +28,9 @@ def test_same_as_the_closed_form(pair, history):
     x = np.array([1e-3, 0.5, 1.0]) * closed.contact_radius
     np.testing.assert_allclose(smooth.profile.reduced(x), exact.reduced(x), rtol=1e-13)
     np.testing.assert_allclose(smooth.profile.height(x), exact.height(x), rtol=1e-13)
-    assert smooth.contact_radius == pytest.approx(closed.contact_radius, rel=1e-14)
+    assert smooth.contact_radius == approx(closed.contact_radius, rel=1e-14)
     for field in ("force", "stored_energy", "plastic_work"):
-        assert getattr(smooth, field) == pytest.approx(getattr(closed, field), rel=2e-13), field
+        assert getattr(smooth, field) == approx(getattr(closed, field), rel=2e-13), field
     # The derivative of the Chebyshev series has lost two or three digits.
     np.testing.assert_allclose(smooth.pressure(x[:2]), closed.pressure(x[:2]), rtol=2e-11)
     r = np.array([0.9, 1.5, 100.0]) * closed.contact_radius
@@ -38,10 +40,10 @@ def test_same_as_the_closed_form(pair, history):
 def test_force_path_and_impact():
     smooth, exact = mdr.Smooth(PAIRS["paraboloid"][0]), PAIRS["paraboloid"][1]
     force = mdr.indent(exact, MEDIUM, 5 * D_C).force
-    assert mdr.indent_to_force(smooth, MEDIUM, force).depth == pytest.approx(5 * D_C, rel=1e-13)
+    assert mdr.indent_to_force(smooth, MEDIUM, force).depth == approx(5 * D_C, rel=1e-13)
     hits = [mdr.impact(shape, MEDIUM, 1e-9, 0.01) for shape in (smooth, exact)]
-    assert hits[0].restitution == pytest.approx(hits[1].restitution, rel=1e-12)
-    assert hits[0].contact_time == pytest.approx(hits[1].contact_time, rel=1e-11)
+    assert hits[0].restitution == approx(hits[1].restitution, rel=1e-12)
+    assert hits[0].contact_time == approx(hits[1].contact_time, rel=1e-11)
 
 
 @pytest.mark.parametrize(
@@ -63,7 +65,7 @@ def test_a_polynomial_is_a_slope():
     """NumPy's polynomials are not hashable, profiles are: the slope r/R is that of the paraboloid."""
     tip, medium = mdr.Smooth(np.polynomial.Polynomial([0.0, 1 / R])), mdr.Medium(1e9, work_of_adhesion=0.01)
     force = mdr.indent(tip, medium, 1e-9).force
-    assert force == pytest.approx(mdr.indent(mdr.Paraboloid(R), medium, 1e-9).force, rel=1e-12)
+    assert force == approx(mdr.indent(mdr.Paraboloid(R), medium, 1e-9).force, rel=1e-12)
 
 
 @pytest.mark.parametrize(("radius", "depth"), [(10.0, 1e9), (np.inf, 1e24)])
@@ -90,7 +92,7 @@ def test_a_fractional_power_of_the_radius():
     smooth, exact = mdr.Smooth(lambda r: 30 * np.sqrt(r)), mdr.PowerLaw(20.0, 1.5)
     states = [mdr.indent(shape, MEDIUM, [5 * D_C, 4.3 * D_C])[-1] for shape in (smooth, exact)]
     for field in ("contact_radius", "force", "stored_energy", "plastic_work"):
-        assert getattr(states[0], field) == pytest.approx(getattr(states[1], field), rel=1e-12), field
+        assert getattr(states[0], field) == approx(getattr(states[1], field), rel=1e-12), field
 
 
 class TestImpact:
@@ -110,9 +112,7 @@ class TestImpact:
         hits = [mdr.impact(shape, medium, 1e-9, 0.1) for shape in (self.smooth(), self.EXACT)]
         for quantity in ("max_depth", "restitution", "contact_time"):
             # Steps are planned alike: roundings of the series, and of few steps.
-            assert getattr(hits[0], quantity) == pytest.approx(getattr(hits[1], quantity), rel=1e-11), (
-                quantity
-            )
+            assert getattr(hits[0], quantity) == approx(getattr(hits[1], quantity), rel=1e-11), quantity
 
     @pytest.mark.slow
     def test_neighbours_do_not_matter(self):
@@ -123,8 +123,8 @@ class TestImpact:
         for i in (0, 2, 4):
             alone = mdr.impact(self.smooth(), medium, 1e-9, together.speed[i])
             # A search that goes on for its neighbours may end one digit better.
-            assert alone.max_depth == pytest.approx(together.max_depth[i], rel=4e-16)
-            assert alone.contact_time == pytest.approx(together.contact_time[i], rel=2e-15)
+            assert alone.max_depth == approx(together.max_depth[i], rel=4e-16)
+            assert alone.contact_time == approx(together.contact_time[i], rel=2e-15)
         radius = shape.contact_radius(depth)
         alone = [self.smooth().contact_radius(each) for each in depth[::4]]
         np.testing.assert_allclose(radius[::4], alone, rtol=2e-15)
@@ -136,8 +136,8 @@ class TestImpact:
         radius = 1e-6
         shape = mdr.Smooth(lambda r: r / 1e-5, radius=radius)
         deepest = radius**2 / 1e-5
-        assert shape.contact_radius(deepest * (1 - 1e-9)) == pytest.approx(radius * (1 - 5e-10), rel=1e-14)
-        assert shape.known_depth == pytest.approx(deepest, rel=0.1)
+        assert shape.contact_radius(deepest * (1 - 1e-9)) == approx(radius * (1 - 5e-10), rel=1e-14)
+        assert shape.known_depth == approx(deepest, rel=0.1)
         with pytest.raises(ValueError, match="presses deeper than the Smooth shape is known"):
             mdr.impact(shape, mdr.Medium(1e9), 1e-9, 10.0)
 
@@ -157,13 +157,13 @@ def test_pressure_on_the_axis_of_a_rounded_tip(radius):
     """Hertz: p₀ = (2/π) E* √(d/R), with Huber's −p₀ and 0.31 p₀; g′ is from polynomials to 10⁻¹²."""
     state = mdr.indent(mdr.Smooth(lambda r: r / radius), mdr.Medium(1e9, poisson=0.3), 1e-3 * radius)
     hertz = 2 / np.pi * 1e9 * np.sqrt(1e-3)
-    assert state.pressure(0.0) == pytest.approx(hertz, rel=1e-10)
-    assert state.stress(0.0, 0.0).zz == pytest.approx(-hertz, rel=1e-10)
-    assert state.stress_peak().value == pytest.approx(0.310 * hertz, rel=1e-3)
+    assert state.pressure(0.0) == approx(hertz, rel=1e-10)
+    assert state.stress(0.0, 0.0).zz == approx(-hertz, rel=1e-10)
+    assert state.stress_peak().value == approx(0.310 * hertz, rel=1e-3)
     assert state.profile.reduced_slope(0.0) == 0.0
     sharp = mdr.Smooth(lambda r: 0.3 + r / radius)
     assert mdr.indent(sharp, mdr.Medium(1e9), 1e-3 * radius).pressure(0.0) == np.inf
-    assert sharp.reduced_slope(0.0) == pytest.approx(np.pi / 2 * 0.3, rel=1e-8)
+    assert sharp.reduced_slope(0.0) == approx(np.pi / 2 * 0.3, rel=1e-8)
 
 
 @pytest.mark.parametrize("given", [{}, {"radius": 1e-6}, {"radius": 0.9e-6}, {"radius": 0.3e-6}], ids=str)
@@ -182,9 +182,9 @@ def test_a_slope_that_ends_has_every_class_of_hardness(given):
         mdr.Medium(1e9, 10.0, work_of_adhesion=0.01),
     ):
         expected = mdr.indent(sphere, medium, 1e-9).force
-        assert mdr.indent(smooth, medium, 1e-9).force == pytest.approx(expected, rel=1e-12)
+        assert mdr.indent(smooth, medium, 1e-9).force == approx(expected, rel=1e-12)
     low, high = mdr.capture_speeds(smooth, medium, 1e-15)
-    assert (low, high) == pytest.approx(mdr.capture_speeds(sphere, medium, 1e-15), rel=1e-10)
+    assert (low, high) == approx(mdr.capture_speeds(sphere, medium, 1e-15), rel=1e-10)
     assert smooth.known_radius <= radius
     # Printing looks at all classes of hardness.
     depth = np.append(np.linspace(0, 20e-9, 30), np.linspace(20e-9, 15e-9, 15))

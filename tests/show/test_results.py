@@ -7,6 +7,8 @@ import pytest
 
 import mdr_core as mdr
 
+from ..approx import approx
+
 SOFT = mdr.Medium(1e9, 10.0)
 VISCOUS = mdr.Medium(4e6, 200.0, 30.0)
 CHAIN = mdr.chain_impact(mdr.Paraboloid(2e-3), VISCOUS, 1e-4, 0.5, tolerance=1e-3)
@@ -51,7 +53,7 @@ def test_numbers_in_other_units_are_noticed():
     assert "modulus" in exceeded(mdr.indent(mdr.Cone(0.2), mdr.Medium(2e13), 1e-9))
     state = mdr.indent(mdr.Cone.from_half_angle(1.2), SOFT, 1e-9)
     # cot 1.2°.
-    assert limit(state, "slope").value == pytest.approx(47.74, rel=1e-4)
+    assert limit(state, "slope").value == approx(47.74, rel=1e-4)
     assert "in degrees, not in radians" in limit(state, "slope").sentence
     state = mdr.indent(mdr.Paraboloid(1e-6), SOFT, 5e-6)
     assert "2.24 R, beyond the equator of the body" in limit(state, "contact radius").sentence
@@ -62,7 +64,7 @@ def test_a_printed_fit_says_where_its_model_ends():
     """The tip of an AFM with a half-angle of 25° has a slope of 2.14."""
     tip, depth = mdr.Cone.from_half_angle(25.0), np.linspace(0.0, 60e-9, 100)
     fit = mdr.fit_indentation(tip, depth, mdr.indent(tip, mdr.Medium(1e4), depth).force, q_c=np.inf)
-    assert limit(fit.path, "slope").value == pytest.approx(2.1445, rel=1e-4)
+    assert limit(fit.path, "slope").value == approx(2.1445, rel=1e-4)
     assert "Slopes reach 2.14 within the contact" in repr(fit)
 
 
@@ -88,14 +90,14 @@ def test_slope_within_the_contact(shape, depth, slope):
         # A cusp is steeper on its way than at the edge: z/a = c/√a.
         slope = 2e-4 / np.sqrt(state.contact_radius)
     # A difference over a millionth of the radius.
-    assert limit(state, "slope").value == pytest.approx(slope, rel=1e-5, abs=1e-12)
+    assert limit(state, "slope").value == approx(slope, rel=1e-5, abs=1e-12)
     assert limit(state, "slope").exceeded == (slope > 0.3)
 
 
 def test_a_path_goes_as_far_as_its_largest_contact():
     path = mdr.indent(mdr.Paraboloid(1e-6), mdr.Medium(1e9), [0.0, 0.25e-6, 0.01e-6])
-    assert limit(path, "slope").value == pytest.approx(0.5, rel=1e-5)
-    assert limit(path[2], "slope").value == pytest.approx(0.1, rel=1e-5)
+    assert limit(path, "slope").value == approx(0.5, rel=1e-5)
+    assert limit(path[2], "slope").value == approx(0.1, rel=1e-5)
 
 
 def test_degrees_taken_for_a_slope_are_told():
@@ -107,7 +109,7 @@ def test_degrees_taken_for_a_slope_are_told():
 
 def test_a_sphere_next_to_its_equator():
     near = mdr.indent(mdr.Sphere(1e-6), mdr.Medium(1e9), 1.5e-6)
-    assert limit(near, "contact radius").value == pytest.approx(near.contact_radius / 1e-6, rel=1e-12)
+    assert limit(near, "contact radius").value == approx(near.contact_radius / 1e-6, rel=1e-12)
     assert "the equator is at R" in limit(near, "contact radius").sentence
     # It is steep there, but nobody has taken degrees for a slope.
     deeper = limit(mdr.indent(mdr.Sphere(1e-6), mdr.Medium(1e9), 5e-6), "slope")
@@ -192,7 +194,7 @@ def test_where_the_fast_limit_is_not_known_it_does_not_hold():
 def test_speed_against_wave_speed(hit):
     found = hit.speed_limit(density=1000.0)
     wave = np.sqrt(hit.medium.E_star / 1000.0)
-    assert found.value == pytest.approx(np.max(hit.speed) / wave, rel=1e-15)
+    assert found.value == approx(np.max(hit.speed) / wave, rel=1e-15)
     assert found.exceeded == (np.max(hit.speed) / wave > 0.1)
     with pytest.raises(ValueError, match="density = -1 kg/m³"):
         hit.speed_limit(-1.0)
@@ -228,7 +230,7 @@ class TestCriticalDepthBelowAtoms:
             found = limit(result, "critical depth")
             assert found.exceeded
             assert found.level == "beyond"
-            assert found.value == pytest.approx(np.pi * 0.3 / 420e9, rel=1e-12)
+            assert found.value == approx(np.pi * 0.3 / 420e9, rel=1e-12)
             assert "no Poisson ratio" in found.sentence
             assert "from_bodies(E1, nu1)" in found.sentence
             assert found.sentence[:40] in repr(result)

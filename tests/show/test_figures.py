@@ -9,6 +9,8 @@ from scipy.integrate import trapezoid
 import mdr_core as mdr
 from mdr_core.show.figures import ROLES, split
 
+from ..approx import approx
+
 hv = pytest.importorskip("holoviews")
 
 MEDIUM = mdr.Medium(1e11, 100.0)
@@ -31,7 +33,7 @@ def test_a_path_is_told_apart_by_what_happens():
     """Pressed elastically, yielding, unloaded, pressed again elastically, yielding, unloaded."""
     rows = split(DEPTH, PATH.force, PATH.depth, PATH.plastic_depth)
     told = {name: (x / D_C).round(9).tolist() for name, (x, _) in rows.items()}
-    gap = pytest.approx(np.nan, nan_ok=True)
+    gap = approx(np.nan, nan_ok=True)
     assert told["elastic"] == [0, 0.5, 1, gap, 2.5, 2.8, 3]
     assert told["yielding"] == [1, 2, 3, gap, 3, 4]
     assert told["unloading"] == [3, 2.5, gap, 4, 3.5]
@@ -58,7 +60,7 @@ def test_any_quantity_over_any_other():
     motion = mdr.impact(mdr.Cone(0.3), MEDIUM, 1e-12, 1.0).motion(30)
     plot = motion.plot("contact_radius", over="time")
     time = np.concatenate([columns(curve)[0] for curve in plot])
-    assert np.nanmax(time) * 1e-9 == pytest.approx(motion.time[-1], rel=1e-12)
+    assert np.nanmax(time) * 1e-9 == approx(motion.time[-1], rel=1e-12)
     assert plot.get(0).vdims[0].pprint_label == "a, contact radius (nm)"
     hits = mdr.impact(mdr.Cone(0.3), MEDIUM, 1e-12, [0.1, 1.0, 10.0])
     speed, restitution = columns(hits.plot("restitution", over="speed").get(0))
@@ -74,7 +76,7 @@ def test_pressure_with_the_radii_of_the_contact():
     # The force is the integral of what is drawn, by trapezia at radii dense at the edges.
     inner = r >= 0
     force = trapezoid(2 * np.pi * r[inner] * p[inner], r[inner]) * 1e-9
-    assert force == pytest.approx(state.force, rel=0.01)
+    assert force == approx(state.force, rel=0.01)
     edges = {float(abs(x) * 1e-9) for each in plot if each.label == "" for x in ends(each)}
     for radius in (state.contact_radius, state.plastic_radius):
         assert min(abs(edge - radius) for edge in edges) < 1e-12 * radius
@@ -94,7 +96,7 @@ def test_springs_are_yielded_elastic_or_free_where_the_state_says():
     spacing = 2 * 1.25 * state.contact_radius / 60
     for name, radius in (("yielded", state.plastic_radius), ("elastic", state.contact_radius)):
         x, z = columns(element(plot, hv.Curve, name))
-        assert np.nanmax(np.abs(x)) * 1e-9 == pytest.approx(radius, abs=spacing)
+        assert np.nanmax(np.abs(x)) * 1e-9 == approx(radius, abs=spacing)
         # Nothing is drawn above the indenter's tip and below the base.
         assert -state.depth <= np.nanmax(z) * 1e-9 <= 0
     assert plot.get(0).label == "profile g(x)"
@@ -174,8 +176,8 @@ def test_areas_of_a_force_depth_curve_are_the_energies_of_its_last_state():
     path = mdr.indent(mdr.Sphere(1e-6), MEDIUM, depth)
     plot, last = path.plot(), path[-1]
     lost, stored = (shoelace(*polygon(plot, name)) * 1e-15 for name in ("plastic work Wₚ", "stored"))
-    assert lost == pytest.approx(last.plastic_work, rel=2e-3)
-    assert stored == pytest.approx(last.stored_energy, rel=2e-3)
+    assert lost == approx(last.plastic_work, rel=2e-3)
+    assert stored == approx(last.stored_energy, rel=2e-3)
     elastic = {each.label for each in path[:100].plot()}
     assert elastic == {"stored", "elastic"}
     assert all(not isinstance(each, hv.Polygons) for each in path.plot("contact_radius"))

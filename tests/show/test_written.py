@@ -6,6 +6,8 @@ import pytest
 
 from mdr_core.show.units import KINDS, UNITS, entry, fitting, read, written
 
+from ..approx import approx
+
 TYPED = [
     ("25", "length", 25e-9), ("2,5", "length", 2.5e-9), ("1e-6", "length", 1e-6), ("5 Å", "length", 5e-10),
     ("0.012 µm", "length", 12e-9), ("3e-3um", "length", 3e-9), ("10 000 nm", "length", 1e-5),
@@ -17,7 +19,7 @@ TYPED = [
 @pytest.mark.parametrize(("text", "kind", "value"), TYPED)
 def test_typed_numbers(text, kind, value):
     shown = fitting(9e-9 if kind == "length" else 0.3, kind)
-    assert read(text, kind, shown)[0] == pytest.approx(value, rel=1e-14)
+    assert read(text, kind, shown)[0] == approx(value, rel=1e-14)
 
 
 @pytest.mark.parametrize("text", ["1,500 nm", "-12,345", "−999,000 nm"])
@@ -46,7 +48,7 @@ def test_what_is_written_is_read_again(kind):
     for unit in UNITS[kind]:
         value = 12.345 * unit.factor
         again, found = read(entry(value, unit), kind, unit)
-        assert again == pytest.approx(value, rel=1e-12)
+        assert again == approx(value, rel=1e-12)
         assert found == unit
 
 
