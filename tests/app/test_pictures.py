@@ -15,7 +15,7 @@ from .states import state_with, view_of
 
 Image = pytest.importorskip("PIL.Image")
 
-#: Pixels of a picture: below the title of a large plot; between a swatch and its word, and between two items.
+#: Pixels of a picture: below the title of a large plot; from a swatch to its word, and between two items.
 TITLE, BESIDE, BETWEEN = 84, 19, 36
 
 
