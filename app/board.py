@@ -1,6 +1,7 @@
 """The board on the right: plots in frames with title, formula and legend, and the list of other plots."""
 
 import re
+from dataclasses import replace
 from functools import partial
 from html import escape
 from typing import Any
@@ -12,6 +13,7 @@ from .extra import EXTRAS
 from .parts import Part, Parts, button, text
 from .plot import Plot, View
 from .plots import NAMED, PLOTS, visible
+from .quantities import QUANTITIES
 from .state import State
 from .ui import FULL, marked, show
 
@@ -45,12 +47,20 @@ class Card:
         formula = f'<h3>{plot.title}</h3><span title="{escape(law)}">{marked(law)}</span>'
         buttons = (each.on_plots(page, plot, view) for each in EXTRAS.values())
         key = text("key", legend(plot, self._legend), "key")
+        controls = [self._control(name) for name in plot.controls]
         close = [button("Close", partial(page.apply, partial(opened, name="")))] * bool(plot.tab)
-        choices, found = map(page.choice, plot.controls), plot.note_of(view)
+        found = plot.note_of(view)
         # In one line, which shows the rest when it is pointed at, or large.
         note = text("note", f'<span title="{_plain(found)}">{found}</span>', "note found")
         first = text("formula", formula, "formula")
-        self.head.show([first, *choices, *filter(None, buttons), *close, key, note])
+        self.head.show([first, *controls, *filter(None, buttons), *close, key, note])
+
+    def _control(self, name: str) -> Part:
+        """A choice above the plot, as a list, which needs less room than its options; or a number."""
+        if name in QUANTITIES:
+            return self._page.number(name)
+        choice = self._page.choice(name)
+        return replace(choice, look=choice.look | {"radio": False})
 
 
 class Board:

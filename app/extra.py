@@ -43,8 +43,11 @@ class Service:
 class Extra:
     """Something that plugs into the page: `EXTRA` of a file in `app/extras`, and what it brings.
 
-    Its numbers, choices, drives and readouts are in a JSON file of its name beside it; names of numbers and
-    choices begin with its own and a point. These are values of the state, in links and undone.
+    Its numbers, choices, drives and readouts are in a JSON file of its name beside it, with the fields of
+    `Quantity`, `Choice`, `Option` and `Readout` in `app/quantities.py`; names of numbers and choices begin
+    with its own and a point. A number is seen where a drive names it (`Option.uses`) or above a plot
+    (`Plot.controls`), a choice in the form of a drive (`Option.form`) or above a plot. These are values of
+    the state, in links and undone.
 
     What it alone needs is in a class of its own: of `Service`, what it keeps or does in a session; of
     `Drive`, numbers that keep their meaning when a choice of it changes (`converted`); of `Plot`, axes,
@@ -67,7 +70,7 @@ class Extra:
     place: str = "above"
     offered: Callable[[View], bool] = lambda view: True
     side: Callable[[Any], Side] | None = None
-    #: A button in the header of a page for a view, and one above a plot; each may be None.
+    #: A part, as a button, in the header of a page for a view, and one above a plot; each may be None.
     header: Callable[[Any, View], Part | None] = lambda page, view: None
     on_plots: Callable[[Any, Plot, View], Part | None] = lambda page, plot, view: None
     #: What it and others need once in a session of a page, which it is made of.

@@ -40,8 +40,9 @@ class Plot:
     """A plot: title, formula, its axes (x, y, and one on the right), and rows.
 
     `places` tells where rows are in a state: x and y (SI), and the text of a label. A plot with a `tab` is
-    optional; `order` is its place among these. `applies` says whether a view has it. `controls` are choices
-    above it. `picture` draws it, if that is not a `Picture`.
+    optional; `order` is its place among these. `applies` says whether a view has it. `controls` are names
+    of choices and numbers above it. `picture` draws it, if that is not a `Picture`; `shared.logarithmic`
+    has one for axes with `log`, which `axes_of` returns.
     """
 
     name: str
@@ -66,7 +67,7 @@ class Plot:
         return self.places(view, i)
 
     def note_of(self, view: "View") -> str:
-        """A note above the plot."""
+        """A note above the plot (HTML; `ui.marked` makes it of a text with indices as in d_c)."""
         return ""
 
     def options_of(self, state: State, control: str) -> list[str]:
@@ -144,6 +145,10 @@ class View:
         found = {row.name: (*NOTHING, "") for row in rows_of(plot)} | plot.places_of(self, i)
         for each in overlays(plot):
             found |= each.places(self, i)
+        unknown = found.keys() - {row.name for row in rows_of(plot)}
+        # A picture of its own may draw more than rows.
+        if unknown and not plot.picture:
+            raise KeyError(f"plot {plot.name!r} has places of rows that it has not: {sorted(unknown)}")
         if i in (self.course.now, self.course.peak):
             self._places[plot.name, i] = found
         return found

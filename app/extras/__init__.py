@@ -11,7 +11,7 @@ from ..drives import DRIVES
 from ..extra import EXTRAS, Extra
 from ..plot import OVERLAYS, rows_of
 from ..plots import PLOTS
-from ..quantities import CHOICES, QUANTITIES, include, read_data
+from ..quantities import CHOICES, QUANTITIES, Option, include, read_data
 from ..registry import Registry
 from ..state import LISTS, OF_EXTRAS, VIEW, Entries
 
@@ -22,11 +22,17 @@ def _load() -> None:
     names = [module.name for module in iter_modules(__path__)]
     paths = {name: _HERE / f"{name}.json" for name in names}
     data = {name: _read(path) for name, path in paths.items() if path.exists()}
-    for each in data.values():
-        include(each)
-    extras: dict[str, Extra] = {name: import_module(f".{name}", __name__).EXTRA for name in names}
+    for name, each in data.items():
+        try:
+            include(each)
+        except (KeyError, TypeError) as error:
+            raise ValueError(
+                f"{name}.json does not describe a number, choice or readout: {error}"
+            ) from error
+    extras = {name: _extra(name) for name in names}
     for name, extra in extras.items():
         _check(name, extra, data.get(name, {}))
+    _check_plots(extras)
     for name, extra in sorted(extras.items(), key=lambda each: each[1].order):
         _register(extra, data.get(name, {}))
     for name in sorted(PLOTS, key=lambda name: PLOTS[name].order):
@@ -41,6 +47,26 @@ def _read(path: Path) -> dict[str, Any]:
         raise ValueError(f"{path.name} is not JSON: {error}") from None
 
 
+def _extra(name: str) -> Extra:
+    """The extra of a module."""
+    try:
+        return import_module(f".{name}", __name__).EXTRA
+    except AttributeError as error:
+        raise ValueError(f"{name}.py: {error}; it ends with EXTRA = Extra({name!r}, …)") from error
+
+
+def _check_plots(extras: dict[str, Extra]) -> None:
+    """Refuse two plots of one name, of which the page would have the last one."""
+    owners = dict.fromkeys(PLOTS, "the page")
+    for name, extra in extras.items():
+        for plot in extra.plots:
+            if plot.name in owners:
+                raise ValueError(
+                    f"extra {name}: {owners[plot.name]} has a plot {plot.name!r}, too; give another name"
+                )
+            owners[plot.name] = name
+
+
 def _check(name: str, extra: Extra, data: dict[str, Any]) -> None:
     """Refuse what would fail on the page without a word."""
 
@@ -49,17 +75,30 @@ def _check(name: str, extra: Extra, data: dict[str, Any]) -> None:
             raise ValueError(f"extra {name}: {message}")
 
     require(extra.name == name, f"it is called {extra.name!r}; give it the name of its file")
+    for number in data.get("numbers", ()):
+        called, kind = number["name"], number.get("kind")
+        require(called.startswith(f"{name}."), f"number {called!r} must be called {name + '.' + called!r}")
+        require(QUANTITIES[called].kind in UNITS, f"no unit of kind {kind!r} is known, of {called!r}")
     for choice, told in data.get("choices", {}).items():
         known = "." in choice or "label" not in told
         require(known, f"choice {choice!r} is not one of the page; call it {name + '.' + choice!r}")
     for plot in extra.plots:
+        require(plot.tab != "", f"plot {plot.name!r} has no tab, by which it is opened")
         called = [row.name for row in rows_of(plot)]
         require(len({*called}) == len(called), f"two rows of plot {plot.name!r} have the same name")
         for along in plot.axes:
             kinds = ", ".join(UNITS)
             require(along.kind in UNITS, f"no unit of kind {along.kind!r} is known; known are {kinds}")
         for choice in plot.controls:
-            require(choice in CHOICES, f"no choice {choice!r} is known; add it to {name}.json")
+            known = choice in CHOICES or choice in QUANTITIES
+            require(known, f"no choice or number {choice!r} is known; add it to {name}.json")
+            using = [key for key, option in _options(choice).items() if option.uses]
+            require(not using, f"options of a choice above a plot use no numbers of the form: {using}")
+
+
+def _options(name: str) -> dict[str, Option]:
+    """Options of a choice, none of a number."""
+    return CHOICES[name].options if name in CHOICES else {}
 
 
 def _register(extra: Extra, data: dict[str, Any]) -> None:

@@ -184,7 +184,7 @@ def test_a_new_extra_is_a_file_of_its_own(folder):
     (code,) = re.findall(r"```python\n(\"\"\"The plot \*Area\*.*?)```", text, re.DOTALL)
     (data,) = re.findall(r"```json\n(.*?)```", text, re.DOTALL)
     extras = copied(folder, "with_area") / "extras"
-    (extras / "area.py").write_text(code.replace("from app.", "from .."), encoding="utf-8")
+    (extras / "area.py").write_text(code, encoding="utf-8")
     (extras / "area.json").write_text(data, encoding="utf-8")
     page = importlib.import_module("with_area.page").Page(f"preset={DROP}&tiles=area&area.of=plastic")
     assert page.board.others(page.shown).look["value"] == "area"
@@ -195,3 +195,84 @@ def test_a_new_extra_is_a_file_of_its_own(folder):
         _, area = page.shown.places(plot, 0)["area"]
         np.testing.assert_allclose(area, np.pi * radius**2, rtol=1e-12)
         assert ("area.of=plastic" in page.query()[0]) == (option == "plastic")
+
+
+PLOT = """
+from ..extra import Extra
+from ..plot import Along, Plot
+from mdr_core.show.figures import line
+X = Along("x", "length", lambda course: (0.0, 1.0))
+ROWS = (line("x", "ink"),)
+PLOT = Plot("{plot}", "Wrong", "", (X, X), ROWS, {places}tab="{tab}", controls={controls})
+EXTRA = Extra("wrong", plots=(PLOT,))
+"""
+NUMBER = {
+    "name": "wrong.share", "symbol": "φ", "label": "share", "kind": "number", "bounds": [0.0, 1.0],
+    "default": 0.5, "span": -1.0, "help": "", "equation": "",
+}  # fmt: skip
+MISTAKES = {
+    "nothing to load": ("", {}, "it ends with EXTRA = Extra"),
+    "a name that is taken": ({"plot": "energy"}, {}, "energy has a plot 'energy', too"),
+    "no tab": ({"tab": ""}, {}, "plot 'wrong' has no tab"),
+    "an unknown control": ({"controls": '("wrong.share",)'}, {}, "no choice or number 'wrong.share'"),
+    "another's number": ({}, {"numbers": [NUMBER | {"name": "share"}]}, "must be called 'wrong.share'"),
+    "an unknown unit": ({}, {"numbers": [NUMBER | {"kind": "loudness"}]}, "no unit of kind 'loudness'"),
+    "no bounds": ({}, {"numbers": [{"name": "wrong.share"}]}, "wrong.json does not describe"),
+    "an unknown field": ({}, {"numbers": [NUMBER | {"colour": "red"}]}, "wrong.json does not describe"),
+}
+
+
+@pytest.mark.parametrize("case", MISTAKES)
+def test_a_mistake_in_an_extra_is_refused_in_words(folder, case):
+    given, data, message = MISTAKES[case]
+    words = {"plot": "wrong", "tab": "Wrong", "controls": "()", "places": ""}
+    package = "wrong_" + case.translate({ord(" "): "_", ord("'"): "_"})
+    extras = copied(folder, package) / "extras"
+    code = PLOT.format(**words | given) if isinstance(given, dict) else given
+    (extras / "wrong.py").write_text(code, encoding="utf-8")
+    (extras / "wrong.json").write_text(json.dumps(data), encoding="utf-8")
+    with pytest.raises(ValueError, match=re.escape(message)):
+        importlib.import_module(f"{package}.page")
+
+
+def test_a_row_that_a_plot_has_not_is_no_empty_curve(folder):
+    extras = copied(folder, "wrong_row") / "extras"
+    code = PLOT.format(
+        plot="wrong", tab="Wrong", controls="()", places='lambda view, i: {"y": ([0], [0])}, '
+    )
+    (extras / "wrong.py").write_text(code, encoding="utf-8")
+    page = importlib.import_module("wrong_row.page").Page()
+    plot = sys.modules["wrong_row.plots"].PLOTS["wrong"]
+    with pytest.raises(KeyError, match=r"places of rows that it has not: \['y'\]"):
+        page.shown.places(plot, 0)
+
+
+def test_a_number_above_a_plot_is_set_there_and_in_the_link(folder):
+    extras = copied(folder, "with_number") / "extras"
+    code = PLOT.format(plot="wrong", tab="Wrong", controls='("wrong.share",)', places="")
+    (extras / "wrong.py").write_text(code, encoding="utf-8")
+    (extras / "wrong.json").write_text(json.dumps({"numbers": [NUMBER]}), encoding="utf-8")
+    page = importlib.import_module("with_number.page").Page("tiles=wrong")
+    field = page.board.cards["wrong"].head.parts["wrong.share"]
+    field.act({"text": "0.25"})
+    assert page.state["wrong.share"] == 0.25
+    assert "wrong.share=0.25" in page.query()[0]
+
+
+def test_choices_above_a_plot_can_be_seen(explorer):
+    """Each is a list of which a part is in sight; all its options have different words."""
+    page = explorer.page
+    for tab in ("Hardness", "Section", "Sweep"):
+        page.get_by_label("Fourth plot", exact=True).select_option(label=tab)
+        card = page.locator(f".card.{tab.lower()}")
+        card.locator("canvas").first.wait_for()
+        lists = card.locator(".heading select")
+        lists.first.wait_for()
+        for k in range(lists.count()):
+            box = lists.nth(k).bounding_box()
+            # As high as a letter, and wide enough for some.
+            assert box["height"] >= 12
+            assert box["width"] >= 40
+            options = lists.nth(k).locator("option").all_inner_texts()
+            assert len({*options}) == len(options) > 1
+        assert card.locator(".heading input[type=radio]").count() == 0
