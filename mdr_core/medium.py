@@ -22,7 +22,7 @@ def check_pair(profile, medium, what=None):
         raise TypeError(f"medium must be a Medium, got {shown(medium)}")
     if what and (profile.shape or medium.shape):
         raise ValueError(
-            f"{what} is that of one indenter on one medium, but their parameters are arrays of shape "
+            f"{what} needs a single indenter and a single medium, but their parameters are arrays of shape "
             f"{profile.shape or medium.shape}; take one at a time, as in profile.entries(i)"
         )
 
@@ -36,15 +36,15 @@ def refuse_adhesion(medium, what):
 def refuse_other_classes(medium, what, instead):
     """Refuses a medium of another hardness than q_c/a for a quantity `what` of class (b)."""
     if not medium.inverse_to_radius:
-        law = f", not of the law {shown(medium.hardness)}" if medium.has_own_law else ""
-        raise ValueError(f"{what} is of the hardness q_c/a alone, class (b){law}; {instead}")
+        law = f", not the law {shown(medium.hardness)}" if medium.has_own_law else ""
+        raise ValueError(f"{what} supports only the hardness q_c/a, class (b){law}; {instead}")
 
 
 def refuse_own_law(medium, what, instead):
     """Refuses a medium with a law of hardness of its own for something, `what`, that cannot have one."""
     if medium.has_own_law:
         law = shown(medium.hardness)
-        raise ValueError(f"{what} cannot have the law of hardness {law}; {instead}")
+        raise ValueError(f"{what} does not support the law of hardness {law}; {instead}")
 
 
 def check_hardness(profile, medium, depth):
@@ -58,7 +58,7 @@ def paths_on(profile, medium, depth):
     for thing in (profile, medium):
         if thing.shape and thing.shape[-1] != 1:
             raise ValueError(
-                "a path is that of one indenter on one medium, but the parameters of "
+                "a path needs a single indenter and a single medium, but the parameters of "
                 f"{type(thing).__name__} are arrays of shape {thing.shape}: give them a last axis of "
                 "length 1, one path each, as in Medium(E_star[:, None]), or take medium.entries(i)"
             )
@@ -118,7 +118,7 @@ def _law_alone(q_c, law, f_c):
         quantity, value = f"yield constant {name}", 0.0 if value is None else value
         value = _check.positive(quantity, value, unit=unit, zero=True, infinite=name == "q_c")
         beside = (np.asarray(value) > 0) & (np.asarray(value) < np.inf)
-        bound = f"stands beside the law of hardness {shown(law)}, which stands alone"
+        bound = f"cannot be combined with the law of hardness {shown(law)}"
         remedy = f"write {term} into its at(a), or take hardness = 0 beside {name}"
         _check.refuse(quantity, np.asarray(value), beside, bound, unit=unit, remedy=remedy)
     return {"q_c": 0.0, "hardness": law, "f_c": 0.0}
@@ -136,10 +136,14 @@ def _refuse_sum(medium):
     others = np.asarray(medium.hardness) + np.asarray(medium.f_c)
     q_c = np.broadcast_to(medium.q_c, np.broadcast_shapes(np.shape(medium.q_c), others.shape))
     for bad, bound, remedy in (
-        ((q_c == 0) & (others == 0), "leaves no hardness beside 0 of the others", "give one above 0"),
+        (
+            (q_c == 0) & (others == 0),
+            "leaves no hardness, because the other constants are 0",
+            "give one above 0",
+        ),
         (
             (q_c == np.inf) & (others > 0),
-            "means that nothing yields, beside a hardness or f_c above 0",
+            "means that nothing yields, which contradicts a hardness or f_c above 0",
             "give q_c = 0 or a finite one",
         ),
     ):

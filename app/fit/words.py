@@ -21,7 +21,7 @@ _WORDS = {
     r"give columns=\{.*?\}, numbers and units": "choose its columns and their units below",
     r"spring_constant=": "the spring constant",
     r"sensitivity=": "the sensitivity",
-    r"cycles=True takes each": "choose another one by the range",
+    r"give cycles=True for each of them": "choose another one by the range",
     r"\bspring_constant\b": "spring constant",
     r"\bcontact_point\b": "contact point",
     r"\bdepth_noise\b": "noise of the depth",

@@ -102,7 +102,7 @@ def fit_again(fits, free, samples):
     if taken[0] not in close:
         misfits = (f"{100 * fits[letter].misfit:.3g} %" for letter in (taken[0], best))
         text = (
-            f"the curve is not of class ({taken[0]}), as is fitted here: fit again with "
+            f"the curve is not of the fitted class ({taken[0]}): fit again with "
             f"{CLASSES[best]}=None, class ({best}); misfit {' against '.join(misfits)}"
         )
         yield "another class", text

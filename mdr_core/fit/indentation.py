@@ -261,7 +261,8 @@ def _without_invalid(profile, depth, force, time, held):
     sizes = [len(column) for column in columns]
     if len(set(sizes)) > 1:
         raise ValueError(
-            f"depth, force and time have {' and '.join(map(str, sizes))} curves: give one each"
+            f"depth, force and time must have the same number of curves, got "
+            f"{' and '.join(map(str, sizes))}"
         )
     curves, reasons = list(zip(*columns, strict=True)), {}
     for i, curve in enumerate(curves):
@@ -291,7 +292,7 @@ def _refuse_with_adhesion(held, noise):
     if not np.all(np.isinf(q_c)):
         given = "free" if np.isnan(q_c[0]) else engineering(q_c, "N/m")
         raise ValueError(
-            f"work_of_adhesion with q_c {given}: with adhesion a fit is of an elastic medium, q_c = inf; "
+            f"work_of_adhesion with q_c {given}: adhesion is fitted for an elastic medium only, q_c = inf; "
             "give q_c=np.inf, or work_of_adhesion=0"
         )
     for name, given in (("eta", "eta" not in held or held["eta"].any()), ("depth_noise", noise > 0)):

@@ -174,13 +174,13 @@ def _columns(depth, force, time, stiffness):
     shapes = {array.shape for array in arrays.values()}
     if len(shapes) > 1 or arrays["depth"].ndim != 1:
         shown = " and ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise ValueError(f"{shown} must be of one curve, (N,) all")
+        raise ValueError(f"{shown} must have the same shape, (N,) for one curve")
     used = np.logical_and.reduce(
         [np.isfinite(array) for name, array in arrays.items() if name != "stiffness"]
     )
     arrays = {name: array[used] for name, array in arrays.items()}
     if not arrays["depth"].size:
-        raise ValueError("depth and force have no samples: five or more of an unloading are needed")
+        raise ValueError("depth and force have no samples: an unloading needs five or more")
     if "time" in arrays:
         # Segments of a file may share the time at which one ends and the next begins.
         back = np.diff(arrays["time"], prepend=-np.inf) < 0
@@ -227,8 +227,8 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
     if not results:
         raise ValueError(remarks[0])
     if len(parts) > 1 and not cycles:
-        text = f"unloading {taken} of {len(parts)} was taken, the one after the largest depth"
-        remarks.insert(0, f"{text}; each of them can be evaluated")
+        text = f"unloading {taken} of {len(parts)}, which follows the largest depth, was evaluated"
+        remarks.insert(0, f"{text}; give cycles=True for each of them")
     return results, remarks
 
 
@@ -248,7 +248,9 @@ def _with_creep(profile, depth, force, time, constants, contact):
         if rise:
             notes.append(creeping.sentence_of_rise(rise))
         if time is not None:
-            notes.append("no hold of the force before the unloading tells its creep: nothing is corrected")
+            notes.append(
+                "no hold of the force before the unloading shows its creep: creep is not corrected"
+            )
         return (uncorrected, uncorrected), notes
     corrected, shifted = (
         _values_and_errors(profile, creep.without(depth, time, n), force, constants, contact)
@@ -274,8 +276,9 @@ def _values_and_errors(profile, depth, force, constants, contact):
     # A contact radius of 0 or ∞ makes the modulus or the hardness so.
     if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
         raise ValueError(
-            f"the contact depth h − ε F/S = {values[1]:g} m must be positive and within the profile: depth "
-            "counts from first contact, force from the baseline"
+            f"the contact depth h − ε F/S = {values[1]:g} m must be positive and within the "
+            f"profile: give depth "
+            "from first contact, and force from the baseline"
         )
     parts = [values, *(results(*other) for other in others)]
     spread = np.ptp([part for part in parts if np.isfinite(part).all()], axis=0) / 2
@@ -302,8 +305,8 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     used &= contact_depth < profile.known_depth
     if not used.any():
         raise ValueError(
-            "no sample has a positive stiffness (N/m), force and contact depth h − ε F/S: depth counts "
-            "from first contact, force from the baseline"
+            "no sample has a positive stiffness (N/m), force and contact depth h − ε F/S: give depth from "
+            "first contact, and force from the baseline"
         )
 
     def at(shift):
@@ -321,7 +324,11 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     values = {"depth": depth, "stiffness": np.where(used, stiffness, np.nan), **values}
     values["contact_point"] = np.full(depth.size, contact.depth)
     without = np.count_nonzero(~used)
-    remarks = [f"{without} of {used.size} samples have no contact or no stiffness: NaN"] if without else []
+    remarks = (
+        [f"{without} of {used.size} samples have no contact or no stiffness: their results are NaN"]
+        if without
+        else []
+    )
     frozen = {name: _check.frozen(value) for name, value in values.items()}
     errors = {"stiffness": noise} | errors
     if contact.depth_error:

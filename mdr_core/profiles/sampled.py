@@ -120,7 +120,7 @@ class Sampled(Profile):
         """
         r, z = _lists("Sampled.fit", r, z)
         if np.unique(np.abs(r)).size < 3:
-            raise ValueError("a fit needs three radii or more that differ")
+            raise ValueError("a fit needs three or more different radii")
         return cls(*convex_fit(r, z))
 
     @classmethod
@@ -326,5 +326,5 @@ def _lists(what, r, z, **bounds):
     z = _check.finite_array(f"{what} z", z, unit="m", **bounds)
     if r.ndim != 1 or r.shape != z.shape or r.size < 2:
         shapes = f"got shapes {r.shape}, {z.shape}"
-        raise ValueError(f"{what} r and z must be two lists of one length ≥ 2, {shapes}")
+        raise ValueError(f"{what} r and z must be two lists of the same length, 2 or more, {shapes}")
     return r, z

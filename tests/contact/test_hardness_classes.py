@@ -354,7 +354,7 @@ def test_onset_deeper_than_the_known_shape_is_refused():
         (lambda cone, glass: glass.yield_line_load, r"class \(b\); it is π a σ_c\(a\)/2"),
         (
             lambda cone, glass: mdr.impact(cone, glass, 1e-9, 1.0).fast_limit,
-            "the fast limit is of the hardness",
+            "the fast limit supports only the hardness",
         ),
         (lambda cone, glass: mdr.Medium(E, hardness=1e9, work_of_adhesion=0.1), "adhesion is modelled for"),
     ],

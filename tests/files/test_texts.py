@@ -97,7 +97,7 @@ def test_text_of_jpk_has_its_own_stiffness(write, unit, size):
     assert curve.spring_constant == STIFFNESS
     assert curve.segment.tolist() == 56 * ["approach"] + 19 * ["retract"]
     assert curve.columns["depth"] == (0, "−m")
-    assert "spring_constant = 0.05 N/m is that of the file" in curve.remarks
+    assert "spring_constant = 0.05 N/m is taken from the file" in curve.remarks
 
 
 def test_text_of_jpk_without_a_stiffness_has_a_remark(write):

@@ -216,7 +216,7 @@ class TestSamples:
             ({"eta": 1.0, "time": None}, "eta need time"),
             ({"eta": None, "time": np.zeros(180)}, "does not increase"),
             ({"eta": -1.0, "time": np.arange(180.0)}, "eta"),
-            ({"time": np.arange(179.0)}, "of one shape"),
+            ({"time": np.arange(179.0)}, "have the same shape"),
             ({"force_noise": np.zeros(180)}, "force_noise"),
             ({"depth": [DEPTH, DEPTH[:9]], "force": [DEPTH, DEPTH[:8]]}, "curve 1: depth"),
             ({"force": np.full(180, np.inf)}, "finite"),

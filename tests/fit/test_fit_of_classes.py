@@ -193,7 +193,7 @@ class TestRemarks:
         depth = np.tile(OUT, (40, 1))
         fit = mdr.fit_indentation(self.PROFILE, depth, force, hardness=None, q_c=None)
         told = [
-            "q_c" in str(each.remarks) and "do not tell" in str(each.remarks)
+            "q_c" in str(each.remarks) and "do not distinguish" in str(each.remarks)
             for each in map(fit.__getitem__, range(40))
         ]
         assert sum(told) >= 33

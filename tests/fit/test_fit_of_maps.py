@@ -108,7 +108,7 @@ class TestInvalidCurves:
         depth[7] = depth[7][:-1]
         fit = mdr.fit_indentation(BALL, depth, force, **ELASTIC, invalid="nan")
         assert fit.invalid.keys() == DEAD.keys() | {7}
-        assert "depth (249,), force (250,) must be of one shape" in fit.invalid[7]
+        assert "depth (249,), force (250,) must have the same shape" in fit.invalid[7]
         assert fit[0].depth.size == 200
 
     def test_a_curve_without_a_solution_is_one(self):

@@ -31,7 +31,7 @@ def told(fit, kind):
     """Factor of the misfit, and the change of E* in its errors, of a remark; None if there is none."""
     found = [text for text in fit.remarks if text.startswith(f"a {kind}")]
     numbers = re.search(
-        r"misfit in contact (\S+) times, and changes E\* by (\S+) of its errors", "".join(found)
+        r"misfit in contact by a factor of (\S+) and change E\* by (\S+) standard errors", "".join(found)
     )
     return numbers and tuple(map(float, numbers.groups()))
 
@@ -143,7 +143,7 @@ class TestYielding:
         assert not [text for text in fit.remarks if "no hold" in text]
         # A ramp is none, whatever the noise.
         ramp = self.fit(self.RAMP, 1e-10, noise, mdr.Medium(70e9, 2e3))
-        assert "no hold tells the drift" in str(ramp)
+        assert "no hold shows the drift" in str(ramp)
         assert not [text for text in ramp.remarks if "hold at" in text]
 
 
@@ -164,10 +164,10 @@ class TestData:
         ("change", "words"),
         [
             (lambda z, F, noise: (F, z), "depth and force are swapped"),
-            (lambda z, F, noise: (-z, F), "the depth has the other sign"),
-            (lambda z, F, noise: (z, -F), "the force has the other sign"),
+            (lambda z, F, noise: (-z, F), "the depth has the wrong sign"),
+            (lambda z, F, noise: (z, -F), "the force has the wrong sign"),
             (lambda z, F, noise: (-z, -F), "depth and force have the other sign"),
-            (lambda z, F, noise: (z, noise), "no contact is seen in this record"),
+            (lambda z, F, noise: (z, noise), "this record shows no contact"),
             (lambda z, F, noise: (1e9 * z, F), "give depth in m and force in N"),
         ],
         ids=["swapped", "depth", "force", "both", "noise", "units"],
@@ -194,7 +194,7 @@ class TestData:
         assert not [remark for remark in fit.remarks if "straight line" in remark]
 
 
-NO_CONTACT = "no contact is seen"
+NO_CONTACT = "shows no contact"
 
 
 class TestContactIsSeen:

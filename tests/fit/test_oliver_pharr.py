@@ -267,7 +267,9 @@ class TestCycles:
     def test_without_cycles_a_remark_says_which_unloading_was_taken(self):
         depth, force = cycles(self.MODULUS)
         result = mdr.oliver_pharr(BERKOVICH, depth, force)
-        assert result.remarks[0].startswith("unloading 3 of 3 was taken, the one after the largest depth")
+        assert result.remarks[0].startswith(
+            "unloading 3 of 3, which follows the largest depth, was evaluated"
+        )
         assert result.remarks[0] in repr(result)
         # The second of two where the last peak is less deep.
         twice = np.append(depth[:698], depth[:349]), np.append(force[:698], force[:349])
@@ -339,6 +341,6 @@ def test_numbers_of_no_material_are_said(of_depth, of_force):
     force = mdr.indent(tip, mdr.Medium(E_star=80e9, hardness=8e9), depth).force
     right = mdr.oliver_pharr(tip, depth, force)
     wrong = mdr.oliver_pharr(tip, of_depth * depth, of_force * force)
-    assert not any("of no material" in remark for remark in right.remarks)
-    said = [re.match(r"(E\*|H) = .* is that of no material", remark) for remark in wrong.remarks]
+    assert not any("no material has" in remark for remark in right.remarks)
+    said = [re.match(r"no material has (E\*|H) = ", remark) for remark in wrong.remarks]
     assert [match[1] for match in said if match] == ["E*", "H"]

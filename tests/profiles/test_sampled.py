@@ -356,7 +356,7 @@ class TestFit:
         [
             ([0, 1, 2], [0, 1], "two lists of one length"),
             ([-1, 0, 1], [1, 0, 1], "three radii or more"),
-            ([0, 1, 2], [0, -1, -2], "does not rise from the axis outward"),
+            ([0, 1, 2], [0, -1, -2], "does not increase with r"),
             ([0, 1, 2], [0, math.inf, 2], r"z\[1\] = inf m must be finite"),
         ],
     )
