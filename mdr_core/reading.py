@@ -51,7 +51,7 @@ def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> Measu
     >>> print(curve.depth.tolist(), curve.force.tolist(), curve.time)
     [0.0, 1e-08, 2e-08] [0.0, 0.0015, 0.004] None
     >>> curve.remarks
-    ('left out line 4: a cell is missing or no number',)
+    ('left out line 4: a cell is missing or not a number',)
     """
     curves = read_curves(path, **given)
     if not 0 <= index < len(curves):

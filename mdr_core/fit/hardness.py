@@ -199,7 +199,7 @@ def _remarks(yielded, constants, errors, free, power_law):
         yield f"{count} {text}"
     used = [letter for letter, constant in CLASSES.items() if constants[constant] or constant in free]
     if len(used) == 1 and (name not in (*used, None) or reason.startswith("none")):
-        yield f"not class ({used[0]}) alone: {reason}; two of hardness, q_c and f_c may be free"
+        yield f"not of class ({used[0]}) alone: {reason}; two of hardness, q_c and f_c may be free"
     for constant, error in zip(free, errors, strict=True):
         if len(free) > 1 and constants[constant] < 2 * error:
             yield f"the radii do not distinguish {' and '.join(free)}: {constant} may be 0"

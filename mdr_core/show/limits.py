@@ -202,10 +202,8 @@ def jump_limits(jumps):
     """Limits of a path given by force that jumps between depths (m)."""
     for first, last in jumps:
         text = (
-            "On loading the force decreases with depth after the onset of yield: a path of "
-            "prescribed force jumps "
-            f"from {engineering(first, 'm')} to {engineering(last, 'm')}. Prescribe depths "
-            f"instead to follow the decrease."
+            "On loading the force decreases after the onset of yield: a path of prescribed force jumps from "
+            f"{engineering(first, 'm')} to beyond {engineering(last, 'm')}. Prescribe depths to follow it."
         )
         yield Limit("jump", float(last - first), 0.0, True, text, severe=False)
 

@@ -325,7 +325,7 @@ class TestFallingForce:
             assert state.force == approx(share * onset, rel=1e-12)
             jumps = [limit.sentence for limit in state.limits if limit.what == "jump"]
             assert len(jumps) == (share > 1)
-            assert all("95.43 mm past" in sentence for sentence in jumps)
+            assert all("95.43 mm to beyond" in sentence for sentence in jumps)
 
     def test_a_part_of_a_path_says_that_the_path_jumps(self):
         onset = mdr.critical_force(self.cone, self.medium)

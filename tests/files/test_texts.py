@@ -123,7 +123,7 @@ def test_a_line_of_numbers_is_no_header(write):
     head = "Hysitron\nTime (s)\tDisp (nm)\tForce (µN)\n0.5\t1.5\t2.5\neoh\n"
     curve = mdr.read_curve(write(head + rows(TIME, 1e9 * DEPTH, 1e6 * FORCE, between="\t")))
     assert_curve(curve)
-    assert curve.remarks == ("left out line 3: a cell is missing or no number",)
+    assert curve.remarks == ("left out line 3: a cell is missing or not a number",)
 
 
 def test_settings_above_the_header_are_no_rows(write):
@@ -287,7 +287,7 @@ def test_one_table_that_is_refused_does_not_stop_the_others(write):
     content = f"Depth (nm),Load (mN)\n{NM}\nDepth (nm),Load (kgf)\n{NM}\nDepth (µm),Load (N)\n{UM}"
     curves = mdr.read_curves(write(content))
     assert_curve(curves[2], force=2 * FORCE)
-    with pytest.raises(ValueError, match="'kgf' is no unit"):
+    with pytest.raises(ValueError, match="'kgf' is not a unit"):
         curves[1]
 
 

@@ -192,7 +192,7 @@ class TestIndentation:
             measured = path + depth_noise * random.normal(size=force.size)
             force = force + 0.002 * force.max() * random.normal(size=force.size)
             fit = mdr.fit_indentation(profile, measured, force, depth_noise=depth_noise)
-            assert any("not class (b)" in remark for remark in fit.remarks) == told, fit.remarks
+            assert any("not of class (b)" in remark for remark in fit.remarks) == told, fit.remarks
 
     def test_units(self):
         """Depth in nm and force in µN make a modulus of 95 mPa and less."""
@@ -320,7 +320,7 @@ class TestHardness:
         fit = mdr.fit_hardness(mdr.Cone(0.3), 1e6 * (a / 1e-7) ** power * noise, a, E_star=E)
         assert fit.hardness_class == name
         assert abs(fit.slope - power) < 4 * fit.slope_error
-        assert (name is None) == any("not class (b) alone" in remark for remark in fit.remarks)
+        assert (name is None) == any("not of class (b) alone" in remark for remark in fit.remarks)
         # Without a class it is the nearest one.
         (constant,) = fit.standard_errors
         assert constant == {"a": "hardness", "c": "f_c"}.get(name, "q_c")

@@ -229,7 +229,7 @@ class TestRemarks:
     def test_another_class_is_named(self):
         depth, force = real("silica")
         fit = mdr.fit_indentation(BERKOVICH, depth, force, f_c=None)
-        assert "not class (c)" in str(fit.remarks)
+        assert "not of class (c)" in str(fit.remarks)
 
 
 #: Each class alone, with caps of a quarter of the largest depth under the paraboloid.

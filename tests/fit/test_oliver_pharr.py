@@ -150,7 +150,7 @@ def test_a_report_leaves_it_out_where_the_model_does_not_fit():
     """On silica the fitted contact point, 106 ± 29 nm below that of the record, makes 75.6 GPa of 69.6."""
     depth, force, _ = silica()
     fit = mdr.fit_indentation(mdr.Cone(0.358), depth, force)
-    assert any("not class (b)" in remark for remark in fit.remarks)
+    assert any("not of class (b)" in remark for remark in fit.remarks)
     assert "Oliver" not in repr(fit)
 
 
@@ -166,11 +166,11 @@ F_CONE = mdr.indent(mdr.Cone(0.3), mdr.Medium(E), DEPTH).force
             {},
             r"after the largest depth, 6e-08 m \(sample 60 of 60\)",
         ),
-        (DEPTH[:64], F_CONE[:64], {}, "4 samples of the upper half of an unloading, 5 or more"),
+        (DEPTH[:64], F_CONE[:64], {}, "upper half of an unloading has 4 samples, 5 or more"),
         (DEPTH - 50e-9, F_CONE, {}, r"contact depth .* must be positive and within the profile"),
-        (DEPTH, -F_CONE, {}, "depth and force must fall"),
-        (DEPTH, F_CONE[:-1], {}, "must be of one curve"),
-        (DEPTH[None], F_CONE[None], {}, "must be of one curve"),
+        (DEPTH, -F_CONE, {}, "depth and force must decrease"),
+        (DEPTH, F_CONE[:-1], {}, "must have the same shape"),
+        (DEPTH[None], F_CONE[None], {}, "must have the same shape"),
         (DEPTH, np.where(DEPTH > 5e-8, np.inf, F_CONE), {}, "must be finite"),
         (DEPTH, np.full(DEPTH.size, np.nan), {}, "have no samples"),
         (DEPTH, F_CONE, {"epsilon": -1.0}, "epsilon"),
@@ -288,7 +288,7 @@ class TestCycles:
         assert result.E_star == approx([self.MODULUS] * 2, rel=1e-11)
         remark, _ = result.remarks
         assert remark.startswith("unloading 2 of 3 is left out:")
-        assert "depth and force must fall" in remark
+        assert "depth and force must decrease" in remark
 
     def test_unloadings_have_one_number_in_remarks_print_and_tables(self):
         """The second of three is left out: the others are 1 and 3 everywhere."""
