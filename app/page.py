@@ -32,7 +32,7 @@ Change = Callable[[State], State]
 Tell = Callable[[str], None]
 #: Milliseconds of rest before slow updates.
 SETTLED = 300
-_FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
+_FAULT = "This cannot be shown, because of a fault of the explorer. Nothing was changed."
 _UNDO_STEPS = 100
 
 

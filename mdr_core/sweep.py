@@ -314,8 +314,8 @@ def _hardness(q_c, hardness, f_c):
         if hardness.shape:
             name, size = _check.shown(hardness), hardness.shape
             raise ValueError(
-                f"hardness {name} has arrays of shape {size}, without names of dimensions: a sweep "
-                "has one law for all entries; give a law of single numbers"
+                f"hardness {name} has arrays of shape {size}, without names of dimensions: a sweep has "
+                "one law for all entries; give a law of single numbers"
             )
         constants, law = {"q_c": q_c, "f_c": f_c}, {"hardness": hardness}
         return {name: value for name, value in constants.items() if value is not None}, law

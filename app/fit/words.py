@@ -84,8 +84,8 @@ def why(fit: IndentationFit) -> str:
         return ""
     model = value_of(fit, "E_star")
     return (
-        f"<p>The model’s own E* is {escape(model)}: on loading its contact sinks in elastically, so that "
-        "it is smaller than that of a material that flows, and its modulus larger.</p>"
+        f"<p>The model’s own E* is {escape(model)}: its contact radius on loading is that of an "
+        "elastic contact, smaller than with plastic flow, so that its modulus is larger.</p>"
     )
 
 
@@ -95,8 +95,8 @@ def verdict(fit: IndentationFit, told: Told) -> tuple[str, dict[str, float]]:
     if not misfits:
         return "", {}
     best = min(misfits, key=misfits.__getitem__)
-    if "cannot be told" in told.of_class:
-        return "The class cannot be told from this curve.", misfits
+    if "not determined" in told.of_class:
+        return "This curve does not determine the class of hardness.", misfits
     text = f"The curve is of class ({best}), {CLASS_NAMES[best]}."
     if "none within" in told.of_class:
         text = f"No class describes the curve within 1 %; the nearest is ({best}), {CLASS_NAMES[best]}."

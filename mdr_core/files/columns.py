@@ -150,9 +150,8 @@ def _unknown(table, name, each, free):
         if words.named(each, head) and unit.doubt:
             unit_given = "nm" if each == "depth" else "mN"
             return (
-                f"{name}: the unit of {each} in {head!r} is not understood: {unit.doubt!r} is "
-                "not a unit of this package, or scales a unit. Convert the numbers if need be, "
-                "and give the "
+                f"{name}: the unit of {each} in {head!r} is not understood: {unit.doubt!r} is not a "
+                "unit of this package, or scales a unit. Convert the numbers if need be, and give the "
                 f'number of the column and its unit, columns={{"{each}": ({column}, "{unit_given}"), …}}, '
                 f"out of {_units(each)}"
             )

@@ -50,8 +50,8 @@ def curves_of(table, name, sheet="", *, columns=None, spring_constant=None, sens
         groups = [automatic] if given else side_by_side(part, automatic)
         if groups is None:
             raise UnknownColumns(
-                f"{name} has several columns of the same name, but not as many of depth as of "
-                f"force, {table.heads}: "
+                f"{name} has several columns of the same name, but not as many of depth as of force, "
+                f"{table.heads}: "
                 'give columns={"depth": (0, "nm"), "force": (1, "mN")} for one curve',
                 table,
             )
@@ -135,9 +135,8 @@ def _in_time(table, name, values, rows, columns, remarks):
     if few and jumps(values["depth"][rows], starts):
         raise ValueError(
             f"{name}: the time starts again at line {table.lines[rows[starts[0]]]}, where the depth jumps: "
-            "for several curves use one file for each, a title like 'Test 2' above each, or a "
-            "column 'test' "
-            "with numbers"
+            "for several curves use one file for each, a title like 'Test 2' above each, or a column "
+            "'test' with numbers"
         )
     if starts.size or not np.any(steps):
         remarks.append("the time does not ascend and is left out: samples are in the order of the file")

@@ -102,8 +102,8 @@ def fit_again(fits, free, samples):
     if taken[0] not in close:
         misfits = (f"{100 * fits[letter].misfit:.3g} %" for letter in (taken[0], best))
         text = (
-            f"the curve is not of the fitted class ({taken[0]}): fit again with "
-            f"{CLASSES[best]}=None, class ({best}); misfit {' against '.join(misfits)}"
+            f"the curve is not of the fitted class ({taken[0]}): fit again with {CLASSES[best]}=None, "
+            f"class ({best}); misfit {' against '.join(misfits)}"
         )
         yield "another class", text
 
@@ -115,7 +115,7 @@ def verdict(fits, free, depth, force, depth_noise):
     """
     best, close = _told_apart(fits, depth.size)
     misfits = ", ".join(f"({letter}) {100 * fit.misfit:.3g} %" for letter, fit in fits.items())
-    answer = f"({best})" if len(close) == 1 else f"cannot be told, ({') or ('.join(close)})"
+    answer = f"({best})" if len(close) == 1 else f"not determined, ({') or ('.join(close)})"
     if fits[best].misfit > _NONE and fits[best].block_length > 1:
         answer += f", none within {100 * _NONE:g} %"
     whole = "range of the force" if set(BACKGROUND) & set(free) else "largest force"

@@ -95,8 +95,8 @@ def fit_hardness(
     if not yielded.any():
         largest = engineering(p_m.max(), "Pa")
         raise ValueError(
-            f"all mean pressures (up to {largest}) are as large as in an elastic contact with "
-            f"E* = {engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
+            f"all mean pressures (up to {largest}) are as large as in an elastic contact with E* = "
+            f"{engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
         )
     a, depth, area, cap = a[yielded], depth[yielded], area[yielded], cap[yielded]
     values = yield_constant(E_star, cap)
@@ -161,8 +161,8 @@ def _measured(profile, mean_pressure, radius):
     a = np.atleast_1d(_check.positive("radius", radius, unit="m")).ravel()
     if p_m.shape != a.shape or not p_m.size:
         raise ValueError(
-            f"mean_pressure {p_m.shape} and radius {a.shape} must have the same shape, one value "
-            "for each radius"
+            f"mean_pressure {p_m.shape} and radius {a.shape} must have the same shape, one value for "
+            "each radius"
         )
     bound = f"m is not between the flat face, {profile.face_radius:g} m, and the end of the profile"
     _check.refuse("radius", a, (a <= profile.face_radius) | (a > profile.known_radius), bound)

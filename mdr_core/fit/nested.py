@@ -93,8 +93,7 @@ def _sentence(name, size, factor, change):
     what, unit, _, follows = _TESTS[name]
     return (
         f"{what.format(engineering(size, unit))} would lower the misfit in contact by a factor of "
-        f"{factor:.3g} and "
-        f"change E* by {change:+.1f} standard errors: {follows}"
+        f"{factor:.3g} and change E* by {change:+.1f} standard errors: {follows}"
     )
 
 
@@ -157,9 +156,8 @@ def _in_a_hold(curves, state, i, contact, change):
         yield (
             "rest",
             f"in the hold at {engineering(curves.force[i][hold.start], 'N')} the depth changes by "
-            f"{engineering(rate, 'm/s')}: this is creep, or a drift that since first contact "
-            f"would change E* by "
-            f"{100 * change * rate:+.2g} %",
+            f"{engineering(rate, 'm/s')}: this is creep, or a drift that since first contact would "
+            f"change E* by {100 * change * rate:+.2g} %",
         )
 
 

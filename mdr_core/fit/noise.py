@@ -130,7 +130,6 @@ def _few(solved, i):
     if names and count < len(names) + _SPARE:
         yield (
             "few",
-            f"only {count} samples are in contact for {' and '.join(names)}: the standard errors "
-            f"are uncertain; "
-            "record more",
+            f"only {count} samples are in contact for {' and '.join(names)}: the standard errors are "
+            "uncertain; record more",
         )

@@ -276,9 +276,8 @@ def _values_and_errors(profile, depth, force, constants, contact):
     # A contact radius of 0 or ∞ makes the modulus or the hardness so.
     if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
         raise ValueError(
-            f"the contact depth h − ε F/S = {values[1]:g} m must be positive and within the "
-            f"profile: give depth "
-            "from first contact, and force from the baseline"
+            f"the contact depth h − ε F/S = {values[1]:g} m must be positive and within the profile: "
+            "give depth from first contact, and force from the baseline"
         )
     parts = [values, *(results(*other) for other in others)]
     spread = np.ptp([part for part in parts if np.isfinite(part).all()], axis=0) / 2

@@ -224,9 +224,9 @@ def _adhesion(solved, i):
         measured, model, difference = (engineering(z, "m") for z in (*lost, lost[1] - lost[0]))
         yield (
             "contact",
-            f"contact is lost at z = {measured} in the data and at {model} in the model "
-            f"(difference {difference}): "
-            "a soft cantilever loses contact earlier, or adhesion differs between approach and retraction",
+            f"contact is lost at z = {measured} in the data and at {model} in the model (difference "
+            f"{difference}): a soft cantilever loses contact earlier, or adhesion differs between "
+            "approach and retraction",
         )
 
 
@@ -292,7 +292,6 @@ def _constants(solved, i, names):
         symbol = PARAMETERS[name].quantity.symbol
         yield (
             "constants",
-            f"the data do not distinguish {symbols}: {symbol} is {shares[name]:.2g} times its "
-            f"standard error; "
-            f"hold {name} = 0",
+            f"the data do not distinguish {symbols}: {symbol} is {shares[name]:.2g} times its standard "
+            f"error; hold {name} = 0",
         )

@@ -206,9 +206,8 @@ class Record:
         """Refuses a result of several entries where a single one is needed."""
         if self.shape:
             raise ValueError(
-                f"{what} needs a single {self._noun}, but this result has shape {self.shape}; "
-                f"select one first, "
-                f"as in result[-1].{what}(…)"
+                f"{what} needs a single {self._noun}, but this result has shape {self.shape}; select "
+                f"one first, as in result[-1].{what}(…)"
             )
 
     def _source(self) -> Any:

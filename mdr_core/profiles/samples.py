@@ -100,9 +100,9 @@ def _refuse_misfit(r, residual, height):
         miss = _in_words(miss)
         worst = _in_words(r[order][np.argmax(np.abs(residual))])
         raise ValueError(
-            f"the nearest convex profile misses the samples by {miss} (rms, most at r = "
-            f"{worst}), more than noise: the tip is wavy or concave, so that the contact would "
-            "not be compact; smooth the samples, or leave out those outside the convex part"
+            f"the nearest convex profile misses the samples by {miss} (rms, most at r = {worst}), more "
+            "than noise: the tip is wavy or concave, so that the contact would not be compact; smooth "
+            "the samples, or leave out those outside the convex part"
         )
 
 

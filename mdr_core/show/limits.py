@@ -58,9 +58,8 @@ def _slope_limit(profile, radius):
     if value > _NEEDLE and isinstance(profile, Cone):
         text += (
             ": the half-space approximation does not hold for such a needle. The slope is the "
-            "cotangent of the "
-            "half-angle: check that no angle is given for it, and that a half-angle is in "
-            "degrees, not in radians."
+            "cotangent of the half-angle: check that no angle is given for it, and that a half-angle "
+            "is in degrees, not in radians."
         )
     elif value >= 1:
         text += ": the approximation of small slopes does not hold."
@@ -123,10 +122,9 @@ def _flow_limit(medium):
     """Contact area of a contact that flows over that of this model, if there is a hardness H or a law."""
     if medium.has_own_law or np.any(np.asarray(medium.hardness) > 0):
         text = (
-            "On loading the model has the contact radius of an elastic contact, a² = R d under a "
-            "ball; plastic "
-            "flow leads to a² = 2 R d. Under a ball yield starts at a mean pressure of 2H/3, and the "
-            "restitution is about 0.7 times that of Johnson's law for metals."
+            "On loading the model has the contact radius of an elastic contact, a² = R d under a ball; "
+            "plastic flow leads to a² = 2 R d. Under a ball yield starts at a mean pressure of 2H/3, "
+            "and the restitution is about 0.7 times that of Johnson's law for metals."
         )
         yield Limit("flow", 2.0, 1.0, True, text, severe=False)
 
@@ -202,8 +200,9 @@ def jump_limits(jumps):
     """Limits of a path given by force that jumps between depths (m)."""
     for first, last in jumps:
         text = (
-            "On loading the force decreases after the onset of yield: a path of prescribed force jumps from "
-            f"{engineering(first, 'm')} to beyond {engineering(last, 'm')}. Prescribe depths to follow it."
+            "On loading the force decreases after the onset of yield: a path of prescribed force jumps "
+            f"from {engineering(first, 'm')} to beyond {engineering(last, 'm')}. Prescribe depths to "
+            "follow it."
         )
         yield Limit("jump", float(last - first), 0.0, True, text, severe=False)
 
@@ -232,8 +231,7 @@ def stick_limits(error, tolerance, depth, mass):
     yield Limit("tolerance", error, tolerance, exceeded, text)
     measured = (
         f"; the errors of the tangential motion were verified up to {_DEEP:g} times the elastic "
-        f"compression and for "
-        f"m_t of {1 / _LIGHT:g} m or more."
+        f"compression and for m_t of {1 / _LIGHT:g} m or more."
     )
     for what, value, bound, text in (
         ("depth", depth, _DEEP, f"The depth reaches {depth:.3g} times the elastic compression"),
@@ -278,9 +276,8 @@ def how_fast(hit):
     if np.any(np.isinf(depth_in_fast_limit(hit))):
         known = np.min(hit.profile.known_depth)
         text = (
-            f"{equations} do not hold: in this limit the largest depth exceeds the known depth of "
-            f"the profile, "
-            f"{known:g} m."
+            f"{equations} do not hold: in this limit the largest depth exceeds the known depth of the "
+            f"profile, {known:g} m."
         )
         return (Limit("fast limit", np.inf, MAX_ERROR, True, text, equations),)
     limit = hit.fast_limit

@@ -244,7 +244,7 @@ def test_sentences_are_true(server, page):
     page.goto(f"{server.url}?damping=eta&eta=1e6")
     text = said(page)
     assert " act in the patterns in time of the drive path and in impacts." in text
-    assert "They also act in the two patterns of a path in time." in text
+    assert "Dashpots also act in the two patterns of a path in time." in text
     # A fast impact: the contact area of the limit over the present one; W = π q_c ∫ √(R s) ds.
     page.goto(f"{server.url}?preset={DROP}")
     (off,) = re.findall(

@@ -141,7 +141,7 @@ def test_the_class_that_fits_five_times_better_is_taken_by_a_button(made, name):
 def test_a_class_that_cannot_be_told_is_not_offered():
     """In 20 % of noise all classes are as good."""
     page = opened(curve_file(noise=0.2))
-    assert page.results.verdict.object == "The class cannot be told from this curve."
+    assert page.results.verdict.object == "This curve does not determine the class of hardness."
     assert not page.results.take.visible
 
 

@@ -325,7 +325,7 @@ class TestVerdict:
 
     def test_noise_that_hides_the_class(self):
         force = made(self.PROFILE, ALONE["a"], 1, seed=7, noise=0.5)[0]
-        assert "cannot be told, (" in repr(mdr.fit_indentation(self.PROFILE, OUT, force, contact_point=0.0))
+        assert "not determined, (" in repr(mdr.fit_indentation(self.PROFILE, OUT, force, contact_point=0.0))
 
     def test_records_that_are_not_one_loading_and_one_unloading(self):
         twice = np.concatenate([OUT, 1.5 * OUT])
@@ -374,4 +374,4 @@ def test_measured_curves_of_class_a(file):
     misfits = {letter: each.misfit for letter, each in inverse.classes.items()}
     assert misfits["a"] == approx(misfit(constant), rel=1e-6)
     assert min(misfits, key=misfits.get) == "a"
-    assert ("cannot be told, (a) or (b)" in repr(inverse)) == (file == "steel")
+    assert ("not determined, (a) or (b)" in repr(inverse)) == (file == "steel")
