@@ -68,12 +68,12 @@ def read_curves(
     sensitivity: float | None = None,
     columns: dict[str, Any] | None = None,
 ) -> MeasuredCurves:
-    """Read all measured curves of a file of an instrument, which is opened once.
+    """Read all measured curves of a file of an instrument and open the file once.
 
     Columns of a table are found by the units in its header, in brackets, after the names or in a line of
     their own, with powers of ten beside them, as in "10^-3 N", and by their names in several languages.
     A scale that is not understood is refused. Signs are found by the numbers, as force and depth are
-    positive in compression. `remarks` of a curve has what was turned round, subtracted or left out. Depth
+    positive in compression. `remarks` of a curve lists reversed signs, corrections and omissions. Depth
     counts as in the file.
 
     A text may have several curves: each below a header or a title of its own ("Test 2"), told apart by a

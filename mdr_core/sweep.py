@@ -1,4 +1,4 @@
-"""Ensembles over named dimensions: impacts and indentations of xarray's arrays, in memory or by dask.
+"""Ensembles of impacts and indentations over named dimensions of xarray, in memory or with dask.
 
 Parameters are numbers or DataArrays, which broadcast by the names of their dimensions. Results of dask
 arrays are lazy: `compute` solves them chunk by chunk, on the cores of a machine or, with a

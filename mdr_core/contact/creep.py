@@ -34,7 +34,7 @@ _ENDS = ("lower", "upper", "length")
 def creep(
     profile: Profile, medium: Medium, force: ArrayLike, time: ArrayLike, *, tolerance: float = 1e-4
 ) -> TimedIndentation:
-    """Press an indenter into a viscous medium along a path of force in time, under which it creeps.
+    """Press an indenter into a viscous medium under a force that is prescribed in time.
 
     While the indenter goes deeper, and while it recedes afterwards, its depth obeys a scalar law: closed
     as long as nothing yields, else solved by an integrator of SciPy. This covers a force that is ramped,

@@ -26,7 +26,7 @@ _MANY = 15_000
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Indentation(Result):
-    """States of an indentation, one for each point of its path; made by `indent` or `indent_to_force`.
+    """States of an indentation at the points of its path, returned by `indent` or `indent_to_force`.
 
     Every quantity has the shape of `depth` (m); `result[i]` is one state. Pressure, line load, surface,
     imprint and stress are fields of one state. `live_interval` is [d_p, d_p + ℓ]; its end is d, except on

@@ -68,7 +68,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
 
 @_check.keywords_explained
 def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Indentation:
-    """Press an indenter along a path of forces, infinitely slowly: the inverse of `indent`.
+    """Press an indenter quasi-statically along a path of forces: the inverse of `indent`.
 
     For a viscous medium under a force in time see `creep`.
 

@@ -1,4 +1,4 @@
-"""Curves of AFM files, by `afmformats`, and binary files that are not read."""
+"""Read curves of AFM files by `afmformats`, and refuse other binary files."""
 
 import logging
 import re

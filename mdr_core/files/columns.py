@@ -1,4 +1,4 @@
-"""Which columns of a table are depth, force, time and contact stiffness, and their units."""
+"""Find the columns of depth, force, time and contact stiffness of a table, and their units."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""Fits of each class of hardness alone, and which of them a measured curve tells apart.
+"""Fits of each class of hardness alone, and the classes that a measured curve distinguishes.
 
 All classes have equally many parameters. With sums of squares S₁ and S₂ of their residuals and n
 independent samples, the likelihoods of two classes differ by the factor (S₂/S₁)^(n/2). n is the number of

@@ -1,4 +1,4 @@
-"""The medium from hardness at several contact radii."""
+"""Fit of the hardness of a medium to mean pressures at several contact radii."""
 
 from dataclasses import dataclass
 from types import EllipsisType

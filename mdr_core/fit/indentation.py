@@ -1,4 +1,4 @@
-"""The medium from measured force–depth curves."""
+"""Fit of a medium to measured force–depth curves."""
 
 from types import EllipsisType
 

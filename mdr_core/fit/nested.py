@@ -1,4 +1,4 @@
-"""Whether a tilt, a drag, a drift of the depth or another force on unloading fits a curve better.
+"""Tests whether a tilt, a drag, a drift of the depth or another force on unloading fits a curve better.
 
 Each is one more linear parameter. With residuals r, their derivatives J by the fitted parameters and c by
 another one, v, the least squares of r + J δ + c v give v and the change δ of the parameters. It is said

@@ -1,4 +1,4 @@
-"""Whether residuals are noise as standard errors presume it: independent, and of many samples.
+"""Tests whether residuals are independent noise of many samples, as standard errors assume.
 
 They may follow a curve, have outliers, be correlated over a large part of the curve, or be few.
 """

@@ -47,7 +47,7 @@ def oliver_pharr(
     beta: float = 1.0,
     cycles: bool = False,
 ) -> "OliverPharr":
-    """Modulus and hardness from the unloadings of one force–depth curve: Oliver and Pharr (1992).
+    """Compute modulus and hardness from the unloadings of a force–depth curve by Oliver and Pharr (1992).
 
     F = α (h − h_f)^m is fitted to the upper half of the unloading: samples after the largest depth, from
     the last one with 99 % of the force, so that a hold is left out, to the first one below half of it. F

@@ -1,4 +1,4 @@
-"""The number of a fit that is to be quoted, and the results of Oliver and Pharr beside a fit."""
+"""The modulus to quote from a fit, and the results of Oliver and Pharr for the fitted curve."""
 
 from dataclasses import dataclass, replace
 from typing import Literal

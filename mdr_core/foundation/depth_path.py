@@ -181,7 +181,7 @@ class Ramps:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TimedIndentation(Result):
-    """States of a viscous indentation at the times of its path; made by `indent_in_time` or `creep`.
+    """States of a viscous indentation at the times of its path, returned by `indent_in_time` or `creep`.
 
     `model` says what solved it: the chain, or a scalar law of creep.
 

@@ -82,7 +82,7 @@ class MotionResult(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Motion(MotionResult):
-    """Motion of one impact from first contact to loss of contact, as arrays of one length.
+    """Motion of one impact from first contact to loss of contact, as arrays of equal length.
 
     The turning point is among the instants. On unloading from a viscous medium the edge of the contact is
     where g = d_p + ℓ, which is less than the depth d; elements outside are released and relax. The sum of

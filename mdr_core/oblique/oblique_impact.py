@@ -37,7 +37,7 @@ def oblique_impact(
     tangential_mass: ArrayLike | None = None,
     tolerance: float = 1e-5,
 ) -> "ObliqueImpact":
-    """Let a body hit the medium with a speed along the surface as well, under Coulomb's friction.
+    """Solve the impact of a body with a normal and a tangential speed under Coulomb's friction.
 
     Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff and as
     viscous (Mindlin; outlook of Popov 2015). It sticks while its load is at most μ times the normal load of
@@ -123,7 +123,7 @@ class ObliqueErrors(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ObliqueImpact(Entries, Result):
-    """Oblique impacts, one or many; made by `oblique_impact`. `result[i]` picks one of many.
+    """Results of one or many oblique impacts, returned by `oblique_impact`; `result[i]` selects one.
 
     `normal` is the `Impact` along the normal, with all of its quantities.
 

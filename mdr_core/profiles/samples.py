@@ -1,4 +1,4 @@
-"""Samples of a profile: the convex ones nearest to heights, and those of an area function."""
+"""Samples of a profile: convex samples nearest to measured heights, and samples of an area function."""
 
 import numpy as np
 import scipy

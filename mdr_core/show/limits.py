@@ -1,4 +1,4 @@
-"""Where the assumptions of the model end: limits of a result, as data and in words."""
+"""Limits of the model for a result, as data and in words."""
 
 import numpy as np
 

@@ -76,7 +76,7 @@ def test_9_the_numbers_of_a_state_sum_up(progress):
     assert sum(numbers(course)[name][course.now] for name in parts) == approx(2.75, rel=1e-6)
     helps = {each.name: each.help for each in readouts.READOUTS}
     assert "Without dashpots" in helps["stored_energy"]
-    assert "Without them" in helps["mean_pressure"]
+    assert "Without dashpots" in helps["mean_pressure"]
 
 
 def test_10_held_scenes_are_named_by_what_differs():
