@@ -184,8 +184,8 @@ class Medium(_check.Parameters):
         Work of adhesion w (J/m²), not negative: the energy that separates a unit area of the surfaces.
         0 (the default) means no adhesion. It excludes viscosity, and yield of another class than (b).
     hardness : float or HardnessLaw, optional
-        Constant hardness H of class (a) (Pa), finite and not negative: glass, metals, ceramics. Or a law
-        σ_c(a) of your own, a `HardnessLaw`, which stands alone: without `q_c`, `f_c` and adhesion.
+        Constant hardness H of class (a) (Pa), finite and not negative: glass, metals, ceramics. Or your own
+        law σ_c(a), a `HardnessLaw`, without `q_c`, `f_c` and adhesion.
     f_c : float, optional
         Yield constant of class (c) (N = J/m), finite and not negative.
 
@@ -195,9 +195,9 @@ class Medium(_check.Parameters):
     ------
     ValueError
         If a parameter is not a number or out of its range, arrays do not broadcast, the hardness is 0,
-        `q_c` is infinite beside a `hardness` or `f_c`, `q_c` or `f_c` stands beside a law, both `eta` and
-        `work_of_adhesion` are positive, or `work_of_adhesion` and one of `hardness` and `f_c`. A law that
-        is none at the contact radii of a calculation is refused by that.
+        `q_c` is infinite and `hardness` or `f_c` positive, `q_c` or `f_c` is given with a law, both `eta`
+        and `work_of_adhesion` are positive, or `work_of_adhesion` and one of `hardness` and `f_c`. A
+        calculation refuses a law that is not admissible at its contact radii.
 
     Examples
     --------

@@ -47,7 +47,7 @@ def creep(
     profile, medium
         The indenter and the medium, of hardness H + q_c/a.
     force : array_like, shape (N,)
-        Forces (N), not negative, linear in between; the first one is applied infinitely slowly.
+        Forces (N), not negative, linear in between; the first force is applied quasi-statically.
     time : array_like, shape (N,)
         Increasing times (s).
     tolerance : float, optional
@@ -56,8 +56,8 @@ def creep(
     Returns
     -------
     TimedIndentation
-        Quantities of the shape of `time`, with the estimated `error`. On the chain contact radius and
-        fields are those of a foundation that follows the extrapolated depths and carries the force.
+        Quantities of the shape of `time`, with the estimated `error`. On the chain, contact radius and
+        fields are taken from a foundation that follows the extrapolated depths and carries the force.
 
     Raises
     ------

@@ -33,8 +33,8 @@ class Indentation(Result):
     unloading from a viscous medium, where elements are released before their springs are relaxed.
     `uniform_load` is a line load (N/m) over the contact besides that of the live interval: 4ηḋ of the
     dashpots on loading, and with adhesion −E*Δl, where [d_p, D] with D = d + Δl is the live interval;
-    `in_time` says whether the states belong to a motion, and `jumps` are depths (m) between which a path
-    given by force jumps because the force falls there.
+    `in_time` says whether the states belong to a motion, and `jumps` are depths (m) between which a path of
+    prescribed force jumps, because the force decreases with depth there.
 
     Examples
     --------

@@ -53,14 +53,14 @@ def fit_hardness(
     E_star : float
         Effective modulus E* (Pa), which mean pressures do not determine.
     q_c, hardness, f_c : float, optional
-        Constants of the hardness (N/m, Pa, N): None is free, a number is held, and those that are not given
-        are 0. If none is given, the one of the class is free; where no class fits alone, that with the
-        nearest power of a, and at a single radius q_c.
+        Constants of the hardness (N/m, Pa, N): None is free, a number is held, and constants that are not
+        given are 0. If no constant is given, the constant of the class is free; if no single class fits,
+        the constant with the nearest power of a; at a single radius q_c.
 
     Returns
     -------
     HardnessFit
-        Standard errors are from the scatter of the values, infinite for a single one.
+        Standard errors follow from the scatter of the values; for a single value they are infinite.
 
     Raises
     ------

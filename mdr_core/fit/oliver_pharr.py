@@ -95,8 +95,9 @@ def oliver_pharr(
 
     **First contact.** A record begins in the air where the force of its first 20 samples and more is noise
     about a constant, over 2 % of the largest depth or more. A power law of the depth from first contact on
-    is then fitted to the beginning of the loading. Its z₀ is `contact_point`, whose error is in those of
-    the results. Otherwise depths are as given and `contact_point` is 0. A remark says which.
+    is then fitted to the beginning of the loading. Its z₀ is `contact_point`, whose error is included in
+    the errors of the results. Otherwise depths are taken as given and `contact_point` is 0. A remark names
+    the case.
 
     **Creep** at the start of an unloading makes S too large. With `time`, and a hold of the force before
     the unloading, the depth of the unloading is reduced by creep at the rate ḣ of the end of the hold: at

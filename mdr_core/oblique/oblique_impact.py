@@ -60,7 +60,7 @@ def oblique_impact(
     tolerance : float, optional
         Error allowed in the tangential velocity relative to the tangential speed and in the largest force
         relative to itself; on a viscous medium in works, too, relative to themselves (or to a hundredth of
-        the tangential energy, where work is less). Where it is not met, `limits` say so.
+        the tangential energy, where work is less). `limits` report where the tolerance is not met.
 
     Returns
     -------
@@ -279,8 +279,8 @@ class ObliqueImpact(Entries, Result):
     def motion(self, n: int = 200) -> ObliqueMotion:
         """The motion of one impact at n instants, normal and tangential, with stick and slip.
 
-        Instants are equally spaced before the turning point, and again after it. The elements are those of
-        the finest run.
+        Instants are equally spaced before the turning point, and again after it. The motion is the finest
+        run of the solver.
 
         Examples
         --------
