@@ -182,7 +182,7 @@ def _table(lines, name, limit, before=None):
     heads = [f"{name} {unit}".strip() for name, unit in zip(names, units, strict=True)]
     whole = [line for line in lines[first:] if len(line.cells) == width]
     if len(whole) > limit:
-        raise ValueError(f"{name}: more than {limit} samples; give fewer")
+        raise ValueError(f"{name}: more than {limit} samples; give fewer samples")
     values = np.array([line.values for line in whole])
     known = np.isfinite(values)
     numeric = [k for k in range(width) if _has_numbers(known[:, k], k, whole)]

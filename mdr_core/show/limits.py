@@ -124,7 +124,7 @@ def _flow_limit(medium):
         text = (
             "On loading the model has the contact radius of an elastic contact, a² = R d under a ball; "
             "plastic flow leads to a² = 2 R d. Under a ball yield starts at a mean pressure of 2H/3, "
-            "and the restitution is about 0.7 times that of Johnson's law for metals."
+            "and the restitution is about 0.7 times the value of Johnson's law for metals."
         )
         yield Limit("flow", 2.0, 1.0, True, text, severe=False)
 

@@ -369,7 +369,7 @@ def test_other_classes_have_no_limit_of_the_fast_impact():
     assert hit.restitution < 1
     limits = {limit.what: limit for limit in hit.limits}
     assert "fast limit" not in limits
-    assert "0.7 of Johnson's law" in limits["flow"].sentence
+    assert "0.7 times the value of Johnson's law" in limits["flow"].sentence
     assert limits["flow"].level == "note"
 
 
