@@ -1,10 +1,11 @@
 """The page of one session, a function of one state."""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from html import escape
+from time import perf_counter
 from typing import Any
 
 import panel as pn
@@ -20,7 +21,7 @@ from .extra import EXTRAS
 from .fields import Field
 from .frame import Frame
 from .parts import Part, choice
-from .player import frames
+from .player import frames_in_steps
 from .plot import View
 from .quantities import in_words
 from .scales import Scales
@@ -32,6 +33,8 @@ Change = Callable[[State], State]
 Tell = Callable[[str], None]
 #: Milliseconds of rest before slow updates.
 SETTLED = 300
+#: Seconds after which other sessions are served while frames are made.
+_SLICE = 0.02
 _FAULT = "This cannot be shown, because of a fault of the explorer. Nothing was changed."
 _UNDO_STEPS = 100
 
@@ -72,6 +75,8 @@ class Page:
         self._waiting = None
         # Whether the player moves, which needs frames of each scene that is shown.
         self._moving = False
+        # The frames that are being made, None when there are none or all are sent.
+        self._making: Iterator[list[Any]] | None = None
         # Whether the link asks for dark (True) or light, None if it does not.
         self._asked_dark: bool | None = None
         # Whether the address holds a link that was not opened.
@@ -207,6 +212,7 @@ class Page:
             # Those of the course before, ahead of what is drawn. New ones wait until the input rests: they
             # are megabytes, and half a second of the process that serves everybody.
             self.messages.frames = []
+            self._making = None
         self.board.show(columns, view)
         self.messages.dark = state.dark
         self._schedule()
@@ -224,9 +230,22 @@ class Page:
 
     def _send_frames(self):
         """Send all states of the course if the player moves and has none."""
-        if self._moving and not self.messages.frames:
+        if self._moving and not self.messages.frames and not self._making:
             pictures = [card.picture for card in self.board.seen()]
-            self.messages.frames = frames(self.shown, pictures)
+            self._making = frames_in_steps(self.shown, pictures)
+            self._make_frames(self._making)
+
+    def _make_frames(self, making):
+        """Go on with the frames that are made, unless the scene is another; others are served meanwhile."""
+        served = self.document.session_context is not None
+        begun = perf_counter()
+        while making is self._making:
+            if made := next(making):
+                self.messages.frames = made
+                self._making = None
+            elif served and perf_counter() > begun + _SLICE:
+                self.document.add_next_tick_callback(partial(self._make_frames, making))
+                return
 
     def move(self, message: int | None) -> None:
         """Send frames when the player begins to move (None); accept the state in which it ends.

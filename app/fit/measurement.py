@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.fit.classes import HardnessVerdict
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.noise import jitter
 from mdr_core.fit.oliver_pharr import OliverPharr
@@ -105,9 +106,9 @@ class Told:
     """What is said beside a fit, found where it does not keep others waiting."""
 
     remarks: tuple[str, ...]
-    #: Results of Oliver and Pharr, None where there are none; the line of the report on the class.
+    #: Results of Oliver and Pharr, and which class of hardness the curve has; None where there are none.
     unloading: OliverPharr | None
-    of_class: str
+    of_class: HardnessVerdict | None
 
 
 def fit(
@@ -129,9 +130,8 @@ def fit(
         other = mdr.fit_indentation(profile, depth, force, **arguments)
         if other.quoted.value is not None:
             found, remarks = other, tuple(dict.fromkeys((*remarks, *other.remarks)))
-    lines = (line for line in repr(found).splitlines() if "class of hardness" in line)
     # Classes and what to quote are kept in the object that is sent.
-    told = {"remarks": remarks, "unloading": None, "of_class": next(lines, "")}
+    told = {"remarks": remarks, "unloading": None, "of_class": found.class_of_hardness}
     if found.quoted.source == "unloading":
         told["unloading"], _ = unloading(found)
     return found, told

@@ -92,13 +92,14 @@ def why(fit: IndentationFit) -> str:
 def verdict(fit: IndentationFit, told: Told) -> tuple[str, dict[str, float]]:
     """What the samples say of the class of hardness, in a sentence, and the misfit of each class."""
     misfits = {letter: float(each.misfit) for letter, each in fit.classes.items()}
-    if not misfits:
+    if told.of_class is None:
         return "", {}
-    best = min(misfits, key=misfits.__getitem__)
-    if "not determined" in told.of_class:
+    found = told.of_class
+    if len(found.possible) > 1:
         return "This curve does not determine the class of hardness.", misfits
+    best = found.best
     text = f"The curve is of class ({best}), {CLASS_NAMES[best]}."
-    if "none within" in told.of_class:
+    if not found.describes:
         text = f"No class describes the curve within 1 %; the nearest is ({best}), {CLASS_NAMES[best]}."
     return text, misfits
 

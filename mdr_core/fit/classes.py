@@ -81,25 +81,47 @@ def _misfit(solution):
     return np.sqrt(np.mean((solution.minimum.residual * solution.noise) ** 2, axis=1)) / force
 
 
-def _told_apart(fits, samples):
-    """Letter of the class with the least misfit, and of those that so many samples do not rule out."""
+@dataclass(frozen=True)
+class HardnessVerdict:
+    """Which class of hardness one curve has: `fit.class_of_hardness`.
+
+    `best` is the letter of the class with the least misfit, `possible` the letters of all classes that the
+    samples do not rule out, at three standard deviations, and `describes` whether the best class
+    describes the curve: its misfit is within 1 %, or its residuals are not correlated.
+    """
+
+    best: str
+    possible: tuple[str, ...]
+    describes: bool
+
+    def __str__(self) -> str:
+        letters = ") or (".join(self.possible)
+        answer = f"({letters})" if len(self.possible) == 1 else f"not determined, ({letters})"
+        return answer if self.describes else f"{answer}, none within {100 * _NONE:g} %"
+
+
+def class_of_hardness(fits, samples):
+    """`HardnessVerdict` of one curve of so many samples from its `fits_of_classes`."""
     best = min(fits, key=lambda letter: fits[letter].misfit)
     least = max(fits[best].misfit, np.finfo(float).tiny)
     independent = samples / fits[best].block_length
-    close = [letter for letter, fit in fits.items() if independent * 2 * np.log(fit.misfit / least) < _TOLD]
-    return best, close
+    possible = (
+        letter for letter, fit in fits.items() if independent * 2 * np.log(fit.misfit / least) < _TOLD
+    )
+    describes = fits[best].misfit <= _NONE or fits[best].block_length == 1
+    return HardnessVerdict(best, tuple(possible), bool(describes))
 
 
-def fit_again(fits, free, samples):
+def fit_again(fits, found, free):
     """Row of a report on a fit of one class that the curve rules out; none where it does not.
 
-    `free` are the names of the free parameters, `samples` the number of the samples.
+    `found` is the `HardnessVerdict`, `free` are the names of the free parameters.
     """
     taken = [letter for letter, name in CLASSES.items() if name in free]
     if len(taken) != 1 or not set(taken) <= set(fits):
         return
-    best, close = _told_apart(fits, samples)
-    if taken[0] not in close:
+    best = found.best
+    if taken[0] not in found.possible:
         misfits = (f"{100 * fits[letter].misfit:.3g} %" for letter in (taken[0], best))
         text = (
             f"the curve is not of the fitted class ({taken[0]}): fit again with {CLASSES[best]}=None, "
@@ -108,21 +130,17 @@ def fit_again(fits, free, samples):
         yield "another class", text
 
 
-def verdict(fits, free, depth, force, depth_noise):
-    """Rows of a report on one curve: misfits, classes that they do not rule out, and what this presumes.
+def verdict(fits, found, free, depth, force, depth_noise):
+    """Rows of a report on one curve: misfits, classes that they do not rule out, and the assumptions.
 
-    `free` are the names of the free parameters.
+    `found` is the `HardnessVerdict`, `free` are the names of the free parameters.
     """
-    best, close = _told_apart(fits, depth.size)
     misfits = ", ".join(f"({letter}) {100 * fit.misfit:.3g} %" for letter, fit in fits.items())
-    answer = f"({best})" if len(close) == 1 else f"not determined, ({') or ('.join(close)})"
-    if fits[best].misfit > _NONE and fits[best].block_length > 1:
-        answer += f", none within {100 * _NONE:g} %"
     whole = "range of the force" if set(BACKGROUND) & set(free) else "largest force"
-    yield "class of hardness", f"{answer}: misfit {misfits} of the {whole}"
+    yield "class of hardness", f"{found}: misfit {misfits} of the {whole}"
     turns, starts = turning_points_of(depth, force, depth_noise)
     record = f"this record has {len(starts)} loadings" * (len(starts) > 1)
     if not turns:
         record = "this record has no unloading"
     presumed = "a known tip that is not worn, one loading without pop-ins and one unloading"
-    yield "the class presumes", f"{presumed}; {record}" if record else presumed
+    yield "assumed for the class", f"{presumed}; {record}" if record else presumed

@@ -14,7 +14,7 @@ from ..medium import Medium
 from ..show.quantities import described, engineering
 from ..show.report import attributes as attributes_of
 from ..show.report import dimensions, imported
-from .classes import ClassFit, fit_again, fits_of_classes, verdict
+from .classes import ClassFit, HardnessVerdict, class_of_hardness, fit_again, fits_of_classes, verdict
 from .figures import plot_fit
 from .measurement import Measurement
 from .oliver_pharr import OLIVER_PHARR
@@ -135,8 +135,8 @@ class IndentationFit(Fit):
     def classes(self) -> dict[str, ClassFit]:
         """Fits with the hardness of each class alone by its letter, "a", "b", "c"; found when first read.
 
-        What else is held or free is as in this fit. Empty for an elastic medium, and with viscosity. How
-        far the misfits tell the classes apart is in the report of one curve.
+        What else is held or free is as in this fit. Empty for an elastic medium, and with viscosity.
+        `class_of_hardness` has how far the misfits tell the classes apart.
         """
         self._refuse_invalid("classes")
         if not self._yields or "eta" in self.standard_errors or np.any(self.medium.eta):
@@ -153,6 +153,14 @@ class IndentationFit(Fit):
         values = {name: v for name, v in self._values().items() if name not in self.standard_errors}
         held = {name: np.atleast_1d(value) for name, value in values.items()}
         return fits_of_classes(self.profile, measured, held, self.depth_noise)
+
+    @property
+    def class_of_hardness(self) -> HardnessVerdict | None:
+        """The class of hardness that one curve shows, None where there are no `classes`."""
+        self._one("class_of_hardness")
+        if not self.classes:
+            return None
+        return class_of_hardness(self.classes, np.count_nonzero(np.isfinite(self.residuals)))
 
     @cached_property
     def quoted(self) -> Quoted:
@@ -222,7 +230,7 @@ class IndentationFit(Fit):
         if classes := self.classes:
             used = np.isfinite(self.residuals)
             samples = self.depth[used], self.force[used], self.depth_noise
-            yield from verdict(classes, self.standard_errors, *samples)
+            yield from verdict(classes, self.class_of_hardness, self.standard_errors, *samples)
         top = int(np.argmax(self.path.force))
         if self._yields and self.path.force[top] > 0:
             a, mean = self.path.contact_radius[top], self.path.mean_pressure[top]
@@ -241,8 +249,7 @@ class IndentationFit(Fit):
             value = with_error(quote.value, quote.standard_error, "Pa")
             yield "to quote", f"E* {value} of the {quote.source}: {quote.reason}"
         if classes := self.classes:
-            samples = np.count_nonzero(np.isfinite(self.residuals))
-            yield from fit_again(classes, self.standard_errors, samples)
+            yield from fit_again(classes, self.class_of_hardness, self.standard_errors)
         if quote.source == "unloading":
             yield (
                 "the model's",

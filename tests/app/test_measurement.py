@@ -320,7 +320,7 @@ def test_parts_of_a_file_are_below_the_message_that_the_documented_line_allows()
     largest = int(options[options.index("--websocket-max-message-size") + 1])
     assert largest > CHUNK * 4 / 3 + 10_000
     text = (ASSETS / "docs" / "explorer.md").read_text(encoding="utf-8")
-    assert f"measured curves to {MAX_BYTES / 1e6:g} MB" in " ".join(text.split())
+    assert f"Measured curves are limited to {MAX_BYTES / 1e6:g} MB" in " ".join(text.split())
     assert f"up to {MAX_BYTES / 1e6:g} MB" in page_of().form.drop.label
     drop = Dropper()
 
