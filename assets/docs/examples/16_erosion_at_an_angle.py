@@ -4,8 +4,8 @@ Erosion of a metal at an angle
 
 Grains of quartz of 50 µm hit mild steel, of constant hardness, and a composite, :math:`\\sigma_c = q_c/a`.
 The work of indentation grows with the angle between path and surface. The work of friction, which cuts the
-surface, has a maximum where a grain slips to the end, near :math:`\\tan 2\\alpha = 2 m_t/(\\mu m (1 + e))`, the
-dotted line for steel. Metals erode most at 20° to 30°, brittle solids at 90°.
+surface, has a maximum where a grain slips to the end, near :math:`\\tan 2\\alpha = 2 m_t/(\\mu m (1 + e))`,
+the dotted line for steel. Metals erode most at 20° to 30°, brittle solids at 90°.
 """
 
 import matplotlib.pyplot as plt
