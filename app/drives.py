@@ -21,7 +21,7 @@ _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 41))) / 2
 #: Instants of an impact, and more of them up to the onset of yield, which a fast one passes in one step.
 INSTANTS, BEFORE_YIELD = 120, 20
 #: What is said of a captured body.
-_HELD = "Adhesion holds the body: e = 0. Unloading is drawn as if it were pulled off."
+_HELD = "Adhesion holds the body: e = 0. Unloading is drawn as if the body were pulled off."
 
 
 class Drive(ABC):

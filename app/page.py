@@ -35,7 +35,7 @@ Tell = Callable[[str], None]
 SETTLED = 300
 #: Seconds after which other sessions are served while frames are made.
 _SLICE = 0.02
-_FAULT = "This cannot be shown, because of a fault of the explorer. Everything is as it was before."
+_FAULT = "This cannot be shown, because of a fault of the explorer. Nothing was changed."
 _UNDO_STEPS = 100
 
 

@@ -1,4 +1,4 @@
-"""Names that people look for, and what there is instead: the field's symbols, words and models."""
+"""Hints for symbols, words and models of the field that have other names in this package."""
 
 _ANGLE = (
     "A slope is the tangent of the angle to the surface; Cone.from_half_angle(degrees) takes the angle "

@@ -40,7 +40,7 @@ class DepthPath(_Path):
     depth : float or sequence of float
         Indentation depth (m), a number or a path.
     time : sequence of float, optional
-        Increasing times (s) of a path; without them it is infinitely slow.
+        Increasing times (s) of a path; without times the path is quasi-static.
 
     Examples
     --------
@@ -74,7 +74,7 @@ class ForcePath(_Path):
     force : float or sequence of float
         Normal force (N), a number or a path; not negative.
     time : sequence of float, optional
-        Increasing times (s) of a path; without them it is infinitely slow.
+        Increasing times (s) of a path; without times the path is quasi-static.
 
     Examples
     --------

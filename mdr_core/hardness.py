@@ -31,8 +31,8 @@ class HardnessLaw(_check.Parameters, ABC):
     loading. Every calculation checks this at 200 radii, from 10⁻⁶ of its largest contact radius up to it,
     and that `rate` is the derivative of `at`.
 
-    Parameters may be arrays, which broadcast as those of a `Medium`; a table is a tuple. Laws are asked at
-    radii from 10⁻³⁰ m on.
+    Parameters may be arrays, which broadcast like the parameters of a `Medium`; give a table as a tuple.
+    Laws are evaluated at radii of 10⁻³⁰ m and more.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Whether a law of hardness is one, up to the contact radius that a calculation reaches."""
+"""Check whether a law of hardness is admissible up to the contact radius of a calculation."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Measured force–depth curves, and what is subtracted from their depth before a fit."""
+"""Measured force–depth curves, and corrections of their depth before a fit."""
 
 import re
 from collections.abc import Callable, Sequence

@@ -22,7 +22,7 @@ def check_pair(profile, medium, what=None):
         raise TypeError(f"medium must be a Medium, got {shown(medium)}")
     if what and (profile.shape or medium.shape):
         raise ValueError(
-            f"{what} is that of one indenter on one medium, but their parameters are arrays of shape "
+            f"{what} needs a single indenter and a single medium, but their parameters are arrays of shape "
             f"{profile.shape or medium.shape}; take one at a time, as in profile.entries(i)"
         )
 
@@ -36,15 +36,15 @@ def refuse_adhesion(medium, what):
 def refuse_other_classes(medium, what, instead):
     """Refuses a medium of another hardness than q_c/a for a quantity `what` of class (b)."""
     if not medium.inverse_to_radius:
-        law = f", not of the law {shown(medium.hardness)}" if medium.has_own_law else ""
-        raise ValueError(f"{what} is of the hardness q_c/a alone, class (b){law}; {instead}")
+        law = f", not the law {shown(medium.hardness)}" if medium.has_own_law else ""
+        raise ValueError(f"{what} supports only the hardness q_c/a, class (b){law}; {instead}")
 
 
 def refuse_own_law(medium, what, instead):
     """Refuses a medium with a law of hardness of its own for something, `what`, that cannot have one."""
     if medium.has_own_law:
         law = shown(medium.hardness)
-        raise ValueError(f"{what} cannot have the law of hardness {law}; {instead}")
+        raise ValueError(f"{what} does not support the law of hardness {law}; {instead}")
 
 
 def check_hardness(profile, medium, depth):
@@ -58,7 +58,7 @@ def paths_on(profile, medium, depth):
     for thing in (profile, medium):
         if thing.shape and thing.shape[-1] != 1:
             raise ValueError(
-                "a path is that of one indenter on one medium, but the parameters of "
+                "a path needs a single indenter and a single medium, but the parameters of "
                 f"{type(thing).__name__} are arrays of shape {thing.shape}: give them a last axis of "
                 "length 1, one path each, as in Medium(E_star[:, None]), or take medium.entries(i)"
             )
@@ -118,7 +118,7 @@ def _law_alone(q_c, law, f_c):
         quantity, value = f"yield constant {name}", 0.0 if value is None else value
         value = _check.positive(quantity, value, unit=unit, zero=True, infinite=name == "q_c")
         beside = (np.asarray(value) > 0) & (np.asarray(value) < np.inf)
-        bound = f"stands beside the law of hardness {shown(law)}, which stands alone"
+        bound = f"cannot be combined with the law of hardness {shown(law)}"
         remedy = f"write {term} into its at(a), or take hardness = 0 beside {name}"
         _check.refuse(quantity, np.asarray(value), beside, bound, unit=unit, remedy=remedy)
     return {"q_c": 0.0, "hardness": law, "f_c": 0.0}
@@ -136,10 +136,14 @@ def _refuse_sum(medium):
     others = np.asarray(medium.hardness) + np.asarray(medium.f_c)
     q_c = np.broadcast_to(medium.q_c, np.broadcast_shapes(np.shape(medium.q_c), others.shape))
     for bad, bound, remedy in (
-        ((q_c == 0) & (others == 0), "leaves no hardness beside 0 of the others", "give one above 0"),
+        (
+            (q_c == 0) & (others == 0),
+            "leaves no hardness, because the other constants are 0",
+            "give one above 0",
+        ),
         (
             (q_c == np.inf) & (others > 0),
-            "means that nothing yields, beside a hardness or f_c above 0",
+            "means that nothing yields, which contradicts a hardness or f_c above 0",
             "give q_c = 0 or a finite one",
         ),
     ):
@@ -180,8 +184,8 @@ class Medium(_check.Parameters):
         Work of adhesion w (J/m²), not negative: the energy that separates a unit area of the surfaces.
         0 (the default) means no adhesion. It excludes viscosity, and yield of another class than (b).
     hardness : float or HardnessLaw, optional
-        Constant hardness H of class (a) (Pa), finite and not negative: glass, metals, ceramics. Or a law
-        σ_c(a) of your own, a `HardnessLaw`, which stands alone: without `q_c`, `f_c` and adhesion.
+        Constant hardness H of class (a) (Pa), finite and not negative: glass, metals, ceramics. Or your own
+        law σ_c(a), a `HardnessLaw`, without `q_c`, `f_c` and adhesion.
     f_c : float, optional
         Yield constant of class (c) (N = J/m), finite and not negative.
 
@@ -191,9 +195,9 @@ class Medium(_check.Parameters):
     ------
     ValueError
         If a parameter is not a number or out of its range, arrays do not broadcast, the hardness is 0,
-        `q_c` is infinite beside a `hardness` or `f_c`, `q_c` or `f_c` stands beside a law, both `eta` and
-        `work_of_adhesion` are positive, or `work_of_adhesion` and one of `hardness` and `f_c`. A law that
-        is none at the contact radii of a calculation is refused by that.
+        `q_c` is infinite and `hardness` or `f_c` positive, `q_c` or `f_c` is given with a law, both `eta`
+        and `work_of_adhesion` are positive, or `work_of_adhesion` and one of `hardness` and `f_c`. A
+        calculation refuses a law that is not admissible at its contact radii.
 
     Examples
     --------

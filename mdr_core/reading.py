@@ -51,7 +51,7 @@ def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> Measu
     >>> print(curve.depth.tolist(), curve.force.tolist(), curve.time)
     [0.0, 1e-08, 2e-08] [0.0, 0.0015, 0.004] None
     >>> curve.remarks
-    ('left out line 4: a cell is missing or no number',)
+    ('left out line 4: a cell is missing or not a number',)
     """
     curves = read_curves(path, **given)
     if not 0 <= index < len(curves):
@@ -68,18 +68,18 @@ def read_curves(
     sensitivity: float | None = None,
     columns: dict[str, Any] | None = None,
 ) -> MeasuredCurves:
-    """Read all measured curves of a file of an instrument, which is opened once.
+    """Read all measured curves of a file of an instrument and open the file once.
 
     Columns of a table are found by the units in its header, in brackets, after the names or in a line of
     their own, with powers of ten beside them, as in "10^-3 N", and by their names in several languages.
     A scale that is not understood is refused. Signs are found by the numbers, as force and depth are
-    positive in compression. `remarks` of a curve has what was turned round, subtracted or left out. Depth
+    positive in compression. `remarks` of a curve lists reversed signs, corrections and omissions. Depth
     counts as in the file.
 
-    A text may have several curves: each below a header or a title of its own ("Test 2"), told apart by a
-    column of labels or numbers ("Sample", "Test"), or side by side in columns of the same names. An
-    approach and its retract side by side, and segments with a header each, are one curve. Tables of
-    results, one row a test, are left out, with a remark; a file that has nothing else is refused.
+    A text may have several curves: each below its own header or title ("Test 2"), distinguished by a column
+    of labels or numbers ("Sample", "Test"), or side by side in columns of the same names. An approach and
+    its retract side by side, and segments with a header each, are one curve. Tables of results, one row a
+    test, are left out, with a remark; a file that has nothing else is refused.
 
     Parameters
     ----------
@@ -91,9 +91,8 @@ def read_curves(
         stiffness k of the cantilever, and its zero is not the contact point.
     spring_constant : float, optional
         Stiffness of the cantilever (N/m) that the file lacks; the header of a text may have it. With it the
-        deflection F/k is subtracted from the depth of a table, unless the name of its column says that it
-        is a depth, an indentation, the tip or a separation. A column of the deflection (m or V) gives the
-        force.
+        deflection F/k is subtracted from the depth of a table, unless the name of the column means a depth,
+        an indentation, a tip position or a separation. A column of the deflection (m or V) gives the force.
     sensitivity : float, optional
         Deflection (m) of the cantilever for 1 V, where the file has its deflection in V; m/A for NT-MDT.
         Its files have no header: they are known by the two values that are given.

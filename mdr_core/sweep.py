@@ -1,4 +1,4 @@
-"""Ensembles over named dimensions: impacts and indentations of xarray's arrays, in memory or by dask.
+"""Ensembles of impacts and indentations over named dimensions of xarray, in memory or with dask.
 
 Parameters are numbers or DataArrays, which broadcast by the names of their dimensions. Results of dask
 arrays are lazy: `compute` solves them chunk by chunk, on the cores of a machine or, with a
@@ -263,7 +263,7 @@ def _sweep(kind, solve, law, shape, parameters, shape_parameters, quantities, in
 def _check_shape(shape, given):
     """Refuse other types than profiles, and missing or unknown parameters of the class."""
     if not (isinstance(shape, Profile) or (isclass(shape) and issubclass(shape, Profile))):
-        raise TypeError(f"shape must be a class of indenters, or one of them, got {_check.shown(shape)}")
+        raise TypeError(f"shape must be a class of indenters or an indenter, got {_check.shown(shape)}")
     if not isclass(shape) and shape.shape:
         raise ValueError("parameters of the shape are arrays without names of dimensions: give its class")
     if isclass(shape) and issubclass(shape, Sampled | Smooth):
@@ -314,8 +314,8 @@ def _hardness(q_c, hardness, f_c):
         if hardness.shape:
             name, size = _check.shown(hardness), hardness.shape
             raise ValueError(
-                f"hardness {name} has arrays of shape {size}, without names of dimensions: the law of a "
-                "sweep is one for all; give one of single numbers"
+                f"hardness {name} has arrays of shape {size}, without names of dimensions: a sweep has "
+                "one law for all entries; give a law of single numbers"
             )
         constants, law = {"q_c": q_c, "f_c": f_c}, {"hardness": hardness}
         return {name: value for name, value in constants.items() if value is not None}, law

@@ -67,7 +67,7 @@ def test_depth_is_minus_the_position_of_the_tip(tmp_path, suffix):
     np.testing.assert_array_equal(read.approach.depth, read.depth[:60])
     np.testing.assert_array_equal(read.retract.force, read.force[60:])
     with pytest.raises(
-        ValueError, match=rf"run\.{suffix} is not read .* Its forces are in N: give neither"
+        ValueError, match=rf"run\.{suffix} cannot be read .* Its forces are in N: give neither"
     ):
         mdr.read_curve(path, spring_constant=1.0)
 
@@ -155,7 +155,7 @@ def test_a_file_without_segments_has_those_of_its_depth(tmp_path):
 def test_a_file_that_is_none_is_refused(tmp_path):
     for name in ("run.jpk-force", "run.ibw", "run.zip"):
         (tmp_path / name).write_bytes(b"PK\x03\x04 no curve")
-        with pytest.raises(ValueError, match=f"{name} is not read by afmformats"):
+        with pytest.raises(ValueError, match=f"{name} cannot be read by afmformats"):
             mdr.read_curve(tmp_path / name)
 
 

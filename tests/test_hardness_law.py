@@ -186,7 +186,7 @@ def test_sweeps_take_one_law_for_all():
     one = mdr.sweep.indentations(mdr.Sphere, hardness=Written(hardness, q_c, f_c), **pressed)
     two = mdr.sweep.indentations(mdr.Sphere, hardness=hardness, q_c=q_c, f_c=f_c, **pressed)
     np.testing.assert_allclose(one.force, two.force, rtol=1e-12)
-    with pytest.raises(ValueError, match="the law of a sweep is one for all"):
+    with pytest.raises(ValueError, match="a sweep has one law for all entries"):
         mdr.sweep.impacts(mdr.Sphere, hardness=NixGao(np.array([1e9, 2e9]), 1e-6), **given)
     with pytest.raises(ValueError, match=r"Wrong.*grows"):
         mdr.sweep.impacts(mdr.Sphere, hardness=Wrong("grows"), invalid="nan", **given)

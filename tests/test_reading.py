@@ -50,8 +50,8 @@ def assert_same(curve):
         (text((TIME[::-1], FORCE[::-1], DEPTH[::-1]), ["t/s,F/mN,d/nm"]), ""),
         (text((DEPTH, 1e3 * np.array(FORCE)), ["Weg (nm);Kraft (\u03bcN)"], ";"), ""),
         (text((DEPTH, 1e3 * np.array(FORCE)), ["h (nm); F (uN)"], "; "), ""),
-        (text((DEPTH, [-f for f in FORCE]), ["h (nm), F (mN)"]), "force turned round"),
-        (text(([-d for d in DEPTH], FORCE), ["z (nm) F (mN)"], " "), "depth turned round"),
+        (text((DEPTH, [-f for f in FORCE]), ["h (nm), F (mN)"]), "the sign of force is reversed"),
+        (text(([-d for d in DEPTH], FORCE), ["z (nm) F (mN)"], " "), "the sign of depth is reversed"),
         ("h (m); F (N); \n-1e-9; 0;\n0; 0;\n2e-9; 1.5e-3;\n4e-9; 6e-3;\n3e-9; 2e-3;\n", ""),
         ("\n\nDepth (nm)\tForce (mN)\r\n-1\t0\r\n0\t0\r\n2\t1.5\r\n\r\n4\t6\r\n3\t2\r\n", ""),
         ("h (nm), F (mN), phase\n-1, 0.0, 1\n0, 0.0, 1\n2, 1.5, 1\n4, 6.0, 2\n3, 2.0, 2\n", ""),
@@ -125,7 +125,7 @@ def test_columns_and_units_that_a_header_lacks_are_given(tmp_path):
     ("columns", "says"),
     [
         ({"depth": 7}, "columns: depth = 7 must be a number or name of .*0: 'h'"),
-        ({"depth": "h"}, "depth = 'h' must be .* and a unit where that has none"),
+        ({"depth": "h"}, "depth = 'h' must be .* a column without a unit needs one"),
         ({"depth": (0, "V")}, "must be .* out of m, mm"),
         ({"force": (1, "mN")}, "no column of depth with a unit"),
         (
@@ -170,7 +170,7 @@ def test_what_is_left_out_is_said_with_its_line(read):
     np.testing.assert_allclose(curve.depth, np.array([*range(8), 9]) * 1e-9, rtol=1e-12)
     assert curve.remarks == (
         "column 1 tip, which has no numbers, is left out",
-        "left out lines 10, 12: a cell is missing or no number",
+        "left out lines 10, 12: a cell is missing or not a number",
     )
     assert "h (nm)" in repr(curve)
     # A gap in a column that is not used leaves out nothing.
@@ -243,7 +243,7 @@ def test_the_deflection_is_subtracted_from_the_position_of_the_piezo(tmp_path):
     curve = mdr.read_curve(path)
     remarks = "\n".join(curve.remarks)
     assert "'Extend Z-Sense(nm)' includes the deflection force/stiffness: give spring_constant=" in remarks
-    assert "the retract is that of the columns 'Retract Z-Sense(nm)' and 'Retract Force(nN)'" in remarks
+    assert "the retract is taken from the columns 'Retract Z-Sense(nm)' and 'Retract Force(nN)'" in remarks
     assert curve.segment.tolist() == 5 * ["approach"] + 5 * ["retract"]
     np.testing.assert_allclose(curve.approach.depth, np.array(DEPTH) * 1e-9)
     tip = mdr.read_curve(path, spring_constant=0.5)
@@ -271,7 +271,7 @@ def test_files_that_afmformats_does_not_read_are_refused(monkeypatch, tmp_path, 
     monkeypatch.setitem(sys.modules, "afmformats", module)
     for name in ("run.zip", "run.tab"):
         (tmp_path / name).write_bytes(b"# afmformats 0.13.3\n\xb5")
-        with pytest.raises(ValueError, match=f"{name} is not read by afmformats"):
+        with pytest.raises(ValueError, match=f"{name} cannot be read by afmformats"):
             mdr.read_curve(tmp_path / name)
 
 
@@ -307,7 +307,7 @@ def test_a_missing_file_is_one_whatever_would_read_it(suffix, tmp_path):
 def test_a_sensitivity_is_for_files_of_instruments(read, tmp_path):
     """A table has forces: what would be ignored is refused."""
     read(text((DEPTH, FORCE), ["h (nm), F (mN)"]))
-    with pytest.raises(ValueError, match=r"run\.csv is a table, .* leave out sensitivity"):
+    with pytest.raises(ValueError, match=r"run\.csv are already in units of force: leave out sensitivity"):
         mdr.read_curve(tmp_path / "run.csv", sensitivity=6e-8)
 
 

@@ -179,7 +179,7 @@ class TestModel:
         assert mdr.Scene.from_json(old) == mdr.Scene.from_json(text)
 
     def test_a_scene_is_one_indenter_on_one_medium(self):
-        with pytest.raises(ValueError, match="one indenter on one medium"):
+        with pytest.raises(ValueError, match="a single indenter and a single medium"):
             mdr.Scene(mdr.Cone([0.1, 0.2]), self.DRY, self.HIT)
 
 

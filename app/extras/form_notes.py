@@ -57,7 +57,7 @@ def law_of_hardness(course: Course) -> str:
     if onset == np.inf:
         starts = "Nothing yields under this shape: H is too large"
     elif onset == 0:
-        starts = "Yield starts at first touch, d_y = 0"
+        starts = "Yield starts at first contact, d_y = 0"
     return f"σ_c = {law} = {hardness}{place}. {starts} " + ("(19)" if made.inverse_to_radius else "§ 20")
 
 

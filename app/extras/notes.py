@@ -34,17 +34,17 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
 
 #: What is said where E* is given without ν.
 _OF_INCOMPRESSIBLE = {
-    "Poisson ratio": "Dashpots beside springs are exact for ν = ½ only; ν is not given with E*.",
-    "coupling": "Friction along the surface is that of ν = ½; ν is not given with E*.",
+    "Poisson ratio": "Dashpots parallel to the springs are exact only for ν = ½; ν is not given with E*.",
+    "coupling": "Friction is computed with ν = ½; ν is not given with E*.",
 }
 
 
 def _own_words(limit: Any, state: State) -> str:
     """What the page says of a limit in the place of the core, or nothing."""
     if limit.what == "viscosity":
-        remedy = ", or ".join(each.in_time for each in CHOICES["drive"].options.values() if each.in_time)
+        remedy = " and in ".join(each.in_time for each in CHOICES["drive"].options.values() if each.in_time)
         tau = written(limit.value, "time")
-        return f"Pressing is quasi-static here; dashpots, τ = {tau}, act in {remedy}."
+        return f"Pressing is quasi-static here. Dashpots (τ = {tau}) act in {remedy}."
     return _OF_INCOMPRESSIBLE.get(limit.what, "") if state.elasticity == "modulus" else ""
 
 

@@ -179,8 +179,8 @@ class Path(Drive):
             if state["path.pattern"] == "creep":
                 if made.eta > 0 and made.f_c > 0:
                     raise ValueError(
-                        "creep with viscosity is not computed for a hardness ∝ 1/a², with which the "
-                        "force may fall by itself: choose another one or ramp and hold first"
+                        "creep with viscosity is not computed for a hardness ∝ 1/a², because the force may "
+                        "decrease with depth: choose another hardness or ramp and hold first"
                     )
                 return mdr.ForcePath((0.0, state.max_force, state.max_force), times)
             return mdr.DepthPath((0.0, state.max_depth, state.max_depth), times)

@@ -108,7 +108,7 @@ def map_csv(file: str, rows: list[tuple[Any, ...]]) -> str:
     text = StringIO()
     text.write(f"# mdr_core {mdr.__version__}: curves of {file}\n")
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["curve", "E* (Pa)", "standard error (Pa)", "of what, or why not"])
+    writer.writerow(["curve", "E* (Pa)", "standard error (Pa)", "source, or why there is no number"])
     for number, value, error, reason in rows:
         cells = ["" if each is None else repr(float(each)) for each in (value, error)]
         writer.writerow([number + 1, *cells, in_page_words(reason)])

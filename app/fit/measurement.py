@@ -90,7 +90,7 @@ def read(path: str, given: dict[str, Any], number: int) -> Any:
     try:
         curves = opened(path, given)
         if number >= len(curves):
-            raise ValueError(f"the file has {len(curves)} curves, and no number {number + 1}")
+            raise ValueError(f"the file has {len(curves)} curves, and no curve {number + 1}")
         return curves[number], len(curves)
     except UnknownColumns as error:
         return error.table, 0
@@ -168,7 +168,7 @@ def _refuse_range(arguments: dict[str, Any], taken: dict[str, Any]) -> None:
     """Refuse samples that need those before them: a medium remembers the largest depth, and rates."""
     depth, used = taken["depth"], taken["used"]
     if np.count_nonzero(used) < 2:
-        raise ValueError("the range has fewer than two of the samples that are taken: choose a longer one")
+        raise ValueError("the range has fewer than two samples to be fitted: choose a longer range")
     first = int(np.argmax(used))
     if arguments.get("eta", 0.0) != 0 and first:
         raise ValueError(
@@ -178,15 +178,15 @@ def _refuse_range(arguments: dict[str, Any], taken: dict[str, Any]) -> None:
     # As for noise of the depth, a thousandth of the range hardly counts.
     if arguments.get("q_c") != np.inf and largest - within > 1e-3 * np.ptp(depth[used]):
         raise ValueError(
-            f"the samples before the range reach deeper, {written(largest, 'length')}, than those in it, "
-            f"{written(within, 'length')}, and what yielded there is not fitted: begin the range at the "
+            f"the samples before the range reach deeper, {written(largest, 'length')}, than the range, "
+            f"{written(within, 'length')}, and their yield would not be fitted: begin the range at the "
             "largest depth or before"
         )
     origin = arguments.get("contact_point")
     if origin is not None and origin >= depth[used].max():
         raise ValueError(
             f"the contact point z₀ = {written(origin, 'length')} is held, and the samples reach only to "
-            f"{written(within, 'length')}: let the fit find it, or type a smaller one"
+            f"{written(within, 'length')}: let the fit find z₀, or type a smaller z₀"
         )
 
 

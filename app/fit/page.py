@@ -34,7 +34,7 @@ from .worker import Here, Worker
 #: Beginnings of the suffixes of files that are no tables.
 _AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
 _ENDED = (
-    "The process that reads and fits has ended, which a damaged file or too little memory can cause; "
+    "The process that reads and fits has ended, because of a damaged file or too little memory; "
     "nothing else is lost. Try another file, or fewer samples"
 )
 

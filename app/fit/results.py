@@ -180,7 +180,7 @@ class Results:
             text += '<p class="of">Then the fit runs at once.</p>'
         elif page.refused:
             text = '<p class="big none">The curve is not read yet</p>'
-            text += '<p class="of">What the file lacks is asked for on the left.</p>'
+            text += '<p class="of">Give the missing information on the left.</p>'
         elif page.not_fitted:
             text = '<p class="big none">No fit</p>'
         show(self.headline, object=text)
@@ -272,6 +272,6 @@ class Results:
             f"<td class='reason'>{marked(words.in_page_words(reason))}</td></tr>"
             for number, v, error, reason in rows[:_LISTED]
         ]
-        head = "<tr><th>curve</th><td>E*</td><td class='reason'>of what, or why there is none</td></tr>"
+        head = "<tr><th>curve</th><td>E*</td><td class='reason'>source, or why there is no number</td></tr>"
         more = f"<p>{len(rows) - _LISTED} more are in the CSV.</p>" if len(rows) > _LISTED else ""
         show(self.list, visible=done, object=f"<table>{head}{''.join(cells)}</table>{more}" if rows else "")

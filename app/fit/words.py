@@ -21,7 +21,7 @@ _WORDS = {
     r"give columns=\{.*?\}, numbers and units": "choose its columns and their units below",
     r"spring_constant=": "the spring constant",
     r"sensitivity=": "the sensitivity",
-    r"cycles=True takes each": "choose another one by the range",
+    r"give cycles=True for each of them": "choose another one by the range",
     r"\bspring_constant\b": "spring constant",
     r"\bcontact_point\b": "contact point",
     r"\bdepth_noise\b": "noise of the depth",
@@ -84,8 +84,8 @@ def why(fit: IndentationFit) -> str:
         return ""
     model = value_of(fit, "E_star")
     return (
-        f"<p>The model’s own E* is {escape(model)}: on loading its contact sinks in elastically, so that "
-        "it is smaller than that of a material that flows, and its modulus larger.</p>"
+        f"<p>The model’s own E* is {escape(model)}: its contact radius on loading is that of an "
+        "elastic contact, smaller than with plastic flow, so that its modulus is larger.</p>"
     )
 
 
@@ -96,7 +96,7 @@ def verdict(fit: IndentationFit, told: Told) -> tuple[str, dict[str, float]]:
         return "", {}
     found = told.of_class
     if len(found.possible) > 1:
-        return "The class cannot be told from this curve.", misfits
+        return "This curve does not determine the class of hardness.", misfits
     best = found.best
     text = f"The curve is of class ({best}), {CLASS_NAMES[best]}."
     if not found.describes:

@@ -34,7 +34,7 @@ _ENDS = ("lower", "upper", "length")
 def creep(
     profile: Profile, medium: Medium, force: ArrayLike, time: ArrayLike, *, tolerance: float = 1e-4
 ) -> TimedIndentation:
-    """Press an indenter into a viscous medium along a path of force in time, under which it creeps.
+    """Press an indenter into a viscous medium under a force that is prescribed in time.
 
     While the indenter goes deeper, and while it recedes afterwards, its depth obeys a scalar law: closed
     as long as nothing yields, else solved by an integrator of SciPy. This covers a force that is ramped,
@@ -47,7 +47,7 @@ def creep(
     profile, medium
         The indenter and the medium, of hardness H + q_c/a.
     force : array_like, shape (N,)
-        Forces (N), not negative, linear in between; the first one is applied infinitely slowly.
+        Forces (N), not negative, linear in between; the first force is applied quasi-statically.
     time : array_like, shape (N,)
         Increasing times (s).
     tolerance : float, optional
@@ -56,8 +56,8 @@ def creep(
     Returns
     -------
     TimedIndentation
-        Quantities of the shape of `time`, with the estimated `error`. On the chain contact radius and
-        fields are those of a foundation that follows the extrapolated depths and carries the force.
+        Quantities of the shape of `time`, with the estimated `error`. On the chain, contact radius and
+        fields are taken from a foundation that follows the extrapolated depths and carries the force.
 
     Raises
     ------

@@ -26,15 +26,15 @@ _MANY = 15_000
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Indentation(Result):
-    """States of an indentation, one for each point of its path; made by `indent` or `indent_to_force`.
+    """States of an indentation at the points of its path, returned by `indent` or `indent_to_force`.
 
     Every quantity has the shape of `depth` (m); `result[i]` is one state. Pressure, line load, surface,
     imprint and stress are fields of one state. `live_interval` is [d_p, d_p + ℓ]; its end is d, except on
     unloading from a viscous medium, where elements are released before their springs are relaxed.
     `uniform_load` is a line load (N/m) over the contact besides that of the live interval: 4ηḋ of the
     dashpots on loading, and with adhesion −E*Δl, where [d_p, D] with D = d + Δl is the live interval;
-    `in_time` says whether the states belong to a motion, and `jumps` are depths (m) between which a path
-    given by force jumps because the force falls there.
+    `in_time` says whether the states belong to a motion, and `jumps` are depths (m) between which a path of
+    prescribed force jumps, because the force decreases with depth there.
 
     Examples
     --------

@@ -20,8 +20,8 @@ from .yielding import ConstantCap, yield_rule
 def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     """Press an indenter along a path of depths: loading, unloading and reloading in any order.
 
-    The path is followed infinitely slowly, so that the dashpots of a viscous medium carry nothing; for a
-    path in time see `indent_in_time`.
+    The path is quasi-static, so that the dashpots of a viscous medium carry no load; for a path in time see
+    `indent_in_time`.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
 
 @_check.keywords_explained
 def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Indentation:
-    """Press an indenter along a path of forces, infinitely slowly: the inverse of `indent`.
+    """Press an indenter quasi-statically along a path of forces: the inverse of `indent`.
 
     For a viscous medium under a force in time see `creep`.
 
@@ -77,11 +77,12 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     profile, medium
         As for `indent`.
     force : float or array_like
-        Normal force (N); one number or a path along the last axis. At 0 the indenter rests on the bottom
-        of the imprint. With f_c above 0, or a law of hardness, the force on loading may fall after the
-        onset of yield: the depth is the first one that carries it, and the path jumps there, which is said
-        in `limits`. Negative only with adhesion: under more than the pull-off force the contact is lost,
-        the force is 0 and the depth that of the imprint, until a force ≥ 0 closes it again.
+        Normal force (N); one number or a path along the last axis. At 0 the indenter rests on the bottom of
+        the imprint. With f_c above 0, or a law of hardness, the force on loading may decrease after the
+        onset of yield. The path then jumps to the smallest depth that carries the force, and `limits`
+        report the jump. Negative forces need adhesion: beyond the pull-off force the contact is lost; the
+        force is then 0 and the depth is the depth of the imprint, until a force ≥ 0 closes the contact
+        again.
 
     Returns
     -------

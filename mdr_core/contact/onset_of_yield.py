@@ -13,7 +13,7 @@ from .yielding import yield_rule
 
 @_check.keywords_explained
 def yield_depth(profile: Profile, medium: Medium) -> Array:
-    """Indentation depth d_y (m) at which yield starts: the first one of s = u_c(a(s)).
+    """Compute the indentation depth d_y (m) at which yield starts: the smallest root of s = u_c(a(s)).
 
     u_c(a) = π a σ_c(a)/(2E*) is the largest elastic compression of the elements in a contact of radius a.
     For the hardness q_c/a it is `medium.critical_depth` under every indenter, Popov (2015), Eq. (19).
@@ -51,7 +51,7 @@ def yield_depth(profile: Profile, medium: Medium) -> Array:
 
 @_check.keywords_explained
 def critical_force(profile: Profile, medium: Medium) -> Array:
-    """Normal force F_c (N) at which yield starts, that of an elastic indentation to the depth of onset.
+    """Compute the normal force F_c (N) at which yield starts.
 
     F_c = 2E* ∫ a(s) ds over 0 < s < d_y, the `yield_depth`; for a cone of hardness q_c/a Popov (2015),
     Eq. (20).
@@ -86,7 +86,7 @@ def critical_force(profile: Profile, medium: Medium) -> Array:
 
 @_check.keywords_explained
 def yield_speed(profile: Profile, medium: Medium, mass: ArrayLike) -> Array:
-    """Speed v_y (m/s) of a free body above which an impact on a virgin medium without viscosity yields.
+    """Compute the speed v_y (m/s) of a free body above which a virgin medium without viscosity yields.
 
     Its kinetic energy is the elastic energy at the `yield_depth`: m v_y²/2 = 2E* ∫ (d_y − s) a(s) ds over
     0 < s < d_y (Johnson, Contact Mechanics, 11.4, with the yield criterion of Popov (2015), Eq. (12)). The

@@ -1,1 +1,1 @@
-"""Files of instruments: units, tables as text, workbooks, AFM files, and what a column is."""
+"""Files of instruments: units, tables as text, workbooks, AFM files, and the meaning of columns."""

@@ -1,4 +1,4 @@
-"""Curves of AFM files, by `afmformats`, and binary files that are not read."""
+"""Read curves of AFM files by `afmformats`, and refuse other binary files."""
 
 import logging
 import re
@@ -57,7 +57,9 @@ def refuse_binary(path, data):
     # Some programs give their text the suffix of their files.
     if known is not None and not _is_binary(data) and data.strip():
         return
-    raise ValueError(f"{path.name} is a binary file of a kind that is not read. Use {known or _EXPORT}")
+    raise ValueError(
+        f"{path.name} is a binary file in a format that cannot be read. Use {known or _EXPORT}"
+    )
 
 
 def export_of(suffix):
@@ -90,7 +92,7 @@ def _refused(errors, path):
     # Most errors of this package are none that `except Exception` would handle.
     except (Exception, errors.AFMFileFormatError, errors.MissingMetaDataError) as error:
         remedy = _REMEDIES.get(type(error).__name__, export_of(path.suffix.lower()))
-        raise ValueError(f"{path.name} is not read by afmformats: {error}{remedy}") from None
+        raise ValueError(f"{path.name} cannot be read by afmformats: {error}{remedy}") from None
 
 
 def from_afm(path, given):

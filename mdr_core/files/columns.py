@@ -1,4 +1,4 @@
-"""Which columns of a table are depth, force, time and contact stiffness, and their units."""
+"""Find the columns of depth, force, time and contact stiffness of a table, and their units."""
 
 import re
 
@@ -150,17 +150,17 @@ def _unknown(table, name, each, free):
         if words.named(each, head) and unit.doubt:
             unit_given = "nm" if each == "depth" else "mN"
             return (
-                f"{name}: the unit of {each} in {head!r} is not understood: {unit.doubt!r} is "
-                "no unit of this package, or scales one. Convert the numbers if need be, and give the "
+                f"{name}: the unit of {each} in {head!r} is not understood: {unit.doubt!r} is not a "
+                "unit of this package, or scales a unit. Convert the numbers if need be, and give the "
                 f'number of the column and its unit, columns={{"{each}": ({column}, "{unit_given}"), …}}, '
                 f"out of {_units(each)}"
             )
     kind = {"depth": "length"}.get(each, each)
     fits = [head for k, head in free.items() if table.unit_of(k).kind == kind]
-    several = f"; of {', '.join(map(repr, fits))} none says that it is the {each}" if fits else ""
+    several = f"; {', '.join(map(repr, fits))} is not named as the {each}" if fits else ""
     return (
         f"{name} has no column of {each} with a unit in its header, {table.heads}{several}: {_GIVE}; a "
-        "deflection is no force. NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)"
+        "deflection is not a force. NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)"
     )
 
 
@@ -201,8 +201,8 @@ def _given(table, each, column, free, cantilever):
         return number, unit
     if number is None or unit not in SIZES[each]:
         raise ValueError(
-            f"columns: {each} = {column!r} must be a number or name of {free}, and a unit where "
-            f"that has none, ({which!r}, {list(SIZES[each])[1]!r}), out of {', '.join(SIZES[each])}"
+            f"columns: {each} = {column!r} must be a number or name of {free}; a column without a unit "
+            f"needs one, as in ({which!r}, {list(SIZES[each])[1]!r}), out of {', '.join(SIZES[each])}"
         )
     return number, unit
 

@@ -50,7 +50,8 @@ def curves_of(table, name, sheet="", *, columns=None, spring_constant=None, sens
         groups = [automatic] if given else side_by_side(part, automatic)
         if groups is None:
             raise UnknownColumns(
-                f"{name} has columns of one name, but not as many of depth as of force, {table.heads}: "
+                f"{name} has several columns of the same name, but not as many of depth as of force, "
+                f"{table.heads}: "
                 'give columns={"depth": (0, "nm"), "force": (1, "mN")} for one curve',
                 table,
             )
@@ -107,14 +108,14 @@ def curve_of(table, name, columns=None, spring_constant=None, *, turn=True, segm
     labels, segment = named_segments(table.words) if segment is None else ("", segment)
     remarks += _omissions(table, rows, name, labels)
     if rows.size < 2:
-        raise ValueError(f"{name} has one row of numbers: give a curve, a sample a line")
+        raise ValueError(f"{name} has one row of numbers: give a curve, with one sample per line")
     rows = _in_time(table, name, values, rows, columns, remarks)
     values = {each: value[rows] * size_of(each, columns[each][1]) for each, value in values.items()}
     _deflected(table, name, values, columns, known, sensitivity, remarks)
     for each in _turned(values["depth"], values["force"]) if turn else ():
         values[each], (column, unit) = -values[each], columns[each]
         columns[each] = column, unit[1:] if unit[0] == "−" else f"−{unit}"
-        remarks.append(f"{each} turned round: it is positive in compression")
+        remarks.append(f"the sign of {each} is reversed: {each} is positive in compression")
     head = table.heads[columns["depth"][0]]
     values["depth"], remark = _of_tip(head, values, known.get("spring_constant"), spring_constant is None)
     arrays = {"time": None} | {each: _check.frozen(value) for each, value in values.items()}
@@ -134,8 +135,8 @@ def _in_time(table, name, values, rows, columns, remarks):
     if few and jumps(values["depth"][rows], starts):
         raise ValueError(
             f"{name}: the time starts again at line {table.lines[rows[starts[0]]]}, where the depth jumps: "
-            "for several curves give each a file, a title like 'Test 2' above it, or a column 'test' with "
-            "numbers"
+            "for several curves use one file for each, a title like 'Test 2' above each, or a column "
+            "'test' with numbers"
         )
     if starts.size or not np.any(steps):
         remarks.append("the time does not ascend and is left out: samples are in the order of the file")
@@ -153,7 +154,7 @@ def _cantilever(table, options):
             if value is not None:
                 known[each] = value
                 if each == "spring_constant":
-                    remarks.append(f"spring_constant = {value:.6g} N/m is that of the file")
+                    remarks.append(f"spring_constant = {value:.6g} N/m is taken from the file")
     return known, remarks
 
 
@@ -182,13 +183,13 @@ def _deflected(table, name, values, columns, known, sensitivity, remarks):
     column, unit = columns["force"]
     if unit in SIZES["force"]:
         if sensitivity is not None:
-            raise ValueError(f"{name} is a table, with forces in units of force: leave out sensitivity")
+            raise ValueError(f"the forces of {name} are already in units of force: leave out sensitivity")
         return
     factor, text = known["spring_constant"], "the stiffness"
     if unit.lstrip("−") in UNITS["voltage"]:
         factor, text = factor * known["sensitivity"], "the sensitivity and the stiffness"
     elif sensitivity is not None:
-        raise ValueError(f"{name} has a deflection in {unit}, a length: leave out sensitivity")
+        raise ValueError(f"the deflection of {name} is already a length, in {unit}: leave out sensitivity")
     values["force"] = values["force"] * factor
     remarks.append(f"the force is the deflection {table.heads[column]!r} times {text} of the cantilever")
 
@@ -202,9 +203,9 @@ def _of_tip(head, values, stiffness, own):
     says, piezo = words.says_depth(head), words.says_piezo(head)
     if stiffness is not None and not says:
         what = (
-            "is of the piezo"
+            "is the position of the piezo"
             if piezo
-            else "does not say that it is a depth, and is taken as that of the piezo"
+            else "is not named as a depth, and is taken as the position of the piezo"
         )
         return depth - force / stiffness, [
             f"{head!r} {what}: the deflection, force over stiffness, is subtracted"
@@ -215,7 +216,7 @@ def _of_tip(head, values, stiffness, own):
     if piezo:
         return depth, [f"{head!r} includes the deflection force/stiffness: give spring_constant= (N/m)"]
     if not says and np.abs(force).max() < _SMALL:
-        text = f"{head!r} does not say that it is a depth: if it is the position of a piezo, it includes"
+        text = f"{head!r} is not named as a depth: if it is the position of a piezo, it includes"
         return depth, [f"{text} the deflection force/stiffness: give spring_constant= (N/m)"]
     return depth, []
 
@@ -276,16 +277,16 @@ def _with_retract(table, name, known):
         {k: unit for k, unit in table.units.items() if k in heads}, table.header,
     )  # fmt: skip
     retract = " and ".join(repr(table.heads[others[each][0]]) for each in ("depth", "force"))
-    return joined, [f"the retract is that of the columns {retract}"]
+    return joined, [f"the retract is taken from the columns {retract}"]
 
 
 def _omissions(table, rows, name, labels):
     """Remarks on columns and lines that are left out; `rows` and the column of `labels` are not."""
     lines = sorted({*table.odd, *table.lines.tolist()} - set(table.lines[rows].tolist()))
     listed = ", ".join(map(str, lines[:3])) + f" and {len(lines) - 3} more" * (len(lines) > 3)
-    what = f"line{'s' * (len(lines) > 1)} {listed}: a cell is missing or no number"
+    what = f"line{'s' * (len(lines) > 1)} {listed}: a cell is missing or not a number"
     if len(lines) > len(rows):
-        raise ValueError(f"most lines of {name} are no rows of numbers, as {what}")
+        raise ValueError(f"most lines of {name} are not rows of numbers, for example {what}")
     named = [column for column in table.words if column != labels and " " in column.strip()]
     left = [f"column {column}, which has no numbers, is left out" for column in named]
     return left + [f"left out {what}"] * bool(lines)

@@ -1,4 +1,4 @@
-"""Tables of results, one row a test, which are no curves."""
+"""Tables of results with one row for each test, which are not curves."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Several curves in one table: below each other, told by a column, or side by side."""
+"""Several curves in one table: below each other, distinguished by a column, or side by side."""
 
 import re
 from dataclasses import replace

@@ -136,7 +136,9 @@ def _lines(text, name, limit):
     if not lines:
         raise ValueError(f"{name} is empty")
     if any(len(line) > _LONGEST_LINE for _, line in lines):
-        raise ValueError(f"{name}: a line is longer than {_LONGEST_LINE} characters; use a line a sample")
+        raise ValueError(
+            f"{name}: a line is longer than {_LONGEST_LINE} characters; use one line per sample"
+        )
     cells = [[] if line.startswith("#") else _cells(line) for _, line in lines]
     number = number_reader(cells, name)
     return [
@@ -180,7 +182,7 @@ def _table(lines, name, limit, before=None):
     heads = [f"{name} {unit}".strip() for name, unit in zip(names, units, strict=True)]
     whole = [line for line in lines[first:] if len(line.cells) == width]
     if len(whole) > limit:
-        raise ValueError(f"{name}: more than {limit} samples; thin them out")
+        raise ValueError(f"{name}: more than {limit} samples; give fewer samples")
     values = np.array([line.values for line in whole])
     known = np.isfinite(values)
     numeric = [k for k in range(width) if _has_numbers(known[:, k], k, whole)]

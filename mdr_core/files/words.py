@@ -1,4 +1,4 @@
-"""Words in the names of columns: quantities in several languages, and what is none of the curve."""
+"""Words in the names of columns: quantities in several languages, and columns that are not of the curve."""
 
 import re
 from functools import lru_cache

@@ -1,4 +1,4 @@
-"""Fits of each class of hardness alone, and which of them a measured curve tells apart.
+"""Fits of each class of hardness alone, and the classes that a measured curve distinguishes.
 
 All classes have equally many parameters. With sums of squares S₁ and S₂ of their residuals and n
 independent samples, the likelihoods of two classes differ by the factor (S₂/S₁)^(n/2). n is the number of
@@ -96,7 +96,7 @@ class HardnessVerdict:
 
     def __str__(self) -> str:
         letters = ") or (".join(self.possible)
-        answer = f"({letters})" if len(self.possible) == 1 else f"cannot be told, ({letters})"
+        answer = f"({letters})" if len(self.possible) == 1 else f"not determined, ({letters})"
         return answer if self.describes else f"{answer}, none within {100 * _NONE:g} %"
 
 
@@ -124,14 +124,14 @@ def fit_again(fits, found, free):
     if taken[0] not in found.possible:
         misfits = (f"{100 * fits[letter].misfit:.3g} %" for letter in (taken[0], best))
         text = (
-            f"the curve is not of class ({taken[0]}), as is fitted here: fit again with "
-            f"{CLASSES[best]}=None, class ({best}); misfit {' against '.join(misfits)}"
+            f"the curve is not of the fitted class ({taken[0]}): fit again with {CLASSES[best]}=None, "
+            f"class ({best}); misfit {' against '.join(misfits)}"
         )
         yield "another class", text
 
 
 def verdict(fits, found, free, depth, force, depth_noise):
-    """Rows of a report on one curve: misfits, classes that they do not rule out, and what this presumes.
+    """Rows of a report on one curve: misfits, classes that they do not rule out, and the assumptions.
 
     `found` is the `HardnessVerdict`, `free` are the names of the free parameters.
     """
@@ -143,4 +143,4 @@ def verdict(fits, found, free, depth, force, depth_noise):
     if not turns:
         record = "this record has no unloading"
     presumed = "a known tip that is not worn, one loading without pop-ins and one unloading"
-    yield "the class presumes", f"{presumed}; {record}" if record else presumed
+    yield "assumed for the class", f"{presumed}; {record}" if record else presumed

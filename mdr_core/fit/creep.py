@@ -92,7 +92,7 @@ def sentence(share):
     """A remark on creep that is not small."""
     return (
         f"the depth creeps at the start of the unloading: ḣ/|Ṗ| at the end of the hold is "
-        f"{100 * share:.2g} % of 1/S, for which it is corrected (Feng and Ngan)"
+        f"{100 * share:.2g} % of 1/S; the stiffness is corrected for it (Feng and Ngan)"
     )
 
 

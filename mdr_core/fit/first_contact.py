@@ -43,7 +43,7 @@ def first_contact(profile, depth, force):
     35, 1990, 454). The difference to these is part of its error. m is within 1/2 below and 1 above that of
     an elastic contact.
     """
-    given = "depths count from first contact as they are given"
+    given = "depths are taken as given from first contact"
     air = (
         f"{given}: the record does not begin with {LEAST_SAMPLES} samples in the air, or their force varies"
     )

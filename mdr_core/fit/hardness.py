@@ -1,4 +1,4 @@
-"""The medium from hardness at several contact radii."""
+"""Fit of the hardness of a medium to mean pressures at several contact radii."""
 
 from dataclasses import dataclass
 from types import EllipsisType
@@ -53,14 +53,14 @@ def fit_hardness(
     E_star : float
         Effective modulus E* (Pa), which mean pressures do not determine.
     q_c, hardness, f_c : float, optional
-        Constants of the hardness (N/m, Pa, N): None is free, a number is held, and those that are not given
-        are 0. If none is given, the one of the class is free; where no class fits alone, that with the
-        nearest power of a, and at a single radius q_c.
+        Constants of the hardness (N/m, Pa, N): None is free, a number is held, and constants that are not
+        given are 0. If no constant is given, the constant of the class is free; if no single class fits,
+        the constant with the nearest power of a; at a single radius q_c.
 
     Returns
     -------
     HardnessFit
-        Standard errors are from the scatter of the values, infinite for a single one.
+        Standard errors follow from the scatter of the values; for a single value they are infinite.
 
     Raises
     ------
@@ -95,8 +95,8 @@ def fit_hardness(
     if not yielded.any():
         largest = engineering(p_m.max(), "Pa")
         raise ValueError(
-            f"no mean pressure (the largest is {largest}) is below that of an elastic contact with "
-            f"E* = {engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
+            f"all mean pressures (up to {largest}) are as large as in an elastic contact with E* = "
+            f"{engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
         )
     a, depth, area, cap = a[yielded], depth[yielded], area[yielded], cap[yielded]
     values = yield_constant(E_star, cap)
@@ -131,7 +131,7 @@ def _constants(a, hardness, weight, held):
     powers = {name: a**-power for power, name in enumerate(CLASSES.values())}
     free = [name for name in powers if name not in held]
     if not free:
-        raise ValueError("hardness, q_c and f_c are all held: there is nothing to fit")
+        raise ValueError("hardness, q_c and f_c are all held: give None for those to be fitted")
     if len(free) > 1 and (a.size <= len(free) or np.unique(a).size < len(free)):
         raise ValueError(
             f"{a.size} measurements that yield, at {np.unique(a).size} radii, do not determine "
@@ -161,7 +161,8 @@ def _measured(profile, mean_pressure, radius):
     a = np.atleast_1d(_check.positive("radius", radius, unit="m")).ravel()
     if p_m.shape != a.shape or not p_m.size:
         raise ValueError(
-            f"mean_pressure {p_m.shape} and radius {a.shape} must be of one shape, one value a radius"
+            f"mean_pressure {p_m.shape} and radius {a.shape} must have the same shape, one value for "
+            "each radius"
         )
     bound = f"m is not between the flat face, {profile.face_radius:g} m, and the end of the profile"
     _check.refuse("radius", a, (a <= profile.face_radius) | (a > profile.known_radius), bound)
@@ -192,16 +193,20 @@ def _remarks(yielded, constants, errors, free, power_law):
     name, reason = power_law["hardness_class"], power_law["reason"]
     if not yielded.all():
         count = f"{np.count_nonzero(~yielded)} of {yielded.size} measurements"
-        text = "are as hard as an elastic contact: they do not determine the hardness and were left out"
+        text = (
+            "have the pressure of an elastic contact: they do not determine the hardness and are left out"
+        )
         yield f"{count} {text}"
     used = [letter for letter, constant in CLASSES.items() if constants[constant] or constant in free]
     if len(used) == 1 and (name not in (*used, None) or reason.startswith("none")):
-        yield f"not class ({used[0]}) alone: {reason}; two of hardness, q_c and f_c may be free"
+        yield f"not of class ({used[0]}) alone: {reason}; two of hardness, q_c and f_c may be free"
     for constant, error in zip(free, errors, strict=True):
         if len(free) > 1 and constants[constant] < 2 * error:
-            yield f"the radii do not tell {' and '.join(free)} apart: {constant} may be 0"
+            yield f"the radii do not distinguish {' and '.join(free)}: {constant} may be 0"
     if np.isinf(errors).any():
-        yield f"a single measurement determines no error of {free[0]}: give three or more"
+        yield (
+            f"the standard error of {free[0]} cannot be determined from one measurement: give three or more"
+        )
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -1,4 +1,4 @@
-"""The medium from measured force–depth curves."""
+"""Fit of a medium to measured force–depth curves."""
 
 from types import EllipsisType
 
@@ -41,20 +41,20 @@ def fit_indentation(
 ) -> IndentationFit:
     """Fit a medium to a measured force–depth curve by least squares: the inverse of `indent`.
 
-    Parameters that are None are free, numbers are held. Of a medium that yields the unloading determines E*
-    and the loading the hardness; of an elastic one, `q_c=inf`, an approach is enough. The model is the
-    force of the contact with a background F₀ + F₁ z + ζ ż, where z is the measured depth.
+    Parameters that are None are free, numbers are held. If the medium yields, the unloading determines E*
+    and the loading the hardness. If it is elastic, `q_c=inf`, an approach is enough. The model is the force
+    of the contact with a background F₀ + F₁ z + ζ ż, where z is the measured depth.
 
     Parameters
     ----------
     profile : Profile
         The indenter, one for all curves.
     depth, force : array_like
-        Measured depths (m) and forces (N) in the order of time, of one shape: one curve (N,), or many
+        Measured depths (m) and forces (N) in the order of time, of the same shape: one curve (N,), or many
         (R, N) with one indenter, each on a virgin medium; or lists of R arrays of different lengths.
         Samples with NaN are left out. A drift and the compliance of a frame are subtracted before, by
-        `MeasuredCurve.minus_drift` and `minus_frame`.
-        With `q_c=inf`, without `time` and without adhesion the order does not matter.
+        `MeasuredCurve.minus_drift` and `minus_frame`. With `q_c=inf`, without `time` and without adhesion
+        the order does not matter.
     time : array_like, optional
         Increasing times (s) of the samples, of the same shape; needed for `eta` and `drag`, and for remarks
         on drag and drift that are left out. The rate ż is the central difference of the depths, so that a
@@ -64,10 +64,10 @@ def fit_indentation(
         Effective modulus (Pa).
     q_c, hardness, f_c : float, optional
         Constants of the hardness σ_c(a) = hardness + q_c/a + f_c/a² (N/m, Pa, N) as in `Medium`: those that
-        are not given are 0, and if none is given q_c is free. So `hardness=None` alone is a glass or a
-        metal, class (a), and `q_c=None, hardness=None` a hardness with a size effect. `q_c=inf` holds the
-        medium elastic. `hardness` and `f_c` are not fitted together with `eta` or `work_of_adhesion`. For
-        a `HardnessLaw` take `scipy.optimize.curve_fit` over `indent`: the gallery has an example.
+        are not given are 0, and if none is given q_c is free. Give `hardness=None` for a glass or a metal,
+        class (a), and `q_c=None, hardness=None` for a hardness with a size effect. With `q_c=inf` the
+        medium is elastic. `hardness` and `f_c` are not fitted together with `eta` or `work_of_adhesion`.
+        For a `HardnessLaw` take `scipy.optimize.curve_fit` over `indent`: the gallery has an example.
     eta : float, optional
         Viscosity η (Pa·s) of the medium, 0 by default; see Notes.
     contact_point : float, optional
@@ -78,15 +78,16 @@ def fit_indentation(
     work_of_adhesion : float, optional
         Work of adhesion w (J/m²) of an elastic medium, 0 by default; see Notes.
     depth_noise : float, optional
-        Standard deviation (m) of the measured depth. Without it noise counts as new largest depths, and
+        Standard deviation (m) of the measured depth. Without it noise is taken for new largest depths, and
         E* is biased.
     force_noise : float or array_like, optional
-        Standard deviation (N) of the measured force, of all samples or of each one: samples are weighted
-        by its inverse. None estimates it from the residuals, or with `depth_noise` from third differences
-        of the force, which requires fine sampling.
+        Standard deviation (N) of the measured force, for all samples or for each sample; samples are
+        weighted by its inverse. None estimates it from the residuals, or with `depth_noise` from third
+        differences of the force, which requires fine sampling.
     invalid : {"raise", "nan"}
-        Of many curves one that cannot be fitted raises an error, or has NaN for results; `fit.invalid` has
-        the reasons by the numbers of these curves. If none can be fitted the first reason is raised.
+        If one of many curves cannot be fitted, "raise" raises an error, and "nan" gives NaN as its results;
+        `fit.invalid` has the reasons by the numbers of these curves. If no curve can be fitted, the first
+        reason is raised.
 
     Returns
     -------
@@ -107,52 +108,55 @@ def fit_indentation(
     of `indent_in_time` (Popov (2015), Eq. (1)) on an approach, a hold and a retract, and on a second
     indentation after all elements have relaxed.
 
-    A solid whose modulus relaxes by E₁ in a time t₁ much shorter than the record cannot be told from this:
-    E* is then the relaxed modulus, and η = E₁ t₁/4. With E₁ = E* and t₁ of a twentieth of the loading E* is
-    2 to 6 % too large, without a remark; with a fifth 12 to 36 %, and most records have a remark.
+    A solid whose modulus relaxes by E₁ in a time t₁ much shorter than the record has nearly the same force:
+    E* is then the relaxed modulus, and η = E₁ t₁/4. With E₁ = E* and t₁ equal to a twentieth of the loading
+    time, E* is 2 to 6 % too large without a remark; with a fifth it is 12 to 36 % too large, and most
+    records have a remark.
 
-    **Holds.** With `time`, a hold at constant depth (m) stays in the record: ḋ is 0 there, and the force
-    (N) is that of the springs from its first sample on. A force that goes on falling, or a depth that
-    creeps, is a relaxation that the model does not describe: cut these samples out of all arrays,
+    **Holds.** With `time`, a hold at constant depth (m) stays in the record: ḋ is 0 there, and from its
+    first sample on only the springs contribute to the force (N). A force that goes on falling, or a depth
+    that creeps, is a relaxation that the model does not describe: cut these samples out of all arrays,
     ``keep = (time < start) | (time > stop)`` (s) with ``depth[keep], force[keep], time=time[keep]``. Rates
-    at the edges of the gap are those of the nearer samples.
+    at the edges of the gap are computed from the nearer samples.
 
-    **Adhesion** is that of an elastic medium, `q_c=inf`: the retract from one that yields does not
-    determine it. The states are those of `indent`, on record from before contact to after the pull-off.
-    E*, w and z₀ follow from the forces in contact. Which samples are in contact is taken from the data: a
-    soft cantilever loses contact earlier than the model, in which the depth is prescribed; a remark says by
-    what depth. The samples next to a jump into or out of contact have no weight; `path` and `residuals`
-    have the jumps of the model. Not together with `eta` or `depth_noise`.
+    **Adhesion** is fitted for an elastic medium only, `q_c=inf`, because the retract from a medium that
+    yields does not determine it. The states are computed as by `indent`; the record must extend from before
+    contact to after the pull-off. E*, w and z₀ follow from the forces in contact. The samples in contact
+    are found from the data, because a soft cantilever loses contact earlier than the model, in which the
+    depth is prescribed; a remark gives the difference in depth. The samples next to a jump into or out of
+    contact have no weight; `path` and `residuals` have the jumps of the model. Adhesion cannot be fitted
+    together with `eta` or `depth_noise`.
 
     **Classes.** Glass, metals and ceramics have a constant hardness, class (a); composites, PDMS and gold
     at the nanoscale q_c/a, class (b); a hardness that is larger when the contact is small is the sum of
     both. `fit.classes` has the fits of each class alone, and the report of one curve those that its samples
-    do not rule out. This presumes a tip that is known, and one loading without pop-ins and one unloading.
-    Two constants at once often are not told apart, which a remark says.
+    do not rule out. This assumes a known tip, one loading without pop-ins and one unloading. A curve often
+    does not distinguish two free constants; a remark reports this.
 
-    E* and the hardness are those of the model, whose contact radius on loading has the sink-in of an
-    elastic contact. A contact that flows has less: on fused silica E* is 82.7 GPa, of Oliver and Pharr
-    69.6 GPa. The hardness is the pressure where all of the contact yields, 14.3 GPa; the mean pressure over
-    the model's contact, whose rim is elastic, is 10.8 GPa; Oliver and Pharr's hardness, over their larger
-    contact, is 9.1 GPa, which is what indenters report. The report names all three.
+    E* and the hardness belong to the model, whose contact radius on loading has the sink-in of an elastic
+    contact. Plastic flow has less sink-in: on fused silica E* is 82.7 GPa, by Oliver and Pharr 69.6 GPa.
+    The hardness is the mean pressure of a fully yielded contact, 14.3 GPa. The mean pressure of the contact
+    in the model, whose rim is elastic, is 10.8 GPa. Oliver and Pharr's hardness, which instruments report,
+    refers to a larger contact and is 9.1 GPa. The report gives all three.
 
     **Not in the model**: relaxation over more than one time, adhesion that changes between approach and
-    retract, poroelastic flow, layers, finite thickness. Residuals then follow a curve; a remark says so
-    where they exceed 5 % of the force, 1 % where the medium yields. A tilt, a drag, a drift of the depth
+    retract, poroelastic flow, layers, finite thickness. Residuals are then systematic; a remark reports
+    them if they exceed 5 % of the force, or 1 % if the medium yields. A tilt, a drag, a drift of the depth
     and a force that is different on unloading (creep, hysteresis) are reported with the change of E* where
     they would lower the residuals in contact clearly, or change E* by more than its error at 3.3 standard
-    deviations; drag and drift only if `time` is given. Of clean curves 0.3 % have such a remark. The drift
-    of a medium that yields is measured in a hold; without one the report states the effect of 0.1 nm/s.
-    None of these is tested where E* is held or with adhesion. The numbers of Oliver and Pharr in the report
-    are those of a curve that the model fits, without viscosity and adhesion.
+    deviations; drag and drift only if `time` is given. Such a remark is made on 0.3 % of clean curves. If
+    the medium yields, the drift is measured in a hold; without a hold the report states the effect of 0.1
+    nm/s. If E* is held, or with adhesion, these effects are not tested. The report has the numbers of
+    Oliver and Pharr if the model fits the curve, without viscosity and adhesion.
 
     **Standard errors** come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the
     slope. In simulated curves deviations over errors have standard deviations of 0.9 to 1.2; with depth
     noise above 1/15 of the depth or above the critical depth 1.5 to 3, and E* is wrong by a sixth. Where
-    neighbouring residuals are correlated, errors are from block-wise sums of the score (Newey & West,
-    Econometrica 55, 1987, 703), the report says so, and `block_length` is the number of samples in a block.
-    Remarks name outliers, too few samples in contact, and too few blocks. `assets/fits.md` has how often E*
-    is within its errors on curves that deviate from the model, and what no test of a curve finds.
+    neighbouring residuals are correlated, errors are computed from block-wise sums of the score (Newey &
+    West, Econometrica 55, 1987, 703); the report states this, and `block_length` is the number of samples
+    in a block. Remarks name outliers, too few samples in contact, and too few blocks. `assets/fits.md`
+    lists how often E* is within its errors on curves that deviate from the model, and the deviations that
+    no test finds.
 
     Examples
     --------
@@ -261,7 +265,8 @@ def _without_invalid(profile, depth, force, time, held):
     sizes = [len(column) for column in columns]
     if len(set(sizes)) > 1:
         raise ValueError(
-            f"depth, force and time have {' and '.join(map(str, sizes))} curves: give one each"
+            f"depth, force and time must have the same number of curves, got "
+            f"{' and '.join(map(str, sizes))}"
         )
     curves, reasons = list(zip(*columns, strict=True)), {}
     for i, curve in enumerate(curves):
@@ -291,7 +296,7 @@ def _refuse_with_adhesion(held, noise):
     if not np.all(np.isinf(q_c)):
         given = "free" if np.isnan(q_c[0]) else engineering(q_c, "N/m")
         raise ValueError(
-            f"work_of_adhesion with q_c {given}: with adhesion a fit is of an elastic medium, q_c = inf; "
+            f"work_of_adhesion with q_c {given}: adhesion is fitted for an elastic medium only, q_c = inf; "
             "give q_c=np.inf, or work_of_adhesion=0"
         )
     for name, given in (("eta", "eta" not in held or held["eta"].any()), ("depth_noise", noise > 0)):

@@ -1,4 +1,4 @@
-"""Bounds of the moduli and hardnesses of materials, beyond which a result is that of no material."""
+"""Bounds of the moduli and hardnesses of materials, beyond which a result is implausible."""
 
 import numpy as np
 
@@ -26,6 +26,6 @@ def doubts(E_star, hardness):
         numbers.append(("H", hardness.max()))
     remedy = "give depth in m and force in N, from first contact on"
     return [
-        f"{symbol} = {engineering(float(f'{value:.3g}'), 'Pa')} is that of no material: {remedy}"
+        f"no material has {symbol} = {engineering(float(f'{value:.3g}'), 'Pa')}: {remedy}"
         for symbol, value in numbers
     ]

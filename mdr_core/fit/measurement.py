@@ -64,9 +64,9 @@ def measurement(depth, force, time, force_noise):
         for i, counts in enumerate(zip(*lengths, strict=False) if ndim == 2 else ()):
             if len(set(counts)) > 1:
                 shown = ", ".join(f"{name}[{i}] {n}" for name, n in zip(given, counts, strict=True))
-                raise ValueError(f"curve {i}: {shown} samples must be equally many")
+                raise ValueError(f"curve {i}: {shown} samples must be the same number")
         shown = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-        raise ValueError(f"{shown} must be of one shape, (N,) for a curve or (R, N) for many")
+        raise ValueError(f"{shown} must have the same shape, (N,) for one curve or (R, N) for many")
     if not values["depth"].size:
         raise ValueError("depth and force are empty: a curve needs more samples than free parameters")
     if force_noise is not None:
@@ -78,7 +78,7 @@ def measurement(depth, force, time, force_noise):
     values = {name: values.get(name) for name in ("depth", "force", "time", "force_noise")}
     measured = Measurement(**values, lengths=np.array(lengths[0]), single=ndim == 1)
     if not measured.used.any():
-        raise ValueError("depth and force have no samples in which both are finite")
+        raise ValueError("no sample of depth and force has finite values of both")
     return measured
 
 

@@ -1,4 +1,4 @@
-"""Whether a tilt, a drag, a drift of the depth or another force on unloading fits a curve better.
+"""Tests whether a tilt, a drag, a drift of the depth or another force on unloading fits a curve better.
 
 Each is one more linear parameter. With residuals r, their derivatives J by the fitted parameters and c by
 another one, v, the least squares of r + J δ + c v give v and the change δ of the parameters. It is said
@@ -20,12 +20,18 @@ from .errors import SIGNIFICANT, SINGULAR, block_length, roughness
 _TESTS = {
     "tilt": ("a tilt of {}", "N/m", 1.5, "give tilt=None and baseline=None"),
     "drag": ("a drag of {}", "N·s/m", 1.3, "give drag=None"),
-    "drift": ("a drift of {}", "m/s", 1.6, "the force changes at rest: drift, or a medium that relaxes"),
+    "drift": (
+        "a drift of {}",
+        "m/s",
+        1.6,
+        "the force changes at rest: the depth drifts, or the medium relaxes",
+    ),
     "unloading": (
         "a force that changes by {} on unloading",
         "%",
         np.inf,
-        "creep or hysteresis of the scanner or the medium, or a drag; compare with the loading alone",
+        "creep or hysteresis of the scanner or the medium, or a drag; compare with a fit of the "
+        "loading alone",
     ),
 }
 #: Standard deviations from which on one of them is significant, and change of E* in its errors beyond which
@@ -86,8 +92,8 @@ def nested_tests(solved, i):
 def _sentence(name, size, factor, change):
     what, unit, _, follows = _TESTS[name]
     return (
-        f"{what.format(engineering(size, unit))} lowers the misfit in contact {factor:.3g} times, and "
-        f"changes E* by {change:+.1f} of its errors: {follows}"
+        f"{what.format(engineering(size, unit))} would lower the misfit in contact by a factor of "
+        f"{factor:.3g} and change E* by {change:+.1f} standard errors: {follows}"
     )
 
 
@@ -141,8 +147,8 @@ def _in_a_hold(curves, state, i, contact, change):
         if abs(change) * _COMMON > _LEAST_CHANGE:
             yield (
                 "rest",
-                f"no hold tells the drift of the depth: one of {engineering(_COMMON, 'm/s')} over the "
-                f"{duration:.3g} s from first contact on changes E* by {100 * change * _COMMON:+.2g} %",
+                f"no hold shows the drift of the depth: a drift of {engineering(_COMMON, 'm/s')} over the "
+                f"{duration:.3g} s after first contact would change E* by {100 * change * _COMMON:+.2g} %",
             )
         return
     rate = np.polyfit(time[hold], depth[hold], 1)[0]
@@ -150,8 +156,8 @@ def _in_a_hold(curves, state, i, contact, change):
         yield (
             "rest",
             f"in the hold at {engineering(curves.force[i][hold.start], 'N')} the depth changes by "
-            f"{engineering(rate, 'm/s')}: creep, or a drift, which from first contact on changes E* by "
-            f"{100 * change * rate:+.2g} %",
+            f"{engineering(rate, 'm/s')}: this is creep, or a drift that since first contact would "
+            f"change E* by {100 * change * rate:+.2g} %",
         )
 
 

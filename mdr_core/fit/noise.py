@@ -1,4 +1,4 @@
-"""Whether residuals are noise as standard errors presume it: independent, and of many samples.
+"""Tests whether residuals are independent noise of many samples, as standard errors assume.
 
 They may follow a curve, have outliers, be correlated over a large part of the curve, or be few.
 """
@@ -62,8 +62,8 @@ def _jitter(solved, i):
         size = engineering(noise, "m")
         yield (
             "jitter",
-            f"the depth goes back and forth at {reversals} of {depth.size - 1} samples, and its noise "
-            f"counts as new largest depths: E* is biased; give depth_noise, about {size}",
+            f"the depth goes back and forth at {reversals} of {depth.size - 1} samples, and its noise is "
+            f"taken for new largest depths: E* is biased; give depth_noise, about {size}",
         )
 
 
@@ -76,18 +76,18 @@ def _misfit(solved, i):
     largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
     if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
         letters = [f"({letter})" for letter, name in CLASSES.items() if name in curves.constants]
-        cause = "not an elastic medium" if curves.held_elastic else f"not class {' + '.join(letters)}"
-        remedy = "; give time, which tells drag and drift" * (curves.time is None and not curves.adhesive)
+        cause = "not elastic" if curves.held_elastic else f"not of class {' + '.join(letters)}"
+        remedy = "; give time, to test for drag and drift" * (curves.time is None and not curves.adhesive)
         yield (
             "misfit",
-            f"the residuals ({100 * size:.2g} % of the force) follow a curve (correlation of neighbours "
-            f"{correlation:.2f}): {cause}, or another profile{remedy}",
+            f"the residuals ({100 * size:.2g} % of the force) are systematic (correlation of neighbours "
+            f"{correlation:.2f}): the medium is {cause}, or the tip has another profile{remedy}",
         )
     elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > _EXACT:
         yield (
             "noisy",
             f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
-            "larger than the noise that is given",
+            "larger than the given noise",
         )
 
 
@@ -105,7 +105,7 @@ def _outliers(solved, i):
         yield (
             "outliers",
             f"about {single} of {residual.size} samples are outliers, more than {_OUTLIER:g} standard "
-            "deviations from their neighbours: set them to NaN, or E* is off by more than its error",
+            "deviations from their neighbours: set them to NaN; with them E* is off by more than its error",
         )
 
 
@@ -118,7 +118,7 @@ def _blocks(solved, i):
         yield (
             "blocks",
             f"neighbouring residuals are correlated over {length} of {count} samples: the standard errors "
-            "are from few blocks, and up to twice too small",
+            "are estimated from few blocks, and may be too small by up to a factor of two",
         )
 
 
@@ -130,6 +130,6 @@ def _few(solved, i):
     if names and count < len(names) + _SPARE:
         yield (
             "few",
-            f"only {count} samples are in contact for {' and '.join(names)}: errors are hardly known; "
-            "record more",
+            f"only {count} samples are in contact for {' and '.join(names)}: the standard errors are "
+            "uncertain; record more",
         )

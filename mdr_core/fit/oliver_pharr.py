@@ -47,7 +47,7 @@ def oliver_pharr(
     beta: float = 1.0,
     cycles: bool = False,
 ) -> "OliverPharr":
-    """Modulus and hardness from the unloadings of one force–depth curve: Oliver and Pharr (1992).
+    """Compute modulus and hardness from the unloadings of a force–depth curve by Oliver and Pharr (1992).
 
     F = α (h − h_f)^m is fitted to the upper half of the unloading: samples after the largest depth, from
     the last one with 99 % of the force, so that a hold is left out, to the first one below half of it. F
@@ -95,8 +95,9 @@ def oliver_pharr(
 
     **First contact.** A record begins in the air where the force of its first 20 samples and more is noise
     about a constant, over 2 % of the largest depth or more. A power law of the depth from first contact on
-    is then fitted to the beginning of the loading. Its z₀ is `contact_point`, whose error is in those of
-    the results. Otherwise depths are as given and `contact_point` is 0. A remark says which.
+    is then fitted to the beginning of the loading. Its z₀ is `contact_point`, whose error is included in
+    the errors of the results. Otherwise depths are taken as given and `contact_point` is 0. A remark names
+    the case.
 
     **Creep** at the start of an unloading makes S too large. With `time`, and a hold of the force before
     the unloading, the depth of the unloading is reduced by creep at the rate ḣ of the end of the hold: at
@@ -174,13 +175,13 @@ def _columns(depth, force, time, stiffness):
     shapes = {array.shape for array in arrays.values()}
     if len(shapes) > 1 or arrays["depth"].ndim != 1:
         shown = " and ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise ValueError(f"{shown} must be of one curve, (N,) all")
+        raise ValueError(f"{shown} must have the same shape, (N,) for one curve")
     used = np.logical_and.reduce(
         [np.isfinite(array) for name, array in arrays.items() if name != "stiffness"]
     )
     arrays = {name: array[used] for name, array in arrays.items()}
     if not arrays["depth"].size:
-        raise ValueError("depth and force have no samples: five or more of an unloading are needed")
+        raise ValueError("depth and force have no samples: an unloading needs five or more")
     if "time" in arrays:
         # Segments of a file may share the time at which one ends and the next begins.
         back = np.diff(arrays["time"], prepend=-np.inf) < 0
@@ -227,8 +228,8 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
     if not results:
         raise ValueError(remarks[0])
     if len(parts) > 1 and not cycles:
-        text = f"unloading {taken} of {len(parts)} was taken, the one after the largest depth"
-        remarks.insert(0, f"{text}; each of them can be evaluated")
+        text = f"unloading {taken} of {len(parts)}, which follows the largest depth, was evaluated"
+        remarks.insert(0, f"{text}; give cycles=True for each of them")
     return results, remarks
 
 
@@ -248,7 +249,9 @@ def _with_creep(profile, depth, force, time, constants, contact):
         if rise:
             notes.append(creeping.sentence_of_rise(rise))
         if time is not None:
-            notes.append("no hold of the force before the unloading tells its creep: nothing is corrected")
+            notes.append(
+                "no hold of the force before the unloading shows its creep: creep is not corrected"
+            )
         return (uncorrected, uncorrected), notes
     corrected, shifted = (
         _values_and_errors(profile, creep.without(depth, time, n), force, constants, contact)
@@ -274,8 +277,8 @@ def _values_and_errors(profile, depth, force, constants, contact):
     # A contact radius of 0 or ∞ makes the modulus or the hardness so.
     if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
         raise ValueError(
-            f"the contact depth h − ε F/S = {values[1]:g} m must be positive and within the profile: depth "
-            "counts from first contact, force from the baseline"
+            f"the contact depth h − ε F/S = {values[1]:g} m must be positive and within the profile: "
+            "give depth from first contact, and force from the baseline"
         )
     parts = [values, *(results(*other) for other in others)]
     spread = np.ptp([part for part in parts if np.isfinite(part).all()], axis=0) / 2
@@ -302,8 +305,8 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     used &= contact_depth < profile.known_depth
     if not used.any():
         raise ValueError(
-            "no sample has a positive stiffness (N/m), force and contact depth h − ε F/S: depth counts "
-            "from first contact, force from the baseline"
+            "no sample has a positive stiffness (N/m), force and contact depth h − ε F/S: give depth from "
+            "first contact, and force from the baseline"
         )
 
     def at(shift):
@@ -321,7 +324,11 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     values = {"depth": depth, "stiffness": np.where(used, stiffness, np.nan), **values}
     values["contact_point"] = np.full(depth.size, contact.depth)
     without = np.count_nonzero(~used)
-    remarks = [f"{without} of {used.size} samples have no contact or no stiffness: NaN"] if without else []
+    remarks = (
+        [f"{without} of {used.size} samples have no contact or no stiffness: their results are NaN"]
+        if without
+        else []
+    )
     frozen = {name: _check.frozen(value) for name, value in values.items()}
     errors = {"stiffness": noise} | errors
     if contact.depth_error:

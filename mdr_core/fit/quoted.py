@@ -1,4 +1,4 @@
-"""The number of a fit that is to be quoted, and the results of Oliver and Pharr beside a fit."""
+"""The modulus to quote from a fit, and the results of Oliver and Pharr for the fitted curve."""
 
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -98,7 +98,7 @@ def unloading(fit) -> tuple[OliverPharr | None, str]:
     """
     for name, text in (("eta", "viscous"), ("work_of_adhesion", "adhesive")):
         if name in fit.standard_errors or getattr(fit.medium, name) > 0:
-            return None, f"the medium is {text}: its unloading is no power law of the depth"
+            return None, f"the medium is {text}: its unloading does not follow a power law"
     # Beside a law of hardness that does not fit, these are of the law, not of the force.
     if not _doubts(fit, {"misfit"}) and (doubts := _doubts(fit, OF_THE_FORCE)):
         return None, f"the force of the contact is not known: {doubts[0]}"
@@ -107,11 +107,11 @@ def unloading(fit) -> tuple[OliverPharr | None, str]:
     try:
         result = _evaluated(fit, fit.path.depth, force)
         if "contact_point" in result.standard_errors:
-            return result, "is that of the record, which begins in the air"
+            return result, "is taken from the record, which begins in the air"
         if "contact_point" not in fit.standard_errors:
             return result, "is held"
         if _begins_at_contact(fit.depth, force):
-            return _evaluated(fit, fit.depth, force), "is the zero of the depths"
+            return _evaluated(fit, fit.depth, force), "is at depth 0"
         if doubts := _doubts(fit, DOUBTS):
             return (
                 None,
@@ -125,7 +125,7 @@ def unloading(fit) -> tuple[OliverPharr | None, str]:
         name: np.hypot(error, getattr(shifted, name) - getattr(result, name))
         for name, error in result.standard_errors.items()
     }
-    return replace(result, standard_errors=errors), "is that of the fit"
+    return replace(result, standard_errors=errors), "is taken from the fit"
 
 
 def _evaluated(fit, depth, force):

@@ -34,7 +34,7 @@ _ENORMOUS, _LARGE, _SOFTEST, _BEYOND_TIP = 1.0, 1e-2, 1e3, 10.0
 #: has; least share of samples at which depths turn, and least median step, as a share of their range, of a
 #: record without order; least number of samples that tell it.
 _REVERSED, _TURNS, _STEPS, _FEW = 0.05, 0.4, 0.1, 10
-_SWAPPED, _NO_CONTACT = "depth and force are swapped", "no contact is seen in this record"
+_SWAPPED, _NO_CONTACT = "depth and force are swapped", "this record shows no contact"
 #: Least distance of the pull-off from that of the model, as a share of the range of depth.
 _PULL_OFF = 0.02
 
@@ -62,7 +62,7 @@ def by_importance(remarks):
 
 def missing(used, samples):
     """A remark on samples that are left out."""
-    text = f"left out: {samples - used} of {samples} samples, without a number"
+    text = f"{samples - used} of {samples} samples have no number and are left out"
     return {"missing": text} if used < samples else {}
 
 
@@ -71,7 +71,7 @@ def _units(solved, i):
     curves, values = solved.curves, solved.values_and_states[0]
     if _is_enormous(solved, i):
         reached = engineering(np.ptp(curves.depth[i]), "m")
-        text = f"the depths of this record differ by {reached}, which is no indentation by this tip"
+        text = f"the depths of this record extend over {reached}, too far for an indentation by this tip"
         columns = curves.depth[i], curves.force[i]
         swapped = _shares_of_others(*columns).get(_SWAPPED, 0.0) >= max(
             _EXPLAINED, _share_of_contact(*columns)
@@ -103,7 +103,7 @@ def _units(solved, i):
             yield "no contact", f"{text}: {_NO_CONTACT}"
     elif not plausible:
         small = E < 1.0 and np.ptp(depth) < _LONGEST
-        text = f"E* = {engineering(E, 'Pa')} is that of no material"
+        text = f"no material has E* = {engineering(E, 'Pa')}"
         if small and not swapped and not _contact_is_seen(depth, force):
             yield "no contact", f"{text}: {_NO_CONTACT}"
         else:
@@ -128,10 +128,10 @@ def _order(solved, i):
     steps = np.diff(depth)
     turns = np.mean(steps[1:] * steps[:-1] < 0)
     if turns > _TURNS and np.median(np.abs(steps)) > _STEPS * np.ptp(depth):
-        text = "depths go up and down from sample to sample, as in a record that is shuffled"
+        text = "depths go up and down from sample to sample, as in a shuffled record"
         yield "order", f"{text}: give the samples in the order in which they were measured"
     elif _rise_after(depth, force) > _REVERSED * np.ptp(force):
-        text = "forces are larger after the largest depth than before it, as in a record that is reversed"
+        text = "forces are larger after the largest depth than before it, as in a reversed record"
         yield "order", f"{text}: give the samples in the order in which they were measured"
 
 
@@ -154,9 +154,9 @@ def _rise_after(depth, force):
 def _shares_of_others(depth, force):
     """`_share_of_contact` of the columns exchanged or with the other sign, by what is wrong then."""
     others = {
-        "the depth has the other sign, it must grow as the indenter goes in": (-depth, force),
-        "the force has the other sign, it must be positive in compression": (depth, -force),
-        "depth and force have the other sign": (-depth, -force),
+        "the depth has the wrong sign, it must be positive into the medium": (-depth, force),
+        "the force has the wrong sign, it must be positive in compression": (depth, -force),
+        "depth and force have the wrong sign": (-depth, -force),
     }
     if np.ptp(force) < _LONGEST and 1.0 < np.ptp(depth) / np.ptp(force) ** 2 < 1e13:
         others[_SWAPPED] = force, depth
@@ -194,9 +194,9 @@ def _ambiguous(solved, i):
     curves, squares = solved.curves, np.sum(solved.minimum.residual[i] ** 2)
     for name, at_bound in zip(curves.free, solved.minimum.at_bound[i], strict=False):
         if at_bound and name == "eta":
-            yield "inviscid", "no viscosity within the noise: η = 0; hold eta = 0"
+            yield "inviscid", "the viscosity is 0 within the noise: hold eta = 0"
         elif at_bound and name not in TOGETHER:
-            yield f"bound:{name}", f"{name} is at the bound of its search: hold it, or check the data"
+            yield f"bound:{name}", f"{name} is at the bound of its range: hold {name}, or check the data"
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
     if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
         rival = curves.rows([i]).values(solved.rival[[i]])
@@ -224,8 +224,9 @@ def _adhesion(solved, i):
         measured, model, difference = (engineering(z, "m") for z in (*lost, lost[1] - lost[0]))
         yield (
             "contact",
-            f"contact is lost at z = {measured}, in the model at {model} (model less data {difference}): a "
-            "soft cantilever loses it earlier, or adhesion differs between approach and retract",
+            f"contact is lost at z = {measured} in the data and at {model} in the model (difference "
+            f"{difference}): a soft cantilever loses contact earlier, or adhesion differs between "
+            "approach and retraction",
         )
 
 
@@ -241,7 +242,7 @@ def _undetermined(solved, i):
     errors = solved.errors(i)
     constants = [name for name in solved.curves.constants if name in errors]
     if solved.elastic[i] and constants:
-        yield "elastic", f"nothing has yielded within the noise: {_hardest(solved, i)}"
+        yield "elastic", f"no yield is seen beyond the noise: {_hardest(solved, i)}"
         return
     if len(constants) > 1:
         yield from _constants(solved, i, constants)
@@ -249,7 +250,7 @@ def _undetermined(solved, i):
     error = errors.get("E_star", 0.0)
     if solved.curves.held_elastic:
         if _VAGUE < error < np.inf:
-            yield "vague", f"the data hardly determine E* (to {100 * error:.2g} %): hold E_star"
+            yield "vague", f"the data determine E* only to {100 * error:.2g} %: hold E_star"
     elif unloading < 2 and error > _VAGUE_LOADING:
         share = f"to {100 * error:.2g} %"
         text = f"loading alone hardly determines E* ({share}): record the unloading, or hold E_star"
@@ -258,13 +259,13 @@ def _undetermined(solved, i):
         recovered = "critical depth" if solved.curves.constants == ("q_c",) else "recovered depth"
         yield (
             "vague",
-            f"the unloading hardly determines E* (to {100 * error:.2g} %): there are {unloading} samples "
+            f"the unloading determines E* only to {100 * error:.2g} %: there are {unloading} samples "
             f"within the {recovered} of {engineering(state.cap[i, -1], 'm')}; record more of them, or hold "
             "E_star",
         )
     for name, error in errors.items():
         if error == np.inf and name != "work_of_adhesion":
-            text = f"the data do not determine {name}: hold it, or a parameter that it is correlated with"
+            text = f"the data do not determine {name}: hold {name} or a parameter correlated with it"
             yield f"undetermined:{name}", text
 
 
@@ -273,11 +274,11 @@ def _hardest(solved, i):
     values, state = solved.values_and_states
     depth = state.depth[i].max()
     if solved.curves.constants == ("q_c",):
-        stands = f"q_c = ∞ stands for a critical depth of more than about {engineering(depth, 'm')}"
-        return f"{stands}; press deeper"
+        least = engineering(depth, "m")
+        return f"q_c = ∞ means a critical depth above about {least}; press deeper"
     radius = solved.curves.profile.radius_at(np.minimum(depth, solved.curves.profile.known_depth))
     least = engineering(2 * values["E_star"][i, 0] * depth / (np.pi * radius), "Pa")
-    return f"the medium is elastic, and harder than about {least} in the largest contact"
+    return f"the medium is elastic, and its hardness at the largest contact radius is above about {least}"
 
 
 def _constants(solved, i, names):
@@ -291,6 +292,6 @@ def _constants(solved, i, names):
         symbol = PARAMETERS[name].quantity.symbol
         yield (
             "constants",
-            f"the data do not tell {symbols} apart: {symbol} is {shares[name]:.2g} of its errors; "
-            f"hold {name} = 0",
+            f"the data do not distinguish {symbols}: {symbol} is {shares[name]:.2g} times its standard "
+            f"error; hold {name} = 0",
         )

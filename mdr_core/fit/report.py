@@ -97,7 +97,9 @@ class Fit(Record):
     def correlations(self) -> dict[tuple[str, str], float]:
         """Correlations above 0.9 of two parameters of one fit, by their names."""
         if self.shape:
-            raise TypeError("correlations are those of one fit: pick it, as in fit[0].correlations")
+            raise TypeError(
+                "correlations are defined for a single fit: select one, as in fit[0].correlations"
+            )
         sigma, names, correlations = np.sqrt(np.diag(self.covariance)), list(self.standard_errors), {}
         for i, j in combinations(range(len(names)), 2):
             if 0 < sigma[i] * sigma[j] < np.inf:

@@ -127,7 +127,9 @@ class IndentationFit(Fit):
 
     def _refuse_invalid(self, what):
         for i, reason in self.invalid.items():
-            raise ValueError(f"{what}: curve {i} was {reason}; take those that were, by fit[numbers]")
+            raise ValueError(
+                f"{what}: curve {i} was {reason}; select the fitted curves, as in fit[numbers]"
+            )
 
     @cached_property
     def classes(self) -> dict[str, ClassFit]:

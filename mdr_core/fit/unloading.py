@@ -64,8 +64,8 @@ def _part(depth, force, upper, lower):
     h, F = (values[first[-1] if first.size else end : end] for values in (h, F))
     if h.size < 5 or h.min() == 0:
         raise ValueError(
-            f"{h.size} samples of the upper half of an unloading, 5 or more are needed: after the largest "
-            f"depth, {depth[start]:g} m (sample {start + 1} of {depth.size}), depth and force must fall"
+            f"the upper half of an unloading has {h.size} samples, 5 or more are needed: after the largest "
+            f"depth, {depth[start]:g} m (sample {start + 1} of {depth.size}), depth and force must decrease"
         )
     return h, F
 
@@ -86,8 +86,8 @@ def _power_law(h, force):
     minimum = least_squares(function, start, _LOWER, _UPPER)
     if minimum.at_bound.any():
         raise ValueError(
-            "the upper half of the unloading is no power law: the depth creeps, or the samples are "
-            "not in the order of time"
+            "the upper half of the unloading does not follow a power law: the depth creeps, or the samples "
+            "are not in the order of time"
         )
     _, s, vt = np.linalg.svd(minimum.jacobian[0], full_matrices=False)
     scatter = np.sqrt(minimum.squares[0] / (h.size - 3))

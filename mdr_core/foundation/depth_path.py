@@ -54,7 +54,7 @@ def indent_in_time(
     profile, medium
         The indenter and the medium.
     depth : array_like, shape (N,)
-        Indentation depths d (m), linear in between; the first one is reached infinitely slowly.
+        Indentation depths d (m), linear in between; the first depth is reached quasi-statically.
     time : array_like, shape (N,)
         Increasing times (s).
     tolerance : float, optional
@@ -181,12 +181,12 @@ class Ramps:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TimedIndentation(Result):
-    """States of a viscous indentation at the times of its path; made by `indent_in_time` or `creep`.
+    """States of a viscous indentation at the times of its path, returned by `indent_in_time` or `creep`.
 
-    `model` says what solved it: the chain, or a scalar law of creep.
+    `model` is the method of solution: the chain, or the scalar equations of creep.
 
     Every quantity has the shape of `time`; `result[i]` is one state. Where the rate changes, force and
-    fields are those at the end of the earlier piece.
+    fields belong to the end of the earlier piece.
 
     Examples
     --------

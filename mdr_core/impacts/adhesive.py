@@ -232,7 +232,7 @@ def _step(profile, medium, upper, kinetic, inertia):
 
 @_check.keywords_explained
 def capture_speeds(profile: Profile, medium: Medium, mass: ArrayLike) -> tuple[Array, Array]:
-    """Speeds (m/s) between which a body bounces off a virgin medium with adhesion.
+    """Compute the speeds (m/s) between which a body rebounds from a virgin medium with adhesion.
 
     Slower bodies are captured because their kinetic energy is less than the work of adhesion, and on a
     medium that yields faster ones because the imprint holds them.

@@ -28,7 +28,7 @@ def impact(
     *,
     plastic_depth: ArrayLike = 0.0,
 ) -> Impact:
-    """Let a body of given mass hit the medium at given speed, with no other force acting.
+    """Solve the impact of a free body of given mass and speed on a medium.
 
     Contact starts at the bottom of the imprint (depth 0 on a virgin medium), and ends at zero force, with
     adhesion at the pull-off.

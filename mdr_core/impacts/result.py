@@ -22,7 +22,7 @@ from .scaling import FastLimit, fast_limit
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Impact(Entries, ImpactResult):
-    """One impact or many; made by `impact`. `result[i]` picks one.
+    """Results of one or many impacts, returned by `impact`; `result[i]` selects one.
 
     `turning_point` is the state of largest depth; `plastic_depth_increase` (m) is due to this impact alone.
     A subclass is the solution by one solver, which gives `restitution`, the coefficient e, 0 for a captured

@@ -24,7 +24,7 @@ MAX_ERROR = 0.1
 
 @dataclass(frozen=True)
 class ScalingLaw:
-    """Powers of the impact energy W in the limit of very fast impacts on a class of hardness.
+    """Power laws in the impact energy W for very fast impacts on a medium of one class of hardness.
 
     With F ∝ aⁱ and a ∝ d^(1/n), the work is proportional to d^((n + i)/n), the elastic energy to F²/a.
 
@@ -98,7 +98,7 @@ class HardnessClass:
 
 
 def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> HardnessClass:
-    """Class of hardness from the radii of imprints of fast impacts as a function of energy.
+    """Determine the class of hardness from the radii of imprints of fast impacts at several energies.
 
     The slope of ln(radius) over ln(energy) is compared with 1/(n + i). A class fits within two standard
     errors, or within 10 %, because real impacts are only approximately fast.

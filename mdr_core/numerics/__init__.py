@@ -1,1 +1,1 @@
-"""Numerics that know nothing of mechanics: quadrature, collocation, roots, stable functions."""
+"""Numerical methods, independent of mechanics: quadrature, collocation, roots, stable functions."""

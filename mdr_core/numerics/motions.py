@@ -82,7 +82,7 @@ class MotionResult(Result):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Motion(MotionResult):
-    """Motion of one impact from first contact to loss of contact, as arrays of one length.
+    """Motion of one impact from first contact to loss of contact, as arrays of equal length.
 
     The turning point is among the instants. On unloading from a viscous medium the edge of the contact is
     where g = d_p + ℓ, which is less than the depth d; elements outside are released and relax. The sum of
@@ -100,7 +100,7 @@ class Motion(MotionResult):
         Plastic depth d_p and length ℓ of the live interval [d_p, d_p + ℓ] (m); ℓ is the elastic
         compression of the spring at the axis under the load.
     kinetic_energy, stored_energy, plastic_work, viscous_work : ndarray
-        Energies (J). The stored energy is that of all springs, released ones included.
+        Energies (J). The stored energy includes released springs.
     states : Indentation or None
         States of the contact at each instant, with pressure and surface; None for the chain.
     impact : Impact, ChainImpact or None

@@ -144,7 +144,7 @@ class Record:
 
     def __len__(self) -> int:
         if not self.shape:
-            raise TypeError(f"this {self._name} is a single one and has no length; .shape is ()")
+            raise TypeError(f"this {self._name} is a single result and has no length; .shape is ()")
         return self.shape[0]
 
     def __bool__(self) -> bool:
@@ -153,7 +153,7 @@ class Record:
     def __iter__(self) -> Iterator[Self]:
         if not self.shape:
             name = self._name
-            raise TypeError(f"this {name} is a single one: there is nothing to iterate over")
+            raise TypeError(f"this {name} is a single result: there is nothing to iterate over")
         return (self[i] for i in range(self.shape[0]))
 
     if not TYPE_CHECKING:
@@ -165,7 +165,7 @@ class Record:
 
     def __array__(self, *_: Any, **__: Any) -> NoReturn:
         raise TypeError(
-            f"a result ({self._name}) is many quantities, not one array: take one, as in result."
+            f"a result ({self._name}) has many quantities and is not one array: take one, as in result."
             f"{self._shown[0]}, or all by to_pandas() or to_xarray()"
         )
 
@@ -206,8 +206,8 @@ class Record:
         """Refuses a result of several entries where a single one is needed."""
         if self.shape:
             raise ValueError(
-                f"{what} is that of one {self._noun}, but these are of shape {self.shape}; pick one first, "
-                f"as in result[-1].{what}(…)"
+                f"{what} needs a single {self._noun}, but this result has shape {self.shape}; select "
+                f"one first, as in result[-1].{what}(…)"
             )
 
     def _source(self) -> Any:
@@ -219,7 +219,7 @@ class Record:
         return ()
 
     def __getitem__(self, index: Any) -> Self:
-        raise TypeError(f"this {self._name} is a single one: it has no entries")
+        raise TypeError(f"this {self._name} is a single result: it has no entries")
 
     def __repr__(self) -> str:
         return above("show.report").text(self)

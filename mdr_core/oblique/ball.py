@@ -11,7 +11,7 @@ from .oblique_impact import ObliqueImpact
 
 
 def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
-    """Normal and tangential speed (m/s) of a body at some speed (m/s) and angle of incidence (rad).
+    """Compute the normal and tangential speed (m/s) from the speed (m/s) and the angle of incidence (rad).
 
     The angle is that to the normal, π/2 less the angle of attack, between −π/2 and π/2. Use as in
     `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
@@ -34,7 +34,7 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
 
 @dataclass(frozen=True)
 class Ball:
-    """A ball that may spin: the speed of its contact point, and the change of its spin by an impact.
+    """Ball that may spin, with the speed of its contact point and the change of its spin in an impact.
 
     With spin Ω (rad/s) and the speed V of the centre, the contact point has the speed v_t = V + RΩ:
     backspin is positive, and the ball rolls if V = −RΩ.

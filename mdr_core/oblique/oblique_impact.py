@@ -37,7 +37,7 @@ def oblique_impact(
     tangential_mass: ArrayLike | None = None,
     tolerance: float = 1e-5,
 ) -> "ObliqueImpact":
-    """Let a body hit the medium with a speed along the surface as well, under Coulomb's friction.
+    """Solve the impact of a body with a normal and a tangential speed under Coulomb's friction.
 
     Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff and as
     viscous (Mindlin; outlook of Popov 2015). It sticks while its load is at most μ times the normal load of
@@ -60,7 +60,7 @@ def oblique_impact(
     tolerance : float, optional
         Error allowed in the tangential velocity relative to the tangential speed and in the largest force
         relative to itself; on a viscous medium in works, too, relative to themselves (or to a hundredth of
-        the tangential energy, where work is less). Where it is not met, `limits` say so.
+        the tangential energy, where work is less). `limits` report where the tolerance is not met.
 
     Returns
     -------
@@ -123,7 +123,7 @@ class ObliqueErrors(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ObliqueImpact(Entries, Result):
-    """Oblique impacts, one or many; made by `oblique_impact`. `result[i]` picks one of many.
+    """Results of one or many oblique impacts, returned by `oblique_impact`; `result[i]` selects one.
 
     `normal` is the `Impact` along the normal, with all of its quantities.
 
@@ -279,8 +279,8 @@ class ObliqueImpact(Entries, Result):
     def motion(self, n: int = 200) -> ObliqueMotion:
         """The motion of one impact at n instants, normal and tangential, with stick and slip.
 
-        Instants are equally spaced before the turning point, and again after it. The elements are those of
-        the finest run.
+        Instants are equally spaced before the turning point, and again after it. The motion is the finest
+        run of the solver.
 
         Examples
         --------

@@ -100,7 +100,7 @@ class Cone(Profile):
         """Cone with the force of a four-sided pyramid, as of an AFM tip, at each depth.
 
         The half-angle α is between the axis and a face, in degrees between 0 and 90. F = 0.7453 E* d² tan α
-        (Bilodeau, J. Appl. Mech. 59, 1992, 519), which is that of a cone of slope 2/(0.7453 π tan α).
+        (Bilodeau, J. Appl. Mech. 59, 1992, 519), as for a cone of slope 2/(0.7453 π tan α).
 
         Examples
         --------

@@ -20,7 +20,7 @@ _MOST_SAMPLES = 5000
 
 @dataclass(frozen=True, repr=False)
 class Sampled(Profile):
-    """The polygon through samples of the height, solved exactly.
+    """Profile that is the polygon through samples of its height, solved exactly.
 
     Its reduced height is x Σ sᵢ [arcsin(min(rᵢ₊₁, x)/x) − arcsin(rᵢ/x)] with slopes sᵢ, from Popov (2015),
     Eq. (3). It must be convex: outside a concave vertex g falls, and the contact would not be compact.
@@ -97,9 +97,9 @@ class Sampled(Profile):
         The fit is unbiased where the contact has many samples. Samples on one side that are missed by more
         than 0.5 % of their height are refused if this is not noise: if eight samples or more are missed by
         more than four times the noise between neighbours, or if the misfit of 50 samples or more is a wave,
-        which has about half of its variance or more.
-        Noise of the heights limits what is known of the tip: from 400 heights with a noise of 2 nm at radii
-        up to 0.5 µm, on a tip of 1 µm radius, forces at a depth of 20 nm scatter by 4 %.
+        which has about half of its variance or more. Noise of the heights makes the tip uncertain: with 400
+        heights with a noise of 2 nm at radii up to 0.5 µm, on a tip of 1 µm radius, forces at a depth of 20
+        nm scatter by 4 %.
 
         Parameters
         ----------
@@ -120,7 +120,7 @@ class Sampled(Profile):
         """
         r, z = _lists("Sampled.fit", r, z)
         if np.unique(np.abs(r)).size < 3:
-            raise ValueError("a fit needs three radii or more that differ")
+            raise ValueError("a fit needs three or more different radii")
         return cls(*convex_fit(r, z))
 
     @classmethod
@@ -133,7 +133,7 @@ class Sampled(Profile):
         The area function of instrumented indentation (Oliver and Pharr 1992). The profile is a polygon;
         where it is slightly concave, as calibrated ones are, neighbouring slopes are averaged. Near the
         tip, up to 5 % of the height, the function may fall or be negative: the profile is a cone there.
-        ``tip.remarks`` says by how much heights were changed, and so does its text.
+        ``tip.remarks`` and the text of the tip give the largest change of the heights.
 
         Parameters
         ----------
@@ -326,5 +326,5 @@ def _lists(what, r, z, **bounds):
     z = _check.finite_array(f"{what} z", z, unit="m", **bounds)
     if r.ndim != 1 or r.shape != z.shape or r.size < 2:
         shapes = f"got shapes {r.shape}, {z.shape}"
-        raise ValueError(f"{what} r and z must be two lists of one length ≥ 2, {shapes}")
+        raise ValueError(f"{what} r and z must be two lists of the same length, 2 or more, {shapes}")
     return r, z

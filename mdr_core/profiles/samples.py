@@ -1,4 +1,4 @@
-"""Samples of a profile: the convex ones nearest to heights, and those of an area function."""
+"""Samples of a profile: convex samples nearest to measured heights, and samples of an area function."""
 
 import numpy as np
 import scipy
@@ -77,7 +77,7 @@ def _nearest_convex(r, z):
     _, _, *bends = scipy.optimize.nnls(columns, (z - z.mean()) / size)[0]
     bends = np.array(bends) * size / radii[-1]
     if not np.any(bends > 0):
-        raise ValueError("z does not rise from the axis outward: use FlatPunch, or turn its sign")
+        raise ValueError("z does not increase with r: use FlatPunch, or change the sign of z")
     used = (bends > 0) | (kinks == 0)
     kinks, bends = kinks[used], bends[used]
     vertices = np.append(kinks, radii[-1])
@@ -100,9 +100,9 @@ def _refuse_misfit(r, residual, height):
         miss = _in_words(miss)
         worst = _in_words(r[order][np.argmax(np.abs(residual))])
         raise ValueError(
-            f"the nearest convex profile misses the samples by {miss} (rms, most at r = "
-            f"{worst}), which is not noise: the tip is wavy or concave, so that the contact would "
-            "not be compact; smooth the samples, or leave out those outside the convex part"
+            f"the nearest convex profile misses the samples by {miss} (rms, most at r = {worst}), more "
+            "than noise: the tip is wavy or concave, so that the contact would not be compact; smooth "
+            "the samples, or leave out those outside the convex part"
         )
 
 

@@ -1,1 +1,1 @@
-"""What a result looks like: texts, tables, datasets, limits in words, units, plots."""
+"""Presentation of results: texts, tables, datasets, limits in words, units, plots."""

@@ -1,4 +1,4 @@
-"""What plots of results show: rows, their colours, and their columns in SI units.
+"""Content of the plots of results: rows, their colours, and their columns in SI units.
 
 `elements` draws them with HoloViews, the explorer the same rows from the same columns with Bokeh.
 """

@@ -1,4 +1,4 @@
-"""Where the assumptions of the model end: limits of a result, as data and in words."""
+"""Limits of the model for a result, as data and in words."""
 
 import numpy as np
 
@@ -57,13 +57,14 @@ def _slope_limit(profile, radius):
     text = f"Slopes reach {value:.3g} within the contact"
     if value > _NEEDLE and isinstance(profile, Cone):
         text += (
-            ": a needle, for which a half-space is no approximation. The slope is the cotangent of the "
-            "half-angle: check that it is no angle, and a half-angle in degrees, not in radians."
+            ": the half-space approximation does not hold for such a needle. The slope is the "
+            "cotangent of the half-angle: check that no angle is given for it, and that a half-angle "
+            "is in degrees, not in radians."
         )
     elif value >= 1:
-        text += ": a half-space with small slopes is no approximation."
+        text += ": the approximation of small slopes does not hold."
     elif value > _SMALL:
-        text += f": small slopes are an approximation, good to about s² = {100 * value**2:.2g} %."
+        text += f": the approximation of small slopes is good to about s² = {100 * value**2:.2g} %."
     else:
         text += ", which is small."
     return Limit("slope", value, _SMALL, value > _SMALL, text, severe=value > _STEEP)
@@ -78,7 +79,7 @@ def _body_limit(profile, radius):
     if value >= 1:
         text += ", beyond the equator of the body: check that depth and radius are in m."
     elif value > _BODY:
-        text += f"; a half-space is good up to about {_BODY:g} R, the equator is at R."
+        text += f"; the half-space approximation is good up to about {_BODY:g} R."
     else:
         text += "."
     yield Limit("contact radius", value, _BODY, value > _BODY, text)
@@ -111,7 +112,7 @@ def _critical_depth_limit(medium):
     )
     if q_c <= _INCOMPRESSIBLE:
         text += (
-            " and no Poisson ratio: Medium(E_star, q_c) takes E* and q_c, Medium.from_bodies(E1, nu1) "
+            " and not a Poisson ratio: Medium(E_star, q_c) takes E* and q_c, Medium.from_bodies(E1, nu1) "
             "Young's modulus and the Poisson ratio"
         )
     yield Limit("critical depth", least, _ATOM, True, f"{text}.")
@@ -121,9 +122,9 @@ def _flow_limit(medium):
     """Contact area of a contact that flows over that of this model, if there is a hardness H or a law."""
     if medium.has_own_law or np.any(np.asarray(medium.hardness) > 0):
         text = (
-            "On loading the contact radius is the elastic one, for a ball a² = R d; a contact that flows "
-            "goes to 2 R d. Under a ball yield starts at a mean pressure of 2H/3, and restitution is about "
-            "0.7 of Johnson's law for metals."
+            "On loading the model has the contact radius of an elastic contact, a² = R d under a ball; "
+            "plastic flow leads to a² = 2 R d. Under a ball yield starts at a mean pressure of 2H/3, "
+            "and the restitution is about 0.7 times the value of Johnson's law for metals."
         )
         yield Limit("flow", 2.0, 1.0, True, text, severe=False)
 
@@ -139,7 +140,7 @@ def _tabor_limit(profile, medium):
     text = (
         f"Tabor's parameter (R w²/(E*² z₀³))^(1/3) is {tabor:.3g} for surface forces of range z₀ = 0.3 nm"
     )
-    text += ": forces outside the contact count below 5." if tabor < _TABOR else "."
+    text += ": below 5 the attraction outside the contact is not negligible." if tabor < _TABOR else "."
     yield Limit("Tabor's parameter", float(tabor), _TABOR, bool(tabor < _TABOR), text)
 
 
@@ -165,8 +166,8 @@ def _facet_limit(profile, medium):
     facet = np.clip(np.searchsorted(r[1:] * slope**2 / (4.5 * np.pi), ratio), 1, slope.size - 1)
     error = 0.75 * bend * np.sqrt(2 * r[:-1] * length) / (r[1:] * slope)
     value = float(error[facet].max())
-    text = f"The facets between the samples change the pull-off by about {100 * value:.2g} %"
-    remedy = " or more: of a smooth tip take finer samples, or a smooth profile that is fitted to them."
+    text = f"The facets between the samples change the pull-off force by about {100 * value:.2g} %"
+    remedy = " or more: if the tip is smooth, give denser samples or fit a smooth profile to them."
     text += remedy if value > _FACETS else "."
     yield Limit("facets", value, _FACETS, value > _FACETS, text, severe=value > 5 * _FACETS)
 
@@ -181,16 +182,16 @@ def _tip_radius(profile):
 
 def _poisson_limit(medium):
     value = float(np.min(medium.poisson))
-    text = f"Dashpots beside springs are exact for ν = ½ only, and ν = {value:.3g}"
-    text += ": take viscous results as an estimate." if value < 0.5 else "."
+    text = f"Dashpots parallel to the springs are exact only for ν = ½; here ν = {value:.3g}"
+    text += ", and viscous results are estimates." if value < 0.5 else "."
     return Limit("Poisson ratio", value, 0.5, value < 0.5, text)
 
 
 def _viscosity_limit(medium):
     value = float(np.max(medium.relaxation_time))
     text = (
-        "A path without times is followed infinitely slowly, so that the viscosity carries nothing; τ = "
-        f"{engineering(value, 's')}. To include it, prescribe the path in time."
+        "A path without times is quasi-static, so that the viscosity has no effect (τ = "
+        f"{engineering(value, 's')}). To include viscosity, prescribe the path in time."
     )
     return Limit("viscosity", value, 0.0, True, text, severe=False)
 
@@ -199,8 +200,9 @@ def jump_limits(jumps):
     """Limits of a path given by force that jumps between depths (m)."""
     for first, last in jumps:
         text = (
-            "On loading the force falls after yield has started: a path given by force jumps from "
-            f"{engineering(first, 'm')} past {engineering(last, 'm')}. Give depths to follow it."
+            "On loading the force decreases after the onset of yield: a path of prescribed force jumps "
+            f"from {engineering(first, 'm')} to beyond {engineering(last, 'm')}. Prescribe depths to "
+            "follow it."
         )
         yield Limit("jump", float(last - first), 0.0, True, text, severe=False)
 
@@ -220,18 +222,20 @@ def friction_limits(medium):
 def stick_limits(error, tolerance, depth, mass):
     """Limits of impacts in which elements stick: largest error, allowed one, d_max/u_c, m over m_t."""
     exceeded = error > tolerance
-    text = f"The tangential velocity or force has an error of {error:.2g}, {tolerance:.2g} was asked for"
-    text += ": even the smallest steps are too long for how often elements that stick oscillate."
+    text = (
+        f"The error of the tangential velocity or force, {error:.2g}, exceeds the tolerance {tolerance:.2g}"
+    )
+    text += ": even the smallest steps are too long for the oscillations of elements that stick."
     if not exceeded:
         text = f"The error of the tangential velocity and force, {error:.2g}, is within the tolerance."
     yield Limit("tolerance", error, tolerance, exceeded, text)
     measured = (
-        f"; errors of the tangential motion were compared with a chain up to {_DEEP:g} times and for m_t "
-        f"of {1 / _LIGHT:g} m and more."
+        f"; the errors of the tangential motion were verified up to {_DEEP:g} times the elastic "
+        f"compression and for m_t of {1 / _LIGHT:g} m or more."
     )
     for what, value, bound, text in (
         ("depth", depth, _DEEP, f"The depth reaches {depth:.3g} times the elastic compression"),
-        ("mass", mass, _LIGHT, f"The tangential mass is as small as {1 / mass:.3g} m"),
+        ("mass", mass, _LIGHT, f"The tangential mass m_t is {1 / mass:.3g} m"),
     ):
         over = value > bound * (1 + 1e-9)
         yield Limit(what, value, bound, over, text + (measured if over else "."), severe=False)
@@ -241,8 +245,12 @@ def speed_limit(speed, medium, density):
     """The largest speed (m/s) over the wave speed √(E*/ρ) of a medium of density ρ (kg/m³)."""
     density = _check.positive("density", density, unit="kg/m³")
     value = float(np.max(speed / np.sqrt(medium.E_star / density)))
-    text = f"The speed is {value:.3g} of the wave speed √(E*/ρ)"
-    text += ": waves carry energy away." if value > _SLOW else ": quasi-static."
+    text = f"The speed is {value:.3g} times the wave speed √(E*/ρ)"
+    text += (
+        ": the energy carried away by waves is not negligible."
+        if value > _SLOW
+        else ": the contact is quasi-static."
+    )
     return Limit("speed", value, _SLOW, value > _SLOW, text)
 
 
@@ -268,7 +276,7 @@ def how_fast(hit):
     if np.any(np.isinf(depth_in_fast_limit(hit))):
         known = np.min(hit.profile.known_depth)
         text = (
-            f"{equations} do not hold: in this limit the impact presses deeper than the known depth of the "
+            f"{equations} do not hold: in this limit the largest depth exceeds the known depth of the "
             f"profile, {known:g} m."
         )
         return (Limit("fast limit", np.inf, MAX_ERROR, True, text, equations),)
@@ -279,10 +287,10 @@ def how_fast(hit):
     viscous = float(np.max(hit.viscous_work / (hit.mass * hit.speed**2 / 2)))
     value = max(abs(area), abs(depth), viscous)
     exceeded = value > MAX_ERROR or not first
-    errors = f"{100 * area:+.3g} % of the area, {100 * depth:+.3g} % of the depth".replace("-", "−")
-    text = f"The fast limit, {equations}, {'does not hold and ' * exceeded}is off by {errors}"
+    errors = f"{100 * area:+.3g} % in the area and {100 * depth:+.3g} % in the depth".replace("-", "−")
+    text = f"The fast-impact limit, {equations}, {'does not hold: it ' * exceeded}differs by {errors}"
     if viscous > MAX_ERROR:
-        text += f", and viscosity takes {100 * viscous:.3g} % of the energy"
+        text += f"; the viscous work is {100 * viscous:.3g} % of the energy"
     if not first:
-        text += ", because it is for the first impact on a spot"
+        text += "; the limit applies only to the first impact on a virgin surface"
     return (Limit("fast limit", value, MAX_ERROR, exceeded, f"{text}.", equations),)

@@ -44,7 +44,9 @@ def plot_curve(result, quantity, over):
         known = ", ".join(result._quantities)
         raise ValueError(f"{type(result).__name__} has no {name!r} to plot; it has {known}")
     if len(result.shape) != 1:
-        raise ValueError(f"plot() is for one path, this is of shape {result.shape}: take one of it")
+        raise ValueError(
+            f"plot() needs a single path, but this result has shape {result.shape}: select one"
+        )
     x, y = (np.asarray(getattr(result, name)) for name in (over, quantity))
     axes = [_axis_of(name, values) for name, values in ((over, x), (quantity, y))]
     if {"depth", "plastic_depth"} <= set(result._quantities):
@@ -96,5 +98,7 @@ def _drawn_radius(state, what):
     state._one(what)
     largest = max(float(state.contact_radius), float(state.plastic_radius))
     if not largest:
-        raise ValueError(f"{what} needs a contact or an imprint, and at d = {state.depth:g} m is none")
+        raise ValueError(
+            f"{what} needs a contact or an imprint, and there is none at d = {state.depth:g} m"
+        )
     return 1.25 * largest

@@ -169,7 +169,7 @@ def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
     if match and kind == "slope" and match[3] == "°" and 0 < float(match[1]) < 90:
         return 1 / tan(radians(float(match[1]))), shown
     if match and kind == "slope" and match[3] == "°":
-        raise ValueError("the half-angle is above 0° and below 90°")
+        raise ValueError("the half-angle must be above 0° and below 90°")
     if match is None or (match[3] and match[3] not in units):
         names = ", ".join(unit.name for unit in UNITS[kind] if unit.name) or "°" * (kind == "slope")
         raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {names}" * bool(names))

@@ -243,11 +243,13 @@ def test_sentences_are_true(server, page):
     page.page.get_by_text("which of them are illustrative").wait_for()
     page.goto(f"{server.url}?damping=eta&eta=1e6")
     text = said(page)
-    assert " act in one of the patterns in time of the drive path, or an impact." in text
-    assert "They also act in the two patterns of a path in time." in text
+    assert " act in the patterns in time of the drive path and in impacts." in text
+    assert "Dashpots also act in the two patterns of a path in time." in text
     # A fast impact: the contact area of the limit over the present one; W = π q_c ∫ √(R s) ds.
     page.goto(f"{server.url}?preset={DROP}")
-    (off,) = re.findall(r"The fast limit, Eqs\. \(23\), \(24\), is off by (−[\d.]+) % of the", said(page))
+    (off,) = re.findall(
+        r"The fast-impact limit, Eqs\. \(23\), \(24\), differs by (−[\d.]+) % in the", said(page)
+    )
     given = PRESETS[DROP].values
     R, energy = given["paraboloid_radius"], given["mass"] * given["speed"] ** 2 / 2
     depth = (1.5 * energy / (np.pi * given["q_c"] * R**0.5)) ** (2 / 3)
@@ -288,4 +290,4 @@ def test_refusals_are_said_to_all(server, page, tmp_path):
     page.page.get_by_text("header must name").last.wait_for()
     said(page)
     page.type("s", "90°")
-    page.number("s").locator("p.said", has_text="half-angle is above 0° and below 90°").wait_for()
+    page.number("s").locator("p.said", has_text="half-angle must be above 0° and below 90°").wait_for()

@@ -42,7 +42,7 @@ def put(page, name, value):
 def assert_in_use(page):
     """It said so once, and the next change is drawn."""
     (notices,) = page.notices
-    assert "Everything is as it was before" in notices
+    assert "Nothing was changed" in notices
     put(page, "q_c", 1.5 * Q_C)
     assert page.shown.course.scene.medium.q_c == page.state.q_c == 1.5 * Q_C
     page.undo()

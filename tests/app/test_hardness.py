@@ -114,7 +114,7 @@ def test_the_onset_of_constant_hardness_is_that_of_the_shape():
     # H < E* s, and above.
     cone = preset_state(SILICA)
     for hardness, says in (
-        (cone.volume_hardness, "at first touch"),
+        (cone.volume_hardness, "at first contact"),
         (3e10, "Nothing yields under this shape"),
     ):
         query = link.write(changes.put(cone, "volume_hardness", hardness))

@@ -213,5 +213,5 @@ def test_quasi_static_pressing_is_said_where_it_is_so():
     hit = state_with(GOLD, "impact", damping="eta")
     for state, says in ((pressed, True), (creeping, False), (hit, False)):
         sentences = " ".join(text for _, text in limits(follow(state), state))
-        assert ("quasi-static here; dashpots" in sentences) is says
+        assert ("quasi-static here. Dashpots" in sentences) is says
         assert "indent_in_time" not in sentences

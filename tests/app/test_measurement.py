@@ -141,7 +141,7 @@ def test_the_class_that_fits_five_times_better_is_taken_by_a_button(made, name):
 def test_a_class_that_cannot_be_told_is_not_offered():
     """In 20 % of noise all classes are as good."""
     page = opened(curve_file(noise=0.2))
-    assert page.results.verdict.object == "The class cannot be told from this curve."
+    assert page.results.verdict.object == "This curve does not determine the class of hardness."
     assert not page.results.take.visible
 
 
@@ -320,7 +320,7 @@ def test_parts_of_a_file_are_below_the_message_that_the_documented_line_allows()
     largest = int(options[options.index("--websocket-max-message-size") + 1])
     assert largest > CHUNK * 4 / 3 + 10_000
     text = (ASSETS / "docs" / "explorer.md").read_text(encoding="utf-8")
-    assert f"measured curves to {MAX_BYTES / 1e6:g} MB" in " ".join(text.split())
+    assert f"Measured curves are limited to {MAX_BYTES / 1e6:g} MB" in " ".join(text.split())
     assert f"up to {MAX_BYTES / 1e6:g} MB" in page_of().form.drop.label
     drop = Dropper()
 

@@ -45,7 +45,7 @@ def test_2_the_fast_limit_is_compared_with_the_contact_area():
     course = follow(preset_state(DROP))
     text = " ".join(sentence for _, sentence in notes.limits(course, preset_state(DROP)))
     more = float(course.hit.fast_limit.contact_area / course.hit.turning_point.contact_area) - 1
-    assert f"The fast limit, Eqs. (23), (24), is off by −{-100 * more:.3g} % of the area" in text
+    assert f"The fast-impact limit, Eqs. (23), (24), differs by −{-100 * more:.3g} % in the area" in text
     # It is one without adhesion.
     state = adhesive("impact")
     assert "fast limit" not in str(list(notes.limits(follow(state), state)))
@@ -76,7 +76,7 @@ def test_9_the_numbers_of_a_state_sum_up(progress):
     assert sum(numbers(course)[name][course.now] for name in parts) == approx(2.75, rel=1e-6)
     helps = {each.name: each.help for each in readouts.READOUTS}
     assert "Without dashpots" in helps["stored_energy"]
-    assert "Without them" in helps["mean_pressure"]
+    assert "Without dashpots" in helps["mean_pressure"]
 
 
 def test_10_held_scenes_are_named_by_what_differs():

@@ -325,7 +325,7 @@ class TestFallingForce:
             assert state.force == approx(share * onset, rel=1e-12)
             jumps = [limit.sentence for limit in state.limits if limit.what == "jump"]
             assert len(jumps) == (share > 1)
-            assert all("95.43 mm past" in sentence for sentence in jumps)
+            assert all("95.43 mm to beyond" in sentence for sentence in jumps)
 
     def test_a_part_of_a_path_says_that_the_path_jumps(self):
         onset = mdr.critical_force(self.cone, self.medium)
@@ -354,7 +354,7 @@ def test_onset_deeper_than_the_known_shape_is_refused():
         (lambda cone, glass: glass.yield_line_load, r"class \(b\); it is π a σ_c\(a\)/2"),
         (
             lambda cone, glass: mdr.impact(cone, glass, 1e-9, 1.0).fast_limit,
-            "the fast limit is of the hardness",
+            "the fast limit supports only the hardness",
         ),
         (lambda cone, glass: mdr.Medium(E, hardness=1e9, work_of_adhesion=0.1), "adhesion is modelled for"),
     ],
@@ -369,7 +369,7 @@ def test_other_classes_have_no_limit_of_the_fast_impact():
     assert hit.restitution < 1
     limits = {limit.what: limit for limit in hit.limits}
     assert "fast limit" not in limits
-    assert "0.7 of Johnson's law" in limits["flow"].sentence
+    assert "0.7 times the value of Johnson's law" in limits["flow"].sentence
     assert limits["flow"].level == "note"
 
 

@@ -215,7 +215,7 @@ def test_bad_arguments_are_refused():
         mdr.indent(0.3, MEDIUM, 1e-9)
     with pytest.raises(TypeError, match="medium must be"):
         mdr.indent(mdr.Cone(0.3), 1e9, 1e-9)
-    with pytest.raises(ValueError, match="is that of one state, but these are of shape"):
+    with pytest.raises(ValueError, match="needs a single state, but this result has shape"):
         mdr.indent(mdr.Cone(0.3), MEDIUM, [D_C, 2 * D_C]).pressure(0.0)
     with pytest.raises(ValueError, match="radius r = inf m must be finite"):
         mdr.indent(mdr.Cone(0.3), MEDIUM, D_C).pressure(math.inf)

@@ -311,11 +311,11 @@ def test_states_of_an_impact(shape):
         (lambda s: s.largest_stress(-1.0), "depth z = -1 m is above"),
         (
             lambda s: mdr.indent(s.profile, s.medium, [1e-9, 2e-9]).stress(0, 0),
-            "stress is that of one state",
+            "stress needs a single state",
         ),
         (
             lambda s: mdr.indent(s.profile, s.medium, [1e-9]).stress_peak(),
-            "stress_peak is that of one state",
+            "stress_peak needs a single state",
         ),
     ],
 )

@@ -97,7 +97,7 @@ def test_text_of_jpk_has_its_own_stiffness(write, unit, size):
     assert curve.spring_constant == STIFFNESS
     assert curve.segment.tolist() == 56 * ["approach"] + 19 * ["retract"]
     assert curve.columns["depth"] == (0, "−m")
-    assert "spring_constant = 0.05 N/m is that of the file" in curve.remarks
+    assert "spring_constant = 0.05 N/m is taken from the file" in curve.remarks
 
 
 def test_text_of_jpk_without_a_stiffness_has_a_remark(write):
@@ -123,7 +123,7 @@ def test_a_line_of_numbers_is_no_header(write):
     head = "Hysitron\nTime (s)\tDisp (nm)\tForce (µN)\n0.5\t1.5\t2.5\neoh\n"
     curve = mdr.read_curve(write(head + rows(TIME, 1e9 * DEPTH, 1e6 * FORCE, between="\t")))
     assert_curve(curve)
-    assert curve.remarks == ("left out line 3: a cell is missing or no number",)
+    assert curve.remarks == ("left out line 3: a cell is missing or not a number",)
 
 
 def test_settings_above_the_header_are_no_rows(write):
@@ -287,7 +287,7 @@ def test_one_table_that_is_refused_does_not_stop_the_others(write):
     content = f"Depth (nm),Load (mN)\n{NM}\nDepth (nm),Load (kgf)\n{NM}\nDepth (µm),Load (N)\n{UM}"
     curves = mdr.read_curves(write(content))
     assert_curve(curves[2], force=2 * FORCE)
-    with pytest.raises(ValueError, match="'kgf' is no unit"):
+    with pytest.raises(ValueError, match="'kgf' is not a unit"):
         curves[1]
 
 

@@ -59,7 +59,7 @@ def test_errors_are_the_scatter_of_neighbours():
     [
         ({"stiffness": STIFFNESS, "cycles": True}, "without time and cycles"),
         ({"stiffness": STIFFNESS, "time": DEPTH}, "without time and cycles"),
-        ({"stiffness": STIFFNESS[1:]}, r"stiffness \(199,\) must be of one curve"),
+        ({"stiffness": STIFFNESS[1:]}, r"stiffness \(199,\) must have the same shape"),
         ({"stiffness": -STIFFNESS}, "no sample has a positive stiffness"),
         ({"stiffness": np.full(200, np.nan)}, "no sample has a positive stiffness"),
     ],

@@ -151,7 +151,7 @@ class TestIndentation:
         fit = mdr.fit_indentation(profile, OUT + 3e-9, force)
         assert fit.medium.E_star == approx(E, rel=1e-9)
         assert fit.medium.q_c == fit.standard_errors["q_c"] == np.inf
-        assert "nothing has yielded" in fit.remarks[0]
+        assert "no yield is seen" in fit.remarks[0]
         held = mdr.fit_indentation(profile, OUT + 3e-9, force, q_c=np.inf)
         assert held.medium.E_star == approx(E, rel=1e-9)
         # A second, deeper indentation: the class of hardness is not tested where all of the depth recovers.
@@ -192,7 +192,7 @@ class TestIndentation:
             measured = path + depth_noise * random.normal(size=force.size)
             force = force + 0.002 * force.max() * random.normal(size=force.size)
             fit = mdr.fit_indentation(profile, measured, force, depth_noise=depth_noise)
-            assert any("not class (b)" in remark for remark in fit.remarks) == told, fit.remarks
+            assert any("not of class (b)" in remark for remark in fit.remarks) == told, fit.remarks
 
     def test_units(self):
         """Depth in nm and force in µN make a modulus of 95 mPa and less."""
@@ -202,7 +202,7 @@ class TestIndentation:
 
     def test_one_curve_has_no_parts(self):
         fit = mdr.fit_indentation(mdr.Cone(0.3), OUT, curve(mdr.Cone(0.3)))
-        with pytest.raises(TypeError, match="single one"):
+        with pytest.raises(TypeError, match="single result"):
             fit[0]
 
     def test_representation(self):
@@ -215,7 +215,7 @@ class TestIndentation:
         ("change", "message"),
         [
             ({"force": -curve(mdr.Cone(0.3))}, "no contact"),
-            ({"force": OUT[:-1]}, "of one shape"),
+            ({"force": OUT[:-1]}, "have the same shape"),
             ({"depth": np.full(OUT.size, np.nan)}, "finite"),
             ({"depth_noise": -1e-9}, "depth_noise"),
             ({"E_star": -1.0}, "E_star"),
@@ -320,7 +320,7 @@ class TestHardness:
         fit = mdr.fit_hardness(mdr.Cone(0.3), 1e6 * (a / 1e-7) ** power * noise, a, E_star=E)
         assert fit.hardness_class == name
         assert abs(fit.slope - power) < 4 * fit.slope_error
-        assert (name is None) == any("not class (b) alone" in remark for remark in fit.remarks)
+        assert (name is None) == any("not of class (b) alone" in remark for remark in fit.remarks)
         # Without a class it is the nearest one.
         (constant,) = fit.standard_errors
         assert constant == {"a": "hardness", "c": "f_c"}.get(name, "q_c")
@@ -368,7 +368,7 @@ class TestHardness:
         p_m, a = state.mean_pressure * np.exp(0.02 * random.normal(size=8)), state.contact_radius
         given = {"E_star": E, "hardness": None, "q_c": None}
         fit = mdr.fit_hardness(mdr.Cone(0.3), p_m, a, **given)
-        assert any("do not tell" in remark for remark in fit.remarks)
+        assert any("do not distinguish" in remark for remark in fit.remarks)
         with pytest.raises(ValueError, match="do not determine hardness and q_c"):
             mdr.fit_hardness(mdr.Cone(0.3), p_m[:2], a[:2], **given)
         with pytest.raises(ValueError, match="all held"):

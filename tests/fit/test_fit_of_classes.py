@@ -193,7 +193,7 @@ class TestRemarks:
         depth = np.tile(OUT, (40, 1))
         fit = mdr.fit_indentation(self.PROFILE, depth, force, hardness=None, q_c=None)
         told = [
-            "q_c" in str(each.remarks) and "do not tell" in str(each.remarks)
+            "q_c" in str(each.remarks) and "do not distinguish" in str(each.remarks)
             for each in map(fit.__getitem__, range(40))
         ]
         assert sum(told) >= 33
@@ -229,7 +229,7 @@ class TestRemarks:
     def test_another_class_is_named(self):
         depth, force = real("silica")
         fit = mdr.fit_indentation(BERKOVICH, depth, force, f_c=None)
-        assert "not class (c)" in str(fit.remarks)
+        assert "not of class (c)" in str(fit.remarks)
 
 
 #: Each class alone, with caps of a quarter of the largest depth under the paraboloid.
@@ -328,7 +328,7 @@ class TestVerdict:
         force = made(self.PROFILE, ALONE["a"], 1, seed=7, noise=0.5)[0]
         fit = mdr.fit_indentation(self.PROFILE, OUT, force, contact_point=0.0)
         assert len(fit.class_of_hardness.possible) > 1
-        assert "cannot be told, (" in repr(fit)
+        assert "not determined, (" in repr(fit)
 
     def test_records_that_are_not_one_loading_and_one_unloading(self):
         twice = np.concatenate([OUT, 1.5 * OUT])
@@ -339,7 +339,7 @@ class TestVerdict:
         ):
             force = made(self.PROFILE, ALONE["a"], depth=depth)
             lines = repr(mdr.fit_indentation(self.PROFILE, depth, force, hardness=None)).splitlines()
-            (line,) = (each for each in lines if "the class presumes" in each)
+            (line,) = (each for each in lines if "assumed for the class" in each)
             assert line.endswith(words)
             assert "a known tip that is not worn" in line
 

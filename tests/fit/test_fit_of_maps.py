@@ -16,7 +16,7 @@ PATH = np.append(np.linspace(-1e-6, 1e-6, 125), np.linspace(1e-6, -1e-6, 125))
 ELASTIC = {"q_c": np.inf, "baseline": None}
 #: What is done to the depths and forces of a curve, and the words of its reason.
 DEAD = {
-    2: (lambda z, F: (z, F * np.nan), "have no samples in which both are finite"),
+    2: (lambda z, F: (z, F * np.nan), "no sample of depth and force has finite values"),
     3: (lambda z, F: (z, 0 * F), "no contact"),
     4: (lambda z, F: (0 * z, F), "the indenter does not move"),
     6: (lambda z, F: (z, np.where(z > 9e-7, np.inf, F)), "must be finite"),
@@ -66,7 +66,7 @@ class TestInvalidCurves:
             assert np.isfinite(fitted[name][ALIVE]).all(), name
         # What was held for all curves is held for these.
         assert np.all(np.isinf(fit.medium.q_c))
-        assert "curve 2 (5 of 12 curves): not fitted: depth and force have no samples" in repr(fit)
+        assert "curve 2 (5 of 12 curves): not fitted: no sample of depth and force" in repr(fit)
 
     def test_a_report_has_the_numbers_of_the_others(self):
         fit = mdr.fit_indentation(BALL, *a_map(), **ELASTIC, invalid="nan")
@@ -108,7 +108,7 @@ class TestInvalidCurves:
         depth[7] = depth[7][:-1]
         fit = mdr.fit_indentation(BALL, depth, force, **ELASTIC, invalid="nan")
         assert fit.invalid.keys() == DEAD.keys() | {7}
-        assert "depth (249,), force (250,) must be of one shape" in fit.invalid[7]
+        assert "depth (249,), force (250,) must have the same shape" in fit.invalid[7]
         assert fit[0].depth.size == 200
 
     def test_a_curve_without_a_solution_is_one(self):
@@ -133,7 +133,7 @@ class TestInvalidCurves:
 
     def test_what_needs_all_curves_says_which_is_missing(self):
         fit = mdr.fit_indentation(BALL, *a_map(), invalid="nan")
-        with pytest.raises(ValueError, match=r"classes: curve 2 was not fitted: .* by fit\[numbers\]"):
+        with pytest.raises(ValueError, match=r"classes: curve 2 was not fitted: .* as in fit\[numbers\]"):
             _ = fit.classes
         with pytest.raises(ValueError, match="plot: curve 0 was not fitted"):
             fit[2].plot()
@@ -150,7 +150,7 @@ class TestDatasets:
         assert grid.values.ravel() == approx(fit.medium.E_star, nan_ok=True)
         assert dataset.x.attrs["units"] == "m"
         assert dataset.attrs["invalid_count"] == 5
-        assert dataset.attrs["invalid"].startswith("curve 2: not fitted: depth and force have no samples")
+        assert dataset.attrs["invalid"].startswith("curve 2: not fitted: no sample of depth and force")
         with pytest.raises(ValueError, match=r"position \(12, 3\) must have x and y of each curve"):
             fit.to_xarray(position=np.zeros((12, 3)))
 

@@ -120,7 +120,7 @@ def test_a_pull_off_before_that_of_the_model_is_said_and_changes_nothing():
     fit = mdr.fit_indentation(profile, retract, force, q_c=np.inf, work_of_adhesion=None)
     assert fit.medium.work_of_adhesion == approx(0.2, rel=1e-8)
     (remark,) = fit.remarks
-    difference = float(re.search(r"model less data (\S+) nm", remark)[1])
+    difference = float(re.search(r"difference (\S+) nm", remark)[1])
     delta = (np.pi**2 * 0.2**2 * 1e-6 / 1e9**2) ** (1 / 3)
     assert 1e-9 * difference == approx((3 ** (1 / 3) - 3) / 4 * delta, abs=1.1 * 80e-9 / 999)
 

@@ -74,7 +74,7 @@ def test_records_without_air_have_the_depths_that_are_given(noise):
         result = mdr.oliver_pharr(TIP, LOADED[part], force[part])
         assert result.contact_point == 0
         assert "contact_point" not in result.standard_errors
-        assert "as they are given" in result.remarks[-1]
+        assert "as given from first contact" in result.remarks[-1]
 
 
 def test_a_force_that_varies_in_the_air_is_not_taken_for_it():
@@ -99,7 +99,7 @@ def test_a_fit_of_another_class_quotes_it_from_the_air():
     force = mdr.indent(TIP, MEDIA["glass, class (a)"], LOADED).force
     expected = mdr.oliver_pharr(TIP, LOADED, force).E_star
     fit = mdr.fit_indentation(TIP, *with_air(LOADED, force, 90e-9, 70))
-    assert any("not class (b)" in remark for remark in fit.remarks)
+    assert any("not of class (b)" in remark for remark in fit.remarks)
     assert fit.quoted.source == "unloading"
     assert fit.quoted.value == approx(expected, rel=1e-4)
     assert "in the air" in fit.quoted.reason

@@ -22,8 +22,8 @@ def remarks(tip, depth, force, **given):
 def test_the_order_is_named(tip):
     force = record(tip)
     shuffled = np.random.default_rng(1).permutation(DEPTH.size)
-    assert "record that is reversed" in remarks(tip, DEPTH[::-1], force[::-1])
-    assert "record that is shuffled" in remarks(tip, DEPTH[shuffled], force[shuffled])
+    assert "reversed record" in remarks(tip, DEPTH[::-1], force[::-1])
+    assert "shuffled record" in remarks(tip, DEPTH[shuffled], force[shuffled])
     for text in (remarks(tip, DEPTH, force), remarks(tip, DEPTH[::-1], force[::-1], q_c=np.inf)):
         # Without yield the order does not matter.
         assert "order in which they were measured" not in text

@@ -48,7 +48,7 @@ def test_without_an_unloading_of_a_medium_that_yields_there_is_none():
 def test_it_is_that_of_one_curve():
     F = force(mdr.Medium(E))
     fit = mdr.fit_indentation(CONE, [DEPTH, DEPTH], [F, F], q_c=np.inf)
-    with pytest.raises(ValueError, match="pick one"):
+    with pytest.raises(ValueError, match="select one"):
         _ = fit.quoted
     assert fit[1].quoted.source == "fit"
 

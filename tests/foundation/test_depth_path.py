@@ -169,7 +169,7 @@ def test_bad_arguments_are_refused():
         mdr.indent_in_time(cone, MEDIUM, [0, 1e-9], [0, math.nan])
     with pytest.raises(ValueError, match="tolerance = 0 must be"):
         mdr.indent_in_time(cone, MEDIUM, [0, 1e-9], [0, 1], tolerance=0.0)
-    with pytest.raises(ValueError, match="is that of one instant, but these are of shape"):
+    with pytest.raises(ValueError, match="needs a single instant, but this result has shape"):
         mdr.indent_in_time(cone, MEDIUM, [0, 1e-9], [0, 1]).pressure(0.0)
 
 

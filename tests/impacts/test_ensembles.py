@@ -141,7 +141,10 @@ def test_bad_entries_are_named(arguments, says):
         (lambda: mdr.Sphere(np.array([1.0, 1e200])), r"Sphere radius\[1\] = 1e\+200 m .* 1e-25 and 1e\+25"),
         (lambda: mdr.PowerLaw(1.0, [2.0, 2000.0]), r"exponent\[1\] = 2000 must lie in"),
         (lambda: mdr.Hyperboloid([1.0, 2.0], [1.0, 2.0, 3.0]), "Hyperboloid: arrays of shapes"),
-        (lambda: mdr.indent(mdr.Cone([0.1, 0.2]), mdr.Medium(1e9), 1e-6), "one indenter on one medium"),
+        (
+            lambda: mdr.indent(mdr.Cone([0.1, 0.2]), mdr.Medium(1e9), 1e-6),
+            ("a single indenter and a single medium"),
+        ),
     ],
 )
 def test_bad_arrays_of_parameters_are_refused(make, says):

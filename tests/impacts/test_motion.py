@@ -84,7 +84,9 @@ def test_a_second_viscous_impact_loses_less_to_yield():
 
 def test_motion_is_that_of_one_impact():
     hits = mdr.impact(mdr.Cone(0.3), mdr.Medium(E_STAR, 10.0, eta=1.0), MASS, [0.1, 0.2])
-    with pytest.raises(ValueError, match="motion is that of one impact, but these are of shape \\(2,\\)"):
+    with pytest.raises(
+        ValueError, match="motion needs a single impact, but this result has shape \\(2,\\)"
+    ):
         hits.motion()
     assert hits[1].motion(3).velocity[0] == 0.2
 

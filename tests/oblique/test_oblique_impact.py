@@ -486,7 +486,9 @@ class TestExtremes:
             mdr.Cone(0.3), mdr.Medium([[1e9], [2e9]]), MASS, SPEED, speed, MU, tolerance=1e-2
         )
         assert hits.shape == hits.friction_work.shape == hits.errors.friction_work.shape == (2, 3)
-        with pytest.raises(ValueError, match=r"that of one impact, but these are of shape \(2, 3\)"):
+        with pytest.raises(
+            ValueError, match=r"motion needs a single impact, but this result has shape \(2, 3\)"
+        ):
             hits.motion()
         one = mdr.oblique_impact(mdr.Cone(0.3), mdr.Medium(2e9), MASS, SPEED, 0.2, MU, tolerance=1e-2)
         assert isinstance(one.tangential_velocity, float)

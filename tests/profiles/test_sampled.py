@@ -112,8 +112,8 @@ def test_scene_holds_a_sampled_tip():
         ([0.1, 1], [0, 2], r"r\[0\] = 0.1 m must be 0"),
         ([0, 1], [0, 0], "flat throughout"),
         ([0, 1, 2], [0, -1, 3], "lies below the tip"),
-        ([0], [0], "two lists of one length"),
-        ([0, 1], [0, 1, 2], "two lists of one length"),
+        ([0], [0], "two lists of the same length"),
+        ([0, 1], [0, 1, 2], "two lists of the same length"),
         ([0, 1], [0, math.nan], r"Sampled z\[1\] = nan m"),
         ([0, "one"], [0, 1], "Sampled r must be real numbers"),
     ],
@@ -139,7 +139,7 @@ def test_deeper_than_measured_is_refused():
 
 @pytest.mark.parametrize(("r", "z"), [(1, 2), ([], []), ([0, 1], [0, 1, 2])])
 def test_bad_samples_have_no_fit(r, z):
-    with pytest.raises(ValueError, match="two lists of one length"):
+    with pytest.raises(ValueError, match="two lists of the same length"):
         mdr.Sampled.fit(r, z)
 
 
@@ -354,9 +354,9 @@ class TestFit:
     @pytest.mark.parametrize(
         ("r", "z", "says"),
         [
-            ([0, 1, 2], [0, 1], "two lists of one length"),
+            ([0, 1, 2], [0, 1], "two lists of the same length"),
             ([-1, 0, 1], [1, 0, 1], "three radii or more"),
-            ([0, 1, 2], [0, -1, -2], "does not rise from the axis outward"),
+            ([0, 1, 2], [0, -1, -2], "does not increase with r"),
             ([0, 1, 2], [0, math.inf, 2], r"z\[1\] = inf m must be finite"),
         ],
     )

@@ -124,8 +124,8 @@ def test_a_plot_shows_a_pressure_without_bound_cut_at_its_axis():
     [
         (lambda: PATH.plot("radius"), "Indentation has no 'radius' to plot; it has depth, force"),
         (lambda: PATH[0].plot(), r"for one path, this is of shape \(\)"),
-        (lambda: PATH.plot_pressure(), "plot_pressure is that of one state"),
-        (lambda: PATH[0].plot_springs(), "needs a contact or an imprint, and at d = 0 m is none"),
+        (lambda: PATH.plot_pressure(), "plot_pressure needs a single state"),
+        (lambda: PATH[0].plot_springs(), "needs a contact or an imprint, and there is none at d = 0 m"),
     ],
 )
 def test_what_cannot_be_plotted_is_refused(act, says):

@@ -126,15 +126,15 @@ def test_length_and_iteration_agree_or_are_refused(result):
     if result.shape:
         assert len(result) == result.shape[0] == len(list(result))
     else:
-        with pytest.raises(TypeError, match="is a single one"):
+        with pytest.raises(TypeError, match="is a single result"):
             len(result)
-        with pytest.raises(TypeError, match="is a single one"):
+        with pytest.raises(TypeError, match="is a single result"):
             iter(result)
 
 
 @every_result
 def test_a_result_is_not_one_array(result):
-    with pytest.raises(TypeError, match="is many quantities, not one array: take one, as in result"):
+    with pytest.raises(TypeError, match="has many quantities and is not one array: take one, as in result"):
         np.asarray(result)
 
 

@@ -2,8 +2,8 @@
 Repeated impacts
 ================
 
-A body hits the same spot again and again at one speed. Each impact makes the imprint deeper, by less and
-less, and the coefficient of restitution rises. ``plastic_depth`` carries the imprint from one to the next.
+A body hits the same spot repeatedly at the same speed. Each impact makes the imprint deeper by a smaller
+amount, and the coefficient of restitution rises. ``plastic_depth`` passes the imprint to the next impact.
 """
 
 import matplotlib.pyplot as plt

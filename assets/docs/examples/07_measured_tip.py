@@ -3,7 +3,7 @@ A measured tip
 ==============
 
 A tip is often known as a noisy scan across its axis. ``Sampled.fit`` finds the convex profile nearest to
-it; here the true one is a paraboloid, so that the error of the force is known.
+the scan. Here the true tip is a paraboloid, so that the error of the force is known.
 """
 
 import matplotlib.pyplot as plt

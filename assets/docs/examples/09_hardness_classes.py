@@ -3,9 +3,9 @@ Classes of hardness
 ===================
 
 The hardness of many metals falls with the depth of a sharp tip as :math:`H = H_0 \sqrt{1 + h^*/h}` (the
-form of Nix and Gao 1998), that of a glass is nearly constant. The numbers here are made up, not measured.
-``fit_hardness`` compares the power of the radius with the three classes, and finds both metals between (a)
-and (b), the nearer to (b) the larger :math:`h^*` is.
+form of Nix and Gao 1998); the hardness of a glass is nearly constant. The numbers here are made up, not
+measured. ``fit_hardness`` compares the power of the radius with the three classes, and finds both metals
+between (a) and (b), closer to (b) for a larger :math:`h^*`.
 """
 
 import matplotlib.pyplot as plt

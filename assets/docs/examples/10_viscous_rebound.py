@@ -2,8 +2,8 @@
 Viscous rebound over speed
 ==========================
 
-A ball of 2 mm on a polymer. At low speed the viscosity takes little, at high speed much; with yield the
-coefficient of restitution falls further. The time of contact is shorter for faster impacts.
+A ball of 2 mm on a polymer. At low speed the viscosity dissipates little energy, at high speed much. With
+yield the coefficient of restitution falls further. The time of contact is shorter for faster impacts.
 """
 
 import matplotlib.pyplot as plt

@@ -2,8 +2,8 @@
 A shape of one's own
 ====================
 
-Height, reduced height and its slope are enough. This one is a cone on top of a paraboloid; its reduced
-height is the sum of theirs, because the transform (Popov 2015, Eq. (3)) is linear.
+Height, reduced height and its slope are enough. This shape is the sum of a cone and a paraboloid. Its
+reduced height is the sum of their reduced heights, because the transform (Popov 2015, Eq. (3)) is linear.
 """
 
 from dataclasses import dataclass

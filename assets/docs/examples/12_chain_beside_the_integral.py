@@ -3,7 +3,7 @@ The chain beside the integral
 =============================
 
 ``impact`` solves one scalar equation of motion; ``chain_impact`` follows each spring and dashpot of the 1D
-foundation for itself. Both share the profile and the medium only, so that they check one another.
+foundation separately. Both share only the profile and the medium, so that each checks the other.
 """
 
 import matplotlib.pyplot as plt

@@ -3,7 +3,7 @@ Load, unload, reload: pressure and imprint
 ==========================================
 
 Unloading removes the elastic part only. Reloading retraces it, and continues the first loading. In the
-plastic zone the pressure is lower than that of the elastic contact, and an imprint remains.
+plastic zone the pressure is lower than in an elastic contact, and an imprint remains.
 """
 
 import matplotlib.pyplot as plt

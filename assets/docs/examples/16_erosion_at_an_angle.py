@@ -3,9 +3,9 @@ Erosion of a metal at an angle
 ==============================
 
 Grains of quartz of 50 µm hit mild steel, of constant hardness, and a composite, :math:`\\sigma_c = q_c/a`.
-The work of indenting them grows with the angle of attack. That of friction, which goes into cutting, has a
-maximum between: where a grain slips to the end, near :math:`\\tan 2\\alpha = 2 m_t/(\\mu m (1 + e))`, the
-dotted line for steel. Metals erode most at 20° to 30°, brittle solids at 90°.
+The work of indentation grows with the angle between path and surface. The work of friction, which cuts the
+surface, has a maximum where a grain slips to the end, near :math:`\\tan 2\\alpha = 2 m_t/(\\mu m (1 + e))`,
+the dotted line for steel. Metals erode most at 20° to 30°, brittle solids at 90°.
 """
 
 import matplotlib.pyplot as plt

@@ -4,8 +4,8 @@ A medium from restitution over speed
 
 Coefficients of restitution over speed (made here, with a scatter of 0.005), fitted by
 ``scipy.optimize.curve_fit``. They determine two combinations of E*, q_c and η: with E* held at half or at
-twice its value, another q_c and η (both as E*^(2/3) under a cone) fit exactly as well. The contact times
-differ, and tell them apart.
+twice its value, another q_c and η (both as E*^(2/3) under a cone) fit equally well. Only the contact times
+distinguish them.
 """
 
 import matplotlib.pyplot as plt

@@ -2,13 +2,13 @@ r"""
 Restitution of a metal ball
 ===========================
 
-A medium of constant hardness :math:`H` is class (a): glasses and metals. A ball then rebounds with
-:math:`e \propto v^{-1/4}`, the exponent of Johnson's law for metals (Contact Mechanics, 1985, 11.5),
-:math:`e = 3.8\,(Y/E^*)^{1/2} (\tfrac12 m v^2/(Y R^3))^{-1/8}`. Its prefactor is not met: e is about 0.7
-of it, half because the contact radius follows the elastic relation :math:`a^2 = R d` where that of a
-contact that flows tends to :math:`a^2 = 2 R d`, half because it unloads as a flat face. The model of
-LAMMPS (``granular mdr``, 22 July 2025) lies between: it was run for this ball, E = 70 GPa, ν = 0.3,
-Y = 1 GPa, without damping.
+A medium of constant hardness :math:`H` is class (a): glasses and metals. A ball then rebounds with :math:`e
+\propto v^{-1/4}`, the exponent of Johnson's law for metals (Contact Mechanics, 1985, 11.5), :math:`e =
+3.8\,(Y/E^*)^{1/2} (\tfrac12 m v^2/(Y R^3))^{-1/8}`. The prefactor differs: e is about 0.7 of Johnson's
+value. One half of the difference is due to the contact radius, :math:`a^2 = R d` as in an elastic contact
+instead of :math:`a^2 = 2 R d` by plastic flow, the other half to the unloading as of a flat face. The model
+of LAMMPS (``granular mdr``, 22 July 2025) lies between: it was run for this ball, E = 70 GPa, ν = 0.3, Y =
+1 GPa, without damping.
 """
 
 import matplotlib.pyplot as plt

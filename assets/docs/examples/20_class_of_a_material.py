@@ -3,12 +3,12 @@ Which class is my material?
 ===========================
 
 Fused silica under a Berkovich tip (micromechanics, MIT licence, in ``assets``), loaded and unloaded. A fit
-with a constant hardness, class (a), misses the force by a third of a percent; one with a hardness
-:math:`q_c/a`, class (b), by five times as much. ``fit.classes`` has the fit of each class alone, and the
-report says how far they are told apart, and what this presumes.
+with a constant hardness, class (a), misses the force by a third of a percent; a fit with a hardness
+:math:`q_c/a`, class (b), by five times as much. ``fit.classes`` has the fit of each class alone. The report
+names the classes that the curve does not rule out, and the assumptions.
 
-The modulus and the hardness are those of the model, whose contact has the sink-in of an elastic one: it is
-smaller than that of Oliver and Pharr, whose hardness is what indenters report.
+The modulus and the hardness belong to the model, whose contact sinks in as an elastic contact and is
+smaller than the contact of Oliver and Pharr. Instruments report Oliver and Pharr's hardness.
 """
 
 import matplotlib.pyplot as plt
