@@ -25,6 +25,8 @@ PLACES = ("xs", "ys", "x", "y", "text")
 #: What the pointer is told: the point of the curve that is nearest.
 _TIP = "<b>@row</b><br>@symbol = $snap_y{{%.4g}} {y.unit}<br>{symbol} = $snap_x{{%.4g}} {x.unit}"
 
+_IS_CURVE = 'export default (args, tool, { value }) => value !== ""'
+
 
 class Layer:
     """Rows of a plot that share a glyph and its source."""
@@ -43,7 +45,10 @@ class Layer:
         self.hover = None
         if any(row.symbol for row in self.rows):
             told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
-            self.hover = bk.HoverTool(renderers=[renderer], line_policy="nearest", visible=False, **told)
+            # Lines without a symbol, as edges and outlines, are no curves with values.
+            curves = {"@symbol": bk.CustomJS(code=_IS_CURVE)}
+            told |= {"line_policy": "nearest", "visible": False, "filters": curves}
+            self.hover = bk.HoverTool(renderers=[renderer], **told)
             figure.add_tools(self.hover)
 
     def columns(self, places: dict, axes: list[Axis], dark: bool) -> dict[str, list]:
@@ -53,7 +58,7 @@ class Layer:
         ys = [_short(y, axes[self.axis]) for _, y, *_ in parts]
         if self.kind in ("areas", "lines"):
             rows = self.rows
-            found = {"xs": xs, "ys": ys, "symbol": [row.symbol or row.name for row in rows]}
+            found = {"xs": xs, "ys": ys, "symbol": [row.symbol for row in rows]}
             found["row"] = [lowered(row.called(places[row.name])) for row in rows]
         else:
             rows = [row for row, x in zip(self.rows, xs, strict=True) for _ in x]

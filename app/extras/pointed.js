@@ -31,7 +31,9 @@ const sentence = ({ state, x, top }) => {
   const { unit, load, load_unit, caps, cap, named } = pointed.springs
   const u = state === "free" ? 0 : rest(x) - top, limit = caps.length ? caps[Math.min(player.value, caps.length - 1)] : null
   const beside = (value) => limit === null ? "" : ` of at most ${digits(value)}`
-  return `<b>${state === "free" ? "free" : state} spring</b> at <i>x</i> = ${digits(x)} ${unit}<br><i>u</i> = ${digits(u)}${beside(limit)} ${unit}${limit === null ? "" : ` = ${cap}`}
+  // What a spring has yielded by stays when it is let go.
+  const imprint = -rest(x), plastic = imprint > 0 ? `<br>plastic part ${digits(imprint)} ${unit}` : ""
+  return `<b>${state} spring</b> at <i>x</i> = ${digits(x)} ${unit}<br>elastic part <i>u</i> = ${digits(u)}${beside(limit)} ${unit}${limit === null ? "" : ` = ${cap}`}${plastic}
     <br>${named} = ${digits(u * load)}${beside(limit * load)} ${load_unit}`
 }
 view.el.addEventListener("pointermove", (event) => {

@@ -1,7 +1,9 @@
 """The first screen: how much there is to click, and how large plots are; zoom, springs, compared scenes."""
 
+import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from ..approx import approx
@@ -84,15 +86,25 @@ def test_a_box_with_shift_is_zoomed_to_until_a_double_click_or_another_drive(pro
 
 
 def test_a_spring_says_its_compression_and_its_load_against_their_limits(projector):
-    """On the axis it has yielded: u = d_c = π q_c/(2E*) = 1.796 nm, q = π q_c/2 = 157 N/m."""
+    """Near the axis it has yielded: u = d_c = π q_c/(2E*) = 1.796 nm, q = π q_c/2 = 157 N/m.
+
+    d = 8.978 nm, so that the spring at x has the plastic part d − (π/2) s x − d_c; nothing else is told.
+    """
     page = projector.page
     box = page.locator(".card.springs canvas").first.bounding_box()
     page.mouse.move(box["x"] + 0.52 * box["width"], box["y"] + 0.7 * box["height"])
     page.locator(".told").wait_for()
     said = page.locator(".told").inner_text().split("\n")
     assert said[0].startswith("yielded spring at x = ")
-    assert said[1] == "u = 1.8 of at most 1.8 nm = dc"
-    assert said[2] == "q = 157 of at most 157 N/m"
+    assert said[1] == "elastic part u = 1.8 of at most 1.8 nm = dc"
+    x, plastic = (
+        float(re.search(r"(−?[\d.]+) nm", line)[1].replace("−", "-")) for line in (said[0], said[2])
+    )
+    assert said[2].startswith("plastic part ")
+    # Three digits are written, of which x has half a percent.
+    assert plastic == approx(8.978 - np.pi / 2 * 0.358 * abs(x) - 1.796, abs=0.02)
+    assert said[3] == "q = 157 of at most 157 N/m"
+    assert page.locator(".bk-Tooltip:visible").count() == 0
     assert "1.796 nm" in page.locator(".card.springs .formula").inner_text()
 
 
