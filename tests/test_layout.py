@@ -32,8 +32,8 @@ CHECKED = {
     "contact.live_interval", "contact.quadrature", "contact.integrals", "contact.yielding",
     "contact.closed_forms", "contact.adhesion", "contact.pressure", "contact.indentation",
     "contact.loading", "contact.unloading", "contact.creep_law", "contact.creep", "impacts.impact",
-    "impacts.energy_balance", "impacts.adhesive",
-    "impacts.contact_time", "impacts.result", "impacts.viscous", "impacts.equation_of_motion",
+    "impacts.energy_balance", "impacts.adhesive", "impacts.contact_time", "impacts.time_quadrature",
+    "impacts.result", "impacts.viscous", "impacts.equation_of_motion",
     "impacts.collocation_steps", "impacts.motion_solver", "impacts.dense_motion", "impacts.motion",
     "impacts.scaling", "profiles.radius_table", "contact.stress",
 }  # fmt: skip

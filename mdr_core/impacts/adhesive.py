@@ -32,9 +32,9 @@ from ..numerics.blocks import LONG, chunks
 from ..numerics.gauss import gauss_legendre
 from ..numerics.roots import crossing
 from ..profiles.profile import Profile
-from .contact_time import TRANSITIONS, places
 from .energy_balance import turning_interval
 from .result import Impact
+from .time_quadrature import TRANSITIONS, places
 
 #: Gauss nodes of the contact time in each piece.
 _NODES = 32

@@ -2,8 +2,8 @@
 
 python -m tests.benchmarks.constants
 
-For `TRANSITIONS` (contact_time.py) and `scales` (yielding.py): the largest relative error over impacts of
-five shapes with a transition depth, from far below it to far above, against much denser cuts.
+For `TRANSITIONS` (time_quadrature.py) and `scales` (yielding.py): the largest relative error over impacts
+of five shapes with a transition depth, from far below it to far above, against much denser cuts.
 """
 
 from unittest.mock import patch
@@ -12,7 +12,7 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core.contact.yielding import RadiusCap, YieldRule
-from mdr_core.impacts import contact_time
+from mdr_core.impacts import time_quadrature
 
 SHAPES = (
     mdr.Sphere(1e-6),
@@ -55,7 +55,7 @@ def main():
     shares = ([], [1.0], [6.0], [0.5, 3.0], [1.0, 6.0], [2.0, 12.0], [1.0, 3.0, 9.0])
     dense = np.geomspace(0.1, 100.0, 17)
     for what, medium in MEDIA.items():
-        table(f"TRANSITIONS, {what}", medium, contact_time, "TRANSITIONS", shares, dense)
+        table(f"TRANSITIONS, {what}", medium, time_quadrature, "TRANSITIONS", shares, dense)
     rules = ("ConstantCap", MEDIA["q_c"], YieldRule), ("RadiusCap", MEDIA["H, q_c, f_c"], RadiusCap)
     for what, medium, rule in rules:
         first, factor = rule.scales[0], rule.scales[1] / rule.scales[0]
