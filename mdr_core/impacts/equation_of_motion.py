@@ -13,7 +13,7 @@ y = d − p₀ into an imprint of plastic depth p₀, the plastic depth p, the l
 solves these equations, in the depth q = y or ℓ and the velocity v.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -33,10 +33,14 @@ class MotionState(Entries):
     time: np.ndarray
     work: np.ndarray
 
-    def store(self, index, states):
-        """Replaces the states at an index."""
-        self.depth[index], self.velocity[index] = states.depth, states.velocity
-        self.time[index], self.work[index] = states.time, states.work
+    def replaced(self, index, states):
+        """The states with others at an index."""
+        values = []
+        for field in fields(self):
+            value = np.array(getattr(self, field.name))
+            value[index] = getattr(states, field.name)
+            values.append(value)
+        return MotionState(*values)
 
 
 @dataclass(frozen=True)
