@@ -30,6 +30,7 @@ DOORS = {"show.report", "show.limits", "show.plots", "files.tips"}
 # What the chain bears witness of.
 CHECKED = {
     "contact.live_interval", "contact.quadrature", "contact.integrals", "contact.yielding",
+    "contact.rule_of_yield", "contact.radius_cap", "contact.own_cap",
     "contact.closed_forms", "contact.adhesion", "contact.pressure", "contact.indentation",
     "contact.loading", "contact.unloading", "contact.creep_law", "contact.creep", "impacts.impact",
     "impacts.energy_balance", "impacts.adhesive", "impacts.contact_time", "impacts.time_quadrature",

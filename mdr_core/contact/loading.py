@@ -13,7 +13,8 @@ from . import adhesion
 from .indentation import Indentation
 from .integrals import integrals
 from .live_interval import LiveInterval
-from .yielding import ConstantCap, yield_rule
+from .rule_of_yield import ConstantCap
+from .yielding import yield_rule
 
 
 @_check.keywords_explained

@@ -19,7 +19,8 @@ import numpy as np
 
 from ..contact.integrals import integrals, tabulated
 from ..contact.live_interval import LiveInterval
-from ..contact.yielding import YieldRule, yield_rule
+from ..contact.rule_of_yield import YieldRule
+from ..contact.yielding import yield_rule
 from ..numerics.results import Entries
 from ..profiles.profile import Profile
 

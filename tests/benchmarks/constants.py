@@ -2,8 +2,9 @@
 
 python -m tests.benchmarks.constants
 
-For `TRANSITIONS` (time_quadrature.py) and `scales` (yielding.py): the largest relative error over impacts
-of five shapes with a transition depth, from far below it to far above, against much denser cuts.
+For `TRANSITIONS` (time_quadrature.py) and `scales` (rule_of_yield.py, radius_cap.py): the largest
+relative error over impacts of five shapes with a transition depth, from far below it to far above, against
+much denser cuts.
 """
 
 from unittest.mock import patch
@@ -11,7 +12,8 @@ from unittest.mock import patch
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.contact.yielding import RadiusCap, YieldRule
+from mdr_core.contact.radius_cap import RadiusCap
+from mdr_core.contact.rule_of_yield import YieldRule
 from mdr_core.impacts import time_quadrature
 
 SHAPES = (
