@@ -7,8 +7,12 @@ import numpy as np
 from ..numerics.blocks import broadcast_flat, chunks
 from .radius_cap import RadiusCap
 
-#: Halvings of a piece for a law of one's own: to 10⁻⁹ of its length, as at a kink.
+#: Halvings of a piece of the plastic work: to 10⁻⁹ of its length, as at a kink.
 _HALVINGS = 30
+#: A falling cap is looked for from this share of a depth on, in so many steps, each deeper by 7 %.
+_SHALLOWEST = 1e-6
+_STEPS = 200
+_STEP = 1.07
 
 
 @dataclass(frozen=True, eq=False)
@@ -16,85 +20,109 @@ class OwnCap(RadiusCap):
     """`RadiusCap` of a law of hardness of one's own, of which nothing is known beforehand."""
 
     def may_fall(self, depth):
-        # Falling caps are looked for from 10⁻⁶ of the depths on, in steps of 7 %.
         depth = np.asarray(depth, dtype=float)
         if np.any(depth == np.inf):
             return True
-        if not self.shape:
-            depth = np.array([np.min(depth, initial=np.inf), np.max(depth, initial=0.0)])
-            steps = np.log(depth[1] / depth[0]) / np.log(1.07) + 200 if depth[1] > 0 else 1
-            return self._falls(np.geomspace(1e-6 * depth[0], depth[1], int(steps)) if steps > 1 else depth)
+        if self.shape:
+            return self._any_may_fall(depth)
+        largest = np.max(depth, initial=0.0)
+        if largest == 0:
+            return False
+        smallest = np.min(depth)
+        steps = int(np.log(largest / smallest) / np.log(_STEP)) + _STEPS
+        return self._falls(np.geomspace(_SHALLOWEST * smallest, largest, steps))
+
+    def _any_may_fall(self, depth):
+        """`may_fall` of an ensemble, up to a depth (m) each."""
         shape, (depth,) = broadcast_flat(
             np.broadcast_to(depth, np.broadcast_shapes(depth.shape, self.shape))
         )
-        return any(
-            self.flat_entries(rows, shape)
-            .entries((slice(None), None), depth[rows].shape)
-            ._falls(depth[rows][:, None] * np.geomspace(1e-6, 1.0, 200))
-            for rows in chunks(depth.size, 512)
-        )
+        share = np.geomspace(_SHALLOWEST, 1.0, _STEPS)
+        for rows in chunks(depth.size, 512):
+            own = self.flat_entries(rows, shape).entries((slice(None), None), depth[rows].shape)
+            if own._falls(depth[rows][:, None] * share):
+                return True
+        return False
 
     @np.errstate(all="ignore")
     def _falls(self, depth):
+        """Whether the cap falls at any of the depths (m)."""
         return bool(np.any(self.cap_rate_at(self.profile.radius_at(depth)) < 0))
 
     def _cuts(self, imprint, increase):
         cuts = super()._cuts(imprint, increase)
+        # Where the law itself changes fast.
         sharp = np.minimum(self.law.sharp, self.profile.known_radius)
-        depth = self.profile.reduced_at(sharp) - imprint
-        return np.sort(np.hstack([cuts, np.clip(depth, cuts[:, :1], cuts[:, -1:])]), axis=1)
+        penetration = self.profile.reduced_at(sharp) - imprint
+        first, last = cuts[:, :1], cuts[:, -1:]
+        return np.sort(np.hstack([cuts, np.clip(penetration, first, last)]), axis=1)
 
     def _plastic_sums(self, imprint, increase):
-        return self._refined(imprint, increase)[0]
+        work, *_ = self._refined(imprint, increase)
+        return work
 
     def breaks(self, imprint, increase, onset):
-        cuts, (_, rows, middles) = self._cuts(imprint, increase), self._refined(imprint, increase)
-        order = np.argsort(rows, kind="stable")
-        rows, middles = rows[order], middles[order]
-        place = np.arange(rows.size) - np.searchsorted(rows, rows)
-        padded = np.zeros((len(cuts), np.max(place, initial=-1) + 1))
-        padded[rows, place] = middles
-        return np.hstack([cuts, padded]) - onset
+        cuts = self._cuts(imprint, increase)
+        _, row, halved_at = self._refined(imprint, increase)
+        return np.hstack([cuts, _padded(row, halved_at, len(cuts))]) - onset
 
     @np.errstate(all="ignore")
     def _refined(self, imprint, increase):
-        """`RadiusCap._plastic_sums` in pieces that are halved until the sum is that of the halves.
+        """The plastic work in pieces, halved until each is the sum of its halves; one loading a row.
 
-        Also the middles (m) of pieces that were halved, and their rows.
+        Returns
+        -------
+        work : ndarray, shape (N,)
+            ∫ u_c a(p) dp (m³).
+        row, halved_at : ndarray, shape (M,)
+            Loadings, and the penetrations (m) at which pieces of theirs were halved.
         """
         imprint, increase = np.broadcast_arrays(imprint, increase)
-        cuts, total = self._cuts(imprint, increase), np.zeros(len(imprint))
+        cuts = self._cuts(imprint, increase)
         cuts = np.broadcast_to(cuts, (len(imprint), cuts.shape[1]))
-        rows, k = np.nonzero(np.diff(cuts) > 0)
-        start, stop = cuts[rows, k, None], cuts[rows, k + 1, None]
-        halved, middles = [rows[:0]], [start[:0, 0]]
-        whole = self._pieces(rows, start, stop, imprint, increase)
+        row, number = np.nonzero(np.diff(cuts) > 0)
+        start, stop = cuts[row, number, None], cuts[row, number + 1, None]
+        whole = self._pieces(row, start, stop, imprint, increase)
+        work = np.zeros(len(imprint))
+        halved_row, halved_at = [row[:0]], [start[:0, 0]]
         for _ in range(_HALVINGS):
             middle = (start + stop) / 2
-            halves = (np.append(rows, rows), np.append(start, middle, 0), np.append(middle, stop, 0))
-            parts = self._pieces(*halves, imprint, increase)
-            both = parts[: rows.size] + parts[rows.size :]
-            scale = total + np.bincount(rows, np.abs(both), len(total))
+            # The first halves of all pieces, and then the second ones.
+            half_row = np.append(row, row)
+            half_start, half_stop = np.vstack([start, middle]), np.vstack([middle, stop])
+            half = self._pieces(half_row, half_start, half_stop, imprint, increase)
+            both = half[: row.size] + half[row.size :]
+            scale = work + np.bincount(row, np.abs(both), len(work))
             # To the rounding of the sum.
-            rough = np.abs(both - whole) > 1e-14 * scale[rows]
-            total += np.bincount(rows[~rough], both[~rough], len(total))
-            halved.append(rows[rough])
-            middles.append(middle[rough, 0])
+            rough = np.abs(both - whole) > 1e-14 * scale[row]
+            work += np.bincount(row[~rough], both[~rough], len(work))
+            halved_row.append(row[rough])
+            halved_at.append(middle[rough, 0])
             again = np.append(rough, rough)
-            rows, start, stop = (part[again] for part in halves)
-            whole = parts[again]
-            if not rows.size:
+            row, start, stop, whole = half_row[again], half_start[again], half_stop[again], half[again]
+            if not row.size:
                 break
-        total += np.bincount(rows, whole, len(total))
-        return total, np.concatenate(halved), np.concatenate(middles)
+        work += np.bincount(row, whole, len(work))
+        return work, np.concatenate(halved_row), np.concatenate(halved_at)
 
-    def _pieces(self, rows, start, stop, imprint, increase):
-        """`_piece` of rows of the ensemble."""
-        own = self.entries(rows) if self.shape else self
-        return own._piece(start, stop, imprint[rows], increase[rows])
+    def _pieces(self, row, start, stop, imprint, increase):
+        """`_piece` of loadings `row` of the ensemble, one piece a row of the penetrations (M, 1)."""
+        own = self.entries(row) if self.shape else self
+        return own._piece(start, stop, imprint[row], increase[row])
 
     def wall_integral(self):
         # Without a wall its limit for a → ∞ is not known: a force that is too large has no depth.
         wall = np.asarray(self.profile.wall)
         load = self.law.wall_load(np.where(wall < np.inf, wall, 1.0))
         return np.where(wall < np.inf, load, np.inf)[()]
+
+
+def _padded(row, values, count):
+    """Values by the numbers of their rows, as rows of one length that end in zeros: shape (count, K)."""
+    order = np.argsort(row, kind="stable")
+    row = row[order]
+    # Place of each value among those of its row.
+    place = np.arange(row.size) - np.searchsorted(row, row)
+    padded = np.zeros((count, np.max(place, initial=-1) + 1))
+    padded[row, place] = values[order]
+    return padded

@@ -1,4 +1,8 @@
-"""Which rule of yield holds for a profile on a medium."""
+"""Which rule of yield holds for a profile on a medium: the one way to a `YieldRule`.
+
+`ConstantCap` for the hardness q_c/a and where nothing yields, `OwnCap` for a law of one's own, `RadiusCap`
+for any other sum H + q_c/a + f_c/a². For H alone some profiles have closed forms.
+"""
 
 from functools import singledispatch
 
@@ -20,7 +24,6 @@ def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
     >>> import numpy as np
     >>> from mdr_core.contact.yielding import yield_rule
     >>> from mdr_core import Cone, Medium
-    >>> from mdr_core import Cone
     >>> rule = yield_rule(Cone(slope=1.0), Medium.from_critical_depth(1.0, critical_depth=1.0))
     >>> rule.path(np.array([0.5, 3.0, 2.5, 1.0])).length.tolist()
     [0.5, 1.0, 0.5, 0.0]

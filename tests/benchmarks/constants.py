@@ -1,10 +1,10 @@
-"""Where pieces of quadratures are cut: errors of contact time and plastic work with other cuts.
+"""Cuts and nodes of quadratures: errors of contact time and plastic work with others.
 
 python -m tests.benchmarks.constants
 
-For `TRANSITIONS` (time_quadrature.py) and `scales` (rule_of_yield.py, radius_cap.py): the largest
-relative error over impacts of five shapes with a transition depth, from far below it to far above, against
-much denser cuts.
+For `TRANSITIONS` and `NODES` (time_quadrature.py), `scales` (rule_of_yield.py, radius_cap.py) and `_NODES`
+(radius_cap.py): the largest relative error over impacts of five shapes with a transition depth, from far
+below it to far above, against much denser cuts, or more nodes.
 """
 
 from unittest.mock import patch
@@ -12,6 +12,7 @@ from unittest.mock import patch
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.contact import radius_cap
 from mdr_core.contact.radius_cap import RadiusCap
 from mdr_core.contact.rule_of_yield import YieldRule
 from mdr_core.impacts import time_quadrature
@@ -47,14 +48,19 @@ def table(what, medium, target, name, candidates, dense):
         exact = list(values(medium))
     print(f"{what}, contact time and plastic work:")
     with np.errstate(all="ignore"):
-        for cuts in candidates:
-            time, work = error(medium, target, name, np.asarray(cuts), exact)
-            print(f"  {np.array2string(np.asarray(cuts), precision=3):60} {time:9.1e} {work:9.1e}")
+        for tried in candidates:
+            time, work = error(medium, target, name, tried, exact)
+            print(f"  {np.array2string(np.asarray(tried), precision=3):60} {time:9.1e} {work:9.1e}")
 
 
 def main():
     """Prints the tables."""
+    for what, medium in MEDIA.items():
+        counts = (14, 6), (20, 9), (28, 9), (28, 12), (28, 18), (40, 12)
+        table(f"NODES, {what}", medium, time_quadrature, "NODES", counts, (56, 40))
+    table("_NODES of RadiusCap", MEDIA["H, q_c, f_c"], radius_cap, "_NODES", (8, 12, 16, 20, 24, 32), 64)
     shares = ([], [1.0], [6.0], [0.5, 3.0], [1.0, 6.0], [2.0, 12.0], [1.0, 3.0, 9.0])
+    shares = [np.array(share) for share in shares]
     dense = np.geomspace(0.1, 100.0, 17)
     for what, medium in MEDIA.items():
         table(f"TRANSITIONS, {what}", medium, time_quadrature, "TRANSITIONS", shares, dense)
