@@ -24,9 +24,11 @@ from .integrals import integrals
 from .live_interval import LiveInterval
 from .rule_of_yield import YieldRule
 
-#: Share of the largest depth up to which the law of a sharp tip that yields from first touch is linear.
+#: Share of the largest depth up to which the law of a sharp tip that yields from first touch is linear: next
+#: to its tip it is a cone of constant hardness, for which A/y is the same at every depth.
 _TIP = 1e-6
-#: Nodes of ∫ d df between two times while nothing yields.
+#: Nodes of ∫ d df between two times while nothing yields. The work of the dashpots then has errors of
+#: 4·10⁻¹² at most, with 8 nodes 4·10⁻⁹: measured by `python -m tests.benchmarks.constants`.
 _NODES = 12
 
 

@@ -4,7 +4,8 @@ python -m tests.benchmarks.constants
 
 For `TRANSITIONS` and `NODES` (time_quadrature.py), `scales` (rule_of_yield.py, radius_cap.py) and `_NODES`
 (radius_cap.py): the largest relative error over impacts of five shapes with a transition depth, from far
-below it to far above, against much denser cuts, or more nodes.
+below it to far above, against much denser cuts, or more nodes; for `_NODES` (creep_loading.py) that of the
+work of the dashpots in creep.
 """
 
 from unittest.mock import patch
@@ -12,7 +13,7 @@ from unittest.mock import patch
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.contact import radius_cap
+from mdr_core.contact import creep_loading, radius_cap
 from mdr_core.contact.radius_cap import RadiusCap
 from mdr_core.contact.rule_of_yield import YieldRule
 from mdr_core.impacts import time_quadrature
@@ -53,6 +54,27 @@ def table(what, medium, target, name, candidates, dense):
             print(f"  {np.array2string(np.asarray(tried), precision=3):60} {time:9.1e} {work:9.1e}")
 
 
+def creeps():
+    """Works of the dashpots (J) under a force that is ramped, held and taken away, an array a shape."""
+    time = np.array([0.0, 0.1, 1.0, 3.0, 3.2, 4.0]) * 1e-8
+    for shape in (*SHAPES, mdr.Cone(0.3)):
+        for medium in (mdr.Medium(1e9, eta=2.5), mdr.Medium(1e9, q_c=5.0, eta=2.5)):
+            force = np.array([0.0, 0.1, 1.0, 1.0, 0.5, 0.0]) * 1e-5
+            yield mdr.creep(shape, medium, force, time, tolerance=1e-10).viscous_work[1:]
+
+
+def creep_table(candidates, dense):
+    """Prints the largest errors of the works in creep, relative to the largest work, for numbers of nodes."""
+    with patch.object(creep_loading, "_NODES", dense):
+        exact = list(creeps())
+    print("_NODES of creep, work of the dashpots:")
+    for tried in candidates:
+        with patch.object(creep_loading, "_NODES", tried):
+            pairs = list(zip(creeps(), exact, strict=True))
+        largest = max(np.max(np.abs(got - right)) / right[-1] for got, right in pairs)
+        print(f"  {tried!s:60} {largest:9.1e}")
+
+
 def main():
     """Prints the tables."""
     for what, medium in MEDIA.items():
@@ -64,6 +86,7 @@ def main():
     dense = np.geomspace(0.1, 100.0, 17)
     for what, medium in MEDIA.items():
         table(f"TRANSITIONS, {what}", medium, time_quadrature, "TRANSITIONS", shares, dense)
+    creep_table((4, 6, 8, 12, 16), 40)
     rules = ("ConstantCap", MEDIA["q_c"], YieldRule), ("RadiusCap", MEDIA["H, q_c, f_c"], RadiusCap)
     for what, medium, rule in rules:
         first, factor = rule.scales[0], rule.scales[1] / rule.scales[0]
