@@ -11,7 +11,6 @@ units of τ, and f is linear between the given times.
 
 import warnings
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -24,8 +23,8 @@ from .integrals import integrals
 from .live_interval import LiveInterval
 from .rule_of_yield import YieldRule
 
-#: Share of the largest depth up to which the law of a sharp tip that yields from first touch is linear: next
-#: to its tip it is a cone of constant hardness, for which A/y is the same at every depth.
+#: Share of the largest depth up to which the law of a sharp tip that yields from first touch is linear: the
+#: tip is a cone there, for which, under a constant hardness, A/y is the same at every depth.
 _TIP = 1e-6
 #: Nodes of ∫ d df between two times while nothing yields. The work of the dashpots then has errors of
 #: 4·10⁻¹² at most, with 8 nodes 4·10⁻⁹: measured by `python -m tests.benchmarks.constants`.
@@ -61,7 +60,7 @@ class Loading:
         """Depths (m) at which ∫ a ds from the tip has values y (m²); infinite below the known depth."""
         return increasing_root(self.elastic, y, self.bound, self.rule.profile.known_depth)
 
-    @cached_property
+    @property
     def linear_part(self):
         """Depth (m) up to which the law is linear in y, the value of y (m²) there, and A/y."""
         depth = self.onset
@@ -159,7 +158,7 @@ class _Stretch:
     places: np.ndarray
     last: float
 
-    @cached_property
+    @property
     def slope(self):
         """df/ds (m²)."""
         return (self.last - self.first) / self.places[-1]

@@ -7,7 +7,6 @@ where E at the turning point is not larger than E₁. Energies here are over 2E*
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -40,15 +39,12 @@ from .time_quadrature import TRANSITIONS, places
 #: Gauss nodes of the contact time in each piece.
 _NODES = 32
 
-#: Gauss nodes of the contact time in each piece.
-_NODES = 32
-
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AdhesiveImpact(Impact):
     """Impacts on a medium with adhesion."""
 
-    @cached_property
+    @property
     def _rebound_energy(self):
         """Energy over 2E* (m³) after the pull-off, negative for a captured body."""
         return rebound_energy(self.profile, self.medium, self.turning_point.live_interval)

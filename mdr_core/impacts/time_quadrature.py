@@ -1,5 +1,6 @@
 """Contact time of a dry impact as the quadrature of dd/v, in pieces between which a(s) is smooth."""
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -279,6 +280,8 @@ def places(offset, size, remainder, node):
     return cube_rise(first, sigma), last * 6 * rise * (1 - u) * (first + sigma) ** 2
 
 
+# Kept, one contact time is 1.5 times as fast.
+@lru_cache
 def _rule(count):
     """Nodes, weights, and the matrix from values at the nodes to integrals from each of them to the end."""
     node, weight = gauss_legendre(count)

@@ -64,7 +64,7 @@ def creeps():
 
 
 def creep_table(candidates, dense):
-    """Prints the largest errors of the works in creep, relative to the largest work, for numbers of nodes."""
+    """Prints the largest errors of the works in creep, over the largest work, for numbers of nodes."""
     with patch.object(creep_loading, "_NODES", dense):
         exact = list(creeps())
     print("_NODES of creep, work of the dashpots:")
