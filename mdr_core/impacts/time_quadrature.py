@@ -266,13 +266,15 @@ def _nodes(pieces, node):
 def places(offset, size, remainder, node):
     """Nodes of pieces as depths from their start (m), and their rates by the node.
 
-    A piece starts `offset` (m) below the depth where a(s) starts as a root, has the length `size`, and ends
-    `remainder` above the turning point. With W the distance to it in σ = ∛depth, σ = ∛offset + W u(2 − u):
-    smooth in u from the root on, with a velocity that is linear in u at the turning point, u = 1.
+    A piece starts `offset` (m) below the depth at which a(s) starts as a root, has the length `size`, and
+    ends `remainder` above the turning point. With σ, the cube root of the distance from where a(s) starts,
+    its nodes are at σ = σ₀ + Δ u (2 − u), where σ₀ is at the start of the piece, σ₀ + Δ at the turning
+    point, and u goes evenly from 0 at the start to `last` at the end of the piece. So the integrand is
+    smooth in u from the root on, and the velocity is linear in u at the turning point, u = 1.
     """
     first = np.cbrt(offset)
     rise = cube_way(first, size + remainder)
-    # 1 − u(2 − u) at the end, which may be less than rounding of u(2 − u).
+    # 1 − u(2 − u) at the end, which may be less than rounding of u(2 − u), is (1 − u)².
     gap = cube_way(np.cbrt(offset + size), remainder) / rise
     last = cube_way(first, size) / rise / (1 + np.sqrt(gap))
     u = last * node
