@@ -30,10 +30,12 @@ DOORS = {"show.report", "show.limits", "show.plots", "files.tips"}
 # What the chain bears witness of.
 CHECKED = {
     "contact.live_interval", "contact.quadrature", "contact.integrals", "contact.yielding",
+    "contact.rule_of_yield", "contact.radius_cap", "contact.own_cap",
     "contact.closed_forms", "contact.adhesion", "contact.pressure", "contact.indentation",
-    "contact.loading", "contact.unloading", "contact.creep_law", "contact.creep", "impacts.impact",
-    "impacts.energy_balance", "impacts.adhesive",
-    "impacts.contact_time", "impacts.result", "impacts.viscous", "impacts.equation_of_motion",
+    "contact.loading", "contact.unloading", "contact.creep_loading", "contact.creep_retreat",
+    "contact.creep_states", "contact.creep", "impacts.impact",
+    "impacts.energy_balance", "impacts.adhesive", "impacts.contact_time", "impacts.time_quadrature",
+    "impacts.result", "impacts.viscous", "impacts.equation_of_motion",
     "impacts.collocation_steps", "impacts.motion_solver", "impacts.dense_motion", "impacts.motion",
     "impacts.scaling", "profiles.radius_table", "contact.stress",
 }  # fmt: skip

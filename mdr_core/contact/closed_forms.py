@@ -22,7 +22,8 @@ from ..numerics.stable import cube_rise, log1p_ratio, root
 from ..profiles.power import Cone, FlatPunch, Paraboloid, PowerLaw
 from .integrals import Integrals, integrals
 from .live_interval import LiveInterval
-from .yielding import RadiusCap, constant_hardness
+from .radius_cap import RadiusCap
+from .yielding import constant_hardness
 
 _TINY = np.finfo(float).tiny
 

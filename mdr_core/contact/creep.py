@@ -1,8 +1,9 @@
 """Viscous indentation under a prescribed force in time: creep.
 
-Three solvers answer. Without viscosity the path is that of `indent_to_force`. With it the scalar laws of
-`creep_law` hold up to the first time at which the force rises after the indenter has receded; from
-there on `chain_creep` follows every element, from the state that the scalar laws have reached.
+Three solvers answer. Without viscosity the path is that of `indent_to_force`. With it the scalar laws hold:
+that of `creep_loading` while the indenter goes deeper, and that of `creep_retreat` while it recedes
+afterwards. At the first time at which the force rises again `chain_creep` takes over, and follows every
+element from the state that the scalar laws have reached.
 """
 
 from dataclasses import dataclass, replace
@@ -13,21 +14,22 @@ import scipy
 from .. import _check
 from .._check import ArrayLike
 from ..foundation.depth_path import Ramps, TimedIndentation
-from ..foundation.force_path import Start, chain_creep, check_creep
+from ..foundation.force_path import chain_creep, check_creep
 from ..medium import Medium
-from ..numerics.results import CLOSED_FORM, CREEP_LAW, Model
 from ..profiles.profile import Profile
-from .creep_law import Loading, Retreat
+from .creep_loading import Loading
+from .creep_retreat import Retreat
+from .creep_states import ScalarPath, pressed_states, retreating_states
 from .integrals import integrals, tabulated
-from .live_interval import LiveInterval
 from .loading import indent_to_force
 from .yielding import yield_rule
 
-#: Number of runs of the scalar laws, each a hundred times as precise as the one before, and the first.
-_RUNS, _PRECISION = 4, 1e-1
+#: Largest number of runs of the scalar laws, each a hundred times as precise as the one before.
+_RUNS = 4
+#: Precision of the integrator in the first run, over the tolerance.
+_PRECISION = 0.1
 #: Smallest error that is said: that of the rounding of radii and integrals.
 _ROUNDING = 1e-12
-_ENDS = ("lower", "upper", "length")
 
 
 @_check.keywords_explained
@@ -99,83 +101,6 @@ def creep(
 
 
 @dataclass(frozen=True, eq=False)
-class ScalarPath:
-    """States by the scalar laws, arrays of one entry each; the `History` of a `TimedIndentation`.
-
-    Live intervals, the lead e = d − D (m) over the edge of the contact, τḋ (m), energies (J), and the
-    `Retreat`, if there is one, whose last states are the last ones of the path.
-    """
-
-    profile: Profile
-    medium: Medium
-    interval: LiveInterval
-    lead: np.ndarray
-    lag: np.ndarray
-    stored_energy: np.ndarray
-    plastic_work: np.ndarray
-    viscous_work: np.ndarray
-    retreat: Retreat | None = None
-
-    @property
-    def model(self) -> Model:
-        """Name of the model."""
-        return CREEP_LAW if self.medium.eta > 0 else CLOSED_FORM
-
-    @property
-    def depth(self):
-        """Depth d (m)."""
-        return self.interval.upper + self.lead
-
-    def elements(self, x, count):
-        """Line load (N/m) and elastic compression (m) at x (m) in the first states, shape (count, M)."""
-        columns = np.array([
-            self.interval.upper, self.interval.length, self.lead, self.lag,
-        ])[:, :count, None]  # fmt: skip
-        edge, length, lead, lag = columns
-        height = np.asarray(self.profile.reduced(x))
-        springs = np.clip(edge - height, 0.0, length)
-        contact = height < edge
-        elastic = np.where(contact, springs + lead, self._released(height)[:count])
-        # The dashpots of a retreating contact take the lead off.
-        load = np.where(contact, springs + np.maximum(lag, 0.0), 0.0)
-        return self.medium.E_star * load, elastic
-
-    def _released(self, height):
-        """Compressions (m) of released elements of reduced heights (m) in all states."""
-        result = np.zeros((len(self.lead), height.size))
-        if self.retreat is not None:
-            later = self.retreat.released(height)
-            # The turning point need not be at one of the times.
-            result[len(result) - len(later) + 1 :] = later[1:]
-        return result
-
-    def states(self, time, force, error):
-        """The `TimedIndentation` of this path."""
-        edge = np.asarray(self.interval.upper)
-        with np.errstate(all="ignore"):
-            radius = np.where(force > 0, self.profile.radius_at(edge), 0.0)
-        return TimedIndentation(
-            self.profile, self.medium, time, self.depth, force, radius,
-            stored_energy=self.stored_energy, plastic_work=self.plastic_work,
-            viscous_work=self.viscous_work, plastic_depth=self.interval.lower, error=error,
-            _index=np.arange(len(time)), _history=self,
-        )  # fmt: skip
-
-    @property
-    def last(self):
-        """The last state, for the chain to go on from."""
-        return Start(
-            depth=float(self.depth[-1]),
-            largest=float(self.retreat.interval.upper),
-            plastic_depth=float(self.interval.lower[-1]),
-            edge=float(self.interval.upper[-1]),
-            elastic=lambda x: self.elements(x, len(self.lead))[1][-1],
-            plastic_work=float(self.plastic_work[-1]),
-            viscous_work=float(self.viscous_work[-1]),
-        )
-
-
-@dataclass(frozen=True, eq=False)
 class _Joined:
     """A path by the scalar laws up to the first state of one on the chain."""
 
@@ -220,6 +145,7 @@ def _by_scalar_laws(profile, medium, force, time, tolerance):
     onset, ds = float(rule.onset()), np.diff(time) / medium.relaxation_time
     first, bound = _first_and_bound(profile, medium, rule, force, ds)
     rule = replace(rule, profile=tabulated(profile, bound))
+    # The error is what a run changes that is a hundred times as precise as the one before.
     depth, error = None, np.inf
     for level in range(_RUNS):
         precision = max(_PRECISION * min(tolerance, 1e-2) / 100**level, _ROUNDING)
@@ -236,9 +162,9 @@ def _by_scalar_laws(profile, medium, force, time, tolerance):
             error = max(change / max(np.max(depth), _check.SHORTEST), _ROUNDING)
         if error <= tolerance:
             break
-    path = _pressed_states(profile, medium, law, pressed)
+    path = pressed_states(profile, medium, law, pressed)
     if retreat is not None:
-        path = _retreating(path, law, pressed, retreat)
+        path = retreating_states(path, law, pressed, retreat)
     return path, len(path.lead), float(error)
 
 
@@ -277,31 +203,6 @@ def _refuse_unknown(profile, pressed, force):
     _check.refuse("force", force[: known.size], ~known, bound, unit="N", remedy="press less")
 
 
-def _pressed_states(profile, medium, law, pressed):
-    """`ScalarPath` of a growing depth."""
-    rule, modulus, f = law.rule, 2 * medium.E_star, law.area[: pressed.depth.size]
-    interval, _ = rule.loading(pressed.depth)
-    area, radius = law.pressed(pressed.depth)
-    with np.errstate(all="ignore"):
-        lag = np.where(radius > 0, np.maximum(f - area, 0.0) / radius, 0.0)
-    stored = integrals(rule.profile).energy_integral(interval)
-    plastic = rule.plastic_integral(np.zeros_like(interval.lower), interval.lower)
-    viscous = _lost(pressed.depth, f, pressed.moment, stored + plastic)
-    return ScalarPath(
-        profile, medium, interval, np.zeros_like(lag), lag,
-        modulus * stored, modulus * plastic, modulus * viscous,
-    )  # fmt: skip
-
-
-def _lost(depth, area, moment, energy):
-    """Work of the dashpots over 2E* (m³): that of the force less the `energy` stored and taken by yielding.
-
-    ∫ f dd is f d − ∫ d df; the first state is reached infinitely slowly.
-    """
-    work = area * depth - area[0] * depth[0] - moment
-    return np.maximum.accumulate(np.maximum(work - (energy - energy[0]), 0.0))
-
-
 def _retreat(law, pressed, count):
     """The `Retreat` from a turning point up to the time from which on the force rises."""
     interval, _ = law.rule.loading(np.asarray(pressed.turning_depth))
@@ -314,30 +215,3 @@ def _retreat(law, pressed, count):
     whole = law.ds[first - 1]
     ds = np.append(max(whole - pressed.age, 1e-12 * whole), law.ds[first : stop - 1])
     return Retreat(law.rule, interval, area, ds, count)
-
-
-def _retreating(before, law, pressed, retreat):
-    """`ScalarPath` that goes on from the states `before` a turning point."""
-    rule, modulus, interval = law.rule, 2 * before.medium.E_star, retreat.interval
-    lead, remainder, work = retreat.states[:, 1:]
-    held = LiveInterval.above(interval.lower, retreat.length[1:])
-    stored = integrals(rule.profile).energy_integral(held) + lead * retreat.area[1:] + remainder / 2
-    taken = float(rule.plastic_integral(np.zeros_like(interval.lower), interval.lower))
-    energy = float(integrals(rule.profile).energy_integral(interval)) + taken
-    at_turn = _lost(
-        np.append(before.depth, pressed.turning_depth),
-        np.append(law.area[: pressed.depth.size], retreat.area[0]),
-        np.append(pressed.moment, pressed.turning_moment),
-        np.append((before.stored_energy + before.plastic_work) / modulus, energy),
-    )[-1]
-    ends = (np.append(getattr(before.interval, end), getattr(held, end)) for end in _ENDS)
-    return replace(
-        before,
-        interval=LiveInterval(*ends),
-        lead=np.append(before.lead, lead),
-        lag=np.append(before.lag, -lead),
-        stored_energy=np.append(before.stored_energy, modulus * stored),
-        plastic_work=np.append(before.plastic_work, np.full(len(lead), modulus * taken)),
-        viscous_work=np.append(before.viscous_work, modulus * (at_turn + work)),
-        retreat=retreat,
-    )

@@ -81,7 +81,7 @@ class Indentation(Result):
     def _rule(self):
         return yield_rule(self._quick, self.medium)
 
-    @cached_property
+    @property
     def _quick(self):
         """The profile, of very many states with a table of its contact radius."""
         if np.size(self.depth) < _MANY or self.profile.shape or not 0 < np.max(self.depth) < np.inf:

@@ -24,9 +24,11 @@ from .live_interval import LiveInterval
 from .quadrature import integrate, kink_above, radius, radius_rate
 
 #: Live intervals longer than this share of the depth are integrated as a difference of two integrals from
-#: the tip; the energy loses up to two digits by it.
+#: the tip; the energy loses up to two digits by it. 2000 elastic states of a rounded cone are 10 times as
+#: fast, the depths of 10⁵ impacts 17 times.
 _LONG = 0.15
-#: Number of depths up to which a table is not worth its making.
+#: Number of depths up to which a table is not made. 16 impacts of a new tip of 400 samples are 26 times as
+#: fast without one; it pays for itself after some 3000 of them, in one call or in many.
 _FEW = 16
 #: Numbers of Gauss nodes for shorter ones, by their length over the distance from the last kink. Forces of
 #: 2000 states of a rounded cone are 7 times as fast as by `integrate`.

@@ -13,7 +13,8 @@ from . import adhesion
 from .indentation import Indentation
 from .integrals import integrals
 from .live_interval import LiveInterval
-from .yielding import ConstantCap, yield_rule
+from .rule_of_yield import ConstantCap
+from .yielding import yield_rule
 
 
 @_check.keywords_explained
@@ -116,26 +117,31 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     _check.refuse("force", force, force >= limit, bound, unit="N", remedy="press to a depth instead")
     if adhesive:
         return Indentation(profile, medium, *adhesion.force_path(profile, medium, force))
-    integral = force / (2 * medium.E_star)
-    largest = np.maximum.accumulate(integral, axis=-1) if integral.ndim else integral
-    elastic = _elastic_depth(profile, largest) if medium.has_own_law else None
-    check_hardness(profile, medium, elastic)
-    branches = _growing_branches(rule, elastic)
-    largest_depth = _loading_depth(rule, branches, largest)
-    known = largest_depth <= min(profile.known_depth, _check.LONGEST)
-    bound = f"presses {profile.too_deep()}"
-    if medium.has_own_law and profile.known_depth == np.inf and not np.all(known):
-        carried = np.max(_carried(rule, np.minimum(branches.high, _check.LONGEST)))
-        bound = f"is more than the {2 * medium.E_star * carried:g} N that the contact carries on loading"
-    _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
+    # A = ∫ a ds over the live interval stands for the force, here and below.
+    area = force / (2 * medium.E_star)
+    largest_area = np.maximum.accumulate(area, axis=-1) if area.ndim else area
+    elastic_depth = _elastic_depth(profile, largest_area) if medium.has_own_law else None
+    check_hardness(profile, medium, elastic_depth)
+    branches = _growing_branches(rule, elastic_depth)
+    largest_depth = _loading_depth(rule, branches, largest_area)
+    _refuse_not_carried(profile, medium, rule, branches, force, largest_depth)
     check_hardness(profile, medium, largest_depth)
     loaded, _ = rule.loading(largest_depth)
-    length = np.where(integral == largest, loaded.length, live_length(profile, loaded, integral))
-    depth = np.where(integral == largest, largest_depth, loaded.lower + length)
-    end = np.max(largest_depth, initial=0.0)
-    jumps = zip(branches.high[:-1].tolist(), branches.low[1:].tolist(), strict=True)
-    jumps = tuple(jump for jump in jumps if jump[1] < end)
-    return Indentation(profile, medium, depth, LiveInterval(loaded.lower, depth, length), jumps=jumps)
+    on_loading = area == largest_area
+    length = np.where(on_loading, loaded.length, live_length(profile, loaded, area))
+    depth = np.where(on_loading, largest_depth, loaded.lower + length)
+    interval = LiveInterval(loaded.lower, depth, length)
+    return Indentation(profile, medium, depth, interval, jumps=branches.jumps(largest_depth))
+
+
+def _refuse_not_carried(profile, medium, rule, branches, force, depth):
+    """Refuses forces (N) that press to `depth` (m) below the known depth, or that no depth carries."""
+    carried = depth <= min(profile.known_depth, _check.LONGEST)
+    bound = f"presses {profile.too_deep()}"
+    if medium.has_own_law and profile.known_depth == np.inf and not np.all(carried):
+        most = 2 * medium.E_star * np.max(_carried(rule, np.minimum(branches.high, _check.LONGEST)))
+        bound = f"is more than the {most:g} N that the contact carries on loading"
+    _check.refuse("force", force, ~carried, bound, unit="N", remedy="press less")
 
 
 class _Branches(NamedTuple):
@@ -152,26 +158,45 @@ class _Branches(NamedTuple):
     least: np.ndarray
     most: np.ndarray
 
+    def first_with(self, area):
+        """Number of the first branch that reaches A (m²), elementwise; the last one if none does."""
+        reached_so_far = np.maximum.accumulate(self.most)
+        return np.minimum(np.searchsorted(reached_so_far, area), self.most.size - 1)
+
+    def jumps(self, depth):
+        """Pairs of depths (m), end and next beginning, between which loadings to depths (m) have jumped."""
+        end = np.max(depth, initial=0.0)
+        pairs = zip(self.high[:-1].tolist(), self.low[1:].tolist(), strict=True)
+        return tuple((before, after) for before, after in pairs if after < end)
+
+
+def _one_branch(end):
+    """The `_Branches` of a force that grows up to the depth (m) at which the profile ends."""
+    return _Branches(np.array([0.0]), np.array([end]), np.array([0.0]), np.array([np.inf]))
+
 
 def _loading_depth(rule, branches, area):
     """The first depth (m) at which a first loading has A = ∫ a ds = `area` (m²), elementwise.
 
-    It is the root on the first branch that reaches so far. Newton's method may try shallower depths, where
-    A is taken as the straight line from 0 to the beginning of the branch. dA/ds is a − c dp/ds past the
-    onset of yield, and a before it.
+    It is the root on the first branch that reaches so far. Newton's method may try shallower depths than
+    those of the branch, where A is taken as the straight line from 0 to the beginning of the branch; this
+    stays below an area that no branch before has reached. dA/ds is a − c dp/ds past the onset of yield, and
+    a before it.
     """
-    number = np.searchsorted(np.maximum.accumulate(branches.most), area)
-    low, high, least, _ = (values[np.minimum(number, values.size - 1)] for values in branches)
-    onset, rate = rule.onset(), least / np.maximum(low, 1e-300)
+    branch = branches.first_with(area)
+    low, high, least = branches.low[branch], branches.high[branch], branches.least[branch]
+    line_slope = least / np.maximum(low, 1e-300)
 
     def loading(depth):
+        """A (m²) and dA/ds (m)."""
         interval, _ = rule.loading(depth)
-        width = rule.yielding_width(interval)
-        slope = np.where(interval.lower > 0, width, rule.profile.radius_at(depth))
         value = integrals(rule.profile).radius_integral(interval)
-        # The line stays below an area that no branch before has reached.
-        return np.where(depth < low, rate * depth, value), np.where(depth < low, rate, slope)
+        yielding = rule.yielding_width(interval)
+        slope = np.where(interval.lower > 0, yielding, rule.profile.radius_at(depth))
+        shallower = depth < low
+        return np.where(shallower, line_slope * depth, value), np.where(shallower, line_slope, slope)
 
+    onset = rule.onset()
     start = np.clip(onset if 0 < onset < np.inf else 1.0, low, high)
     return increasing_root(loading, area, start, high)
 
@@ -186,58 +211,76 @@ def _carried(rule, depth):
     return integrals(rule.profile).radius_integral(rule.loading(np.asarray(depth))[0])
 
 
-def _one_branch(end):
-    """The `_Branches` of a force that grows up to the depth (m) at which the profile ends."""
-    return _Branches(*np.array([[0.0], [end], [0.0], [np.inf]]))
-
-
-def _growing_branches(rule, elastic=None):
+def _growing_branches(rule, elastic_depth=None):
     """The `_Branches` of a first loading.
 
     With f_c above 0, or a law of hardness, the force may fall after the onset of yield. Whether it grows is
-    asked at a grid of depths from the onset on; each change, between neighbours `low` and `high` of the
-    grid, is then halved down to rounding. For a law, `elastic` are the depths (m) that elastic loadings
-    reach, about which the grid is denser.
+    asked at a grid of depths, and each change between neighbours is found by halving. For a law of
+    hardness, `elastic_depth` are the depths (m) that elastic loadings reach.
     """
     end, onset = rule.profile.known_depth, float(rule.onset())
     if not onset < end or not rule.may_fall(end):
         return _one_branch(end)
 
     @np.errstate(all="ignore")
-    def growing(depth):
+    def grows_at(depth):
+        """Whether the force grows with depth at depths (m)."""
         interval, _ = rule.loading(depth)
         # Where the force goes to π f_c only the rounding of the radii is left of its slope.
         return rule.yielding_width(interval) >= -1e-14 * rule.profile.radius_at(interval.upper)
 
-    depth = onset * (1 + np.geomspace(1e-9, 1e9, 721))
-    if elastic is not None:
-        # A law may change at any depth, also under a sharp tip that yields from first touch on.
-        far = np.max(elastic, initial=0.0, where=elastic < np.inf) * np.geomspace(1e-6, 1e9, 1201)
-        depth = np.union1d(depth[depth > onset], far[far > onset])
-    depth = np.append(onset, np.append(depth[depth < end], end if end < np.inf else []))
-    grows = growing(depth)
+    depth = _depths_to_ask(onset, end, elastic_depth)
+    grows = grows_at(depth)
     # The elastic branch ends at the onset.
     grows[0] = True
-    turns = np.flatnonzero(grows[1:] != grows[:-1])
-    # All turns at once: on samples there is one at every vertex, and a call costs as much as many depths.
-    low, high, before = depth[turns], depth[turns + 1], grows[turns]
+    turn = np.flatnonzero(grows[1:] != grows[:-1])
+    grew = grows[turn]
+    before, after = _halved(grows_at, depth[turn], depth[turn + 1], grew)
+    low = np.append(0.0, after[~grew])
+    # The last branch goes on to the end, unless the force falls there.
+    high = np.append(before[grew], end)[: low.size]
+    least = np.where(low > 0, _carried(rule, low), 0.0)
+    finite = np.minimum(high, np.finfo(float).max ** 0.25)
+    most = np.where(high < np.inf, _carried(rule, finite), np.inf)
+    return _Branches(low, high, least, most)
+
+
+def _depths_to_ask(onset, end, elastic_depth):
+    """Depths (m), ascending, from the onset of yield to the end of the profile, if that is finite.
+
+    Denser about depths that elastic loadings reach: a law of hardness may change anywhere, also under a
+    sharp tip that yields from first touch on, where the onset is 0.
+    """
+    depth = onset * (1 + np.geomspace(1e-9, 1e9, 721))
+    if elastic_depth is not None:
+        largest = np.max(elastic_depth, initial=0.0, where=elastic_depth < np.inf)
+        far = largest * np.geomspace(1e-6, 1e9, 1201)
+        depth = np.union1d(depth[depth > onset], far[far > onset])
+    last = [end] if end < np.inf else []
+    return np.concatenate([[onset], depth[depth < end], last])
+
+
+def _halved(answer, low, high, at_low):
+    """Neighbouring depths (m), to rounding, between which an answer changes from what it is at `low`.
+
+    `answer` gives a truth for each of an array of depths, and it changes once between `low` and `high`, of
+    shape (M,). All changes are halved at once: on samples there is one at every vertex, and a call costs as
+    much for one depth as for many.
+    """
     while np.any(high - low > 4e-16 * high):
         middle = (low + high) / 2
         if np.all((middle == low) | (middle == high)):
             break
-        same = growing(middle) == before
+        same = answer(middle) == at_low
         low, high = np.where(same, middle, low), np.where(same, high, middle)
-    low, high = np.append(0.0, high[~before]), np.append(low[before], end)[: 1 + np.count_nonzero(~before)]
-    finite = np.minimum(high, np.finfo(float).max ** 0.25)
-    least = np.where(low > 0, _carried(rule, low), 0.0)
-    most = np.where(high < np.inf, _carried(rule, finite), np.inf)
-    return _Branches(low, high, least, most)
+    return low, high
 
 
 def live_length(profile, largest, area):
     """Live depth (m) at which unloading from the live interval `largest` has ∫ a ds = `area` (m²)."""
 
     def unloading(length):
+        """A (m²) and dA/dℓ (m)."""
         interval = LiveInterval.above(largest.lower, np.minimum(length, largest.length))
         return integrals(profile).radius_integral(interval), profile.radius_at(interval.upper)
 

@@ -4,27 +4,92 @@ A front is a radius at which contact or yield ends. At a contact front the line 
 yield front it has a kink. On a virgin surface the contact front is the contact radius; on a relaxing one it
 is where the gap between indenter and surface closes, extrapolated from the gaps of the free elements.
 
-Everything is on one side of the axis. Radii x (m) are counted from the axis, those of the elements are
-their midpoints, and `width` (m) is the length of an element; `load` is the line load q (N/m) at the
-midpoints, 0 out of contact, and corrections are ∫ q dx minus the sum Σ q Δx over elements (N). Elements
-have numbers from the axis outward: 0 is the one without width on the axis itself.
+Everything is on one side of the axis. Radii (m) are counted from the axis, and the load is the line load
+q (N/m). Corrections are ∫ q dx less the sum Σ q Δx over elements (N).
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
 
+class _Side(NamedTuple):
+    """One side of a foundation: arrays with an entry for each element, numbered from the axis outward.
+
+    Element 0 is the one without width on the axis itself.
+    """
+
+    #: Radii of the midpoints and widths (m).
+    x: np.ndarray
+    width: np.ndarray
+    #: q (N/m) at the midpoints, 0 out of contact, and whether the element is in contact.
+    load: np.ndarray
+    contact: np.ndarray
+    #: Elastic and plastic part (m) of the compression, and depth (m) of the indenter below the surface that
+    #: the element would have, if it were relaxed: negative above.
+    elastic: np.ndarray
+    plastic: np.ndarray
+    penetration: np.ndarray
+    #: Load of the dashpots E* τḋ (N/m), negative on unloading.
+    dashpot_load: float
+
+    @classmethod
+    def of(cls, foundation):
+        """That of a `Foundation` at present."""
+        elements, load = foundation._elements, foundation._load
+        parts = elements.elastic, elements.plastic, elements.penetration
+        dashpot_load = foundation.medium.E_star * foundation._current.lag
+        return cls(elements.x, elements.width, load, elements.contact, *parts, dashpot_load)
+
+    def last_yielded(self):
+        """Number of the outermost element with a plastic part, −1 if there is none."""
+        return int(np.count_nonzero(self.plastic)) - 1
+
+    def virgin(self, number):
+        """Whether an element has been neither compressed nor plastically deformed."""
+        return self.elastic[number] == 0 and self.plastic[number] == 0
+
+
+class _Boundary(NamedTuple):
+    """Where an element in contact has a free neighbour, by the numbers of the elements."""
+
+    #: The element in contact.
+    last: int
+    #: 1 where the contact ends outward, −1 where it ends towards the axis, as around a released centre.
+    step: int
+
+    @property
+    def free(self):
+        """The free neighbour."""
+        return self.last + self.step
+
+    @property
+    def second_free(self):
+        """The element behind the free neighbour, which may not exist, nor be free."""
+        return self.last + 2 * self.step
+
+    @property
+    def second_last(self):
+        """The element behind the last one in contact, which may not exist, nor be in contact."""
+        return self.last - self.step
+
+    @classmethod
+    def all(cls, contact):
+        """All of them, from the axis outward."""
+        changes = np.flatnonzero(contact[1:] != contact[:-1]).tolist()
+        return [cls(i, 1) if contact[i] else cls(i + 1, -1) for i in changes]
+
+
 def force_and_radius(foundation):
     """Force (N) including the fronts, and outer radius (m) of the contact, 0 without contact."""
-    contact, load = foundation._elements.contact, foundation._load
-    total = float(load @ foundation._elements.width) + _yield_correction(foundation, load)
+    side = _Side.of(foundation)
+    total = float(side.load @ side.width) + _yield_correction(side)
     radius = 0.0
-    for i in np.flatnonzero(contact[1:] != contact[:-1]).tolist():
-        # The element in contact next to the front, and the direction of the free one.
-        last, step = (i, 1) if contact[i] else (i + 1, -1)
-        radius = _contact_front(foundation, load, last, step)
-        ring = _narrow_ring(foundation, load, last, radius) if step > 0 else None
-        total += _contact_correction(foundation, load, last, step, radius) if ring is None else ring
-    if contact[-1]:
+    for boundary in _Boundary.all(side.contact):
+        radius = _contact_front(foundation, side, boundary)
+        ring = _narrow_ring(foundation, side, boundary, radius)
+        total += _contact_correction(side, boundary, radius) if ring is None else ring
+    if side.contact[-1]:
         radius = min(foundation.half_width, _virgin_radius(foundation, foundation.depth))
     return 2 * total, radius
 
@@ -34,88 +99,97 @@ def _virgin_radius(foundation, depth):
     return float(foundation.profile.radius_at(np.asarray(max(depth, 0.0))))
 
 
-def _yield_correction(foundation, load):
-    """∫ q dx over the element with the yield front, minus that of its midpoint (N).
+def _yield_correction(side):
+    """∫ q dx over the element in which yield ends, less the sum's part of it (N); 0 where it is not known.
 
-    The load is constant inside the front and falls linearly outside it, with the `slope` from the two
-    elements outside the `last` one with a plastic part. The line reaches the load of that one at the
-    `kink`; the part of the element between the kink and its nearer edge, of a `length`, is a triangle that
-    the midpoint misses.
+    The load is constant inside the front, and outside it falls on a straight line, which goes through the
+    first two elements that have not yielded. The `kink` is the radius at which this line reaches the load
+    of the last one that has. It lies in the last yielded element or in the next one, between the midpoint
+    and an edge. From the kink to this edge the load is below what the midpoint stands for by a triangle.
     """
-    elements, x, width = foundation._elements, foundation._elements.x, foundation._elements.width
-    last = int(np.count_nonzero(elements.plastic)) - 1
-    if not 0 < last < len(x) - 3 or not elements.contact[last + 3]:
+    x, load = side.x, side.load
+    yielded = side.last_yielded()
+    first, second = yielded + 1, yielded + 2
+    if not 0 < yielded < len(x) - 3 or not side.contact[yielded + 3]:
         return 0.0
-    near, far = load[last] - load[last + 1], load[last] - load[last + 2]
-    if not 0 < near < far:
+    fall_to_first = load[yielded] - load[first]
+    fall_to_second = load[yielded] - load[second]
+    if not 0 < fall_to_first < fall_to_second:
         return 0.0
-    slope = (far - near) / (x[last + 2] - x[last + 1])
-    kink = x[last + 1] - near / slope
-    i = last + int(kink > x[last] + width[last] / 2)
-    length = width[i] / 2 - abs(kink - x[i])
-    return -slope * max(length, 0.0) ** 2 / 2
+    slope = (fall_to_second - fall_to_first) / (x[second] - x[first])
+    kink = x[first] - fall_to_first / slope
+    outer_edge = x[yielded] + side.width[yielded] / 2
+    own = first if kink > outer_edge else yielded
+    length = max(side.width[own] / 2 - abs(kink - x[own]), 0.0)
+    return -slope * length**2 / 2
 
 
-def _narrow_ring(foundation, load, last, front):
+def _narrow_ring(foundation, side, boundary, front):
     """Correction (N) where yield ends within three elements of a virgin contact front, else None.
 
-    There are too few elements for a slope. The load is constant up to the `kink`, the radius at which
-    g = d − u_c, and falls linearly from there to that of the dashpots, E* τḋ, at the `front`; the sum over
-    elements from the edge of the last one that yielded on gives way to the integral of this.
+    There are too few elements for the slope of the load. It is constant up to the `kink`, the radius at
+    which g = d − u_c, and falls linearly from there to that of the dashpots at the `front`. The integral of
+    this, from the inner edge of the last yielded element to the front, takes the place of the sum.
     """
-    elements, x, width = foundation._elements, foundation._elements.x, foundation._elements.width
-    yielded = int(np.count_nonzero(elements.plastic)) - 1
-    virgin = elements.elastic[last + 1] == 0 == elements.plastic[last + 1]
-    lag, limit = foundation._current.lag, foundation._limit
-    capped = lag >= 0 and elements.elastic[yielded] == limit
-    if not (0 < yielded <= last < yielded + 3 and capped and virgin):
+    yielded, last = side.last_yielded(), boundary.last
+    if boundary.step < 0 or not 0 < yielded <= last < yielded + 3 or not side.virgin(boundary.free):
         return None
-    edge = float(x[yielded] - width[yielded] / 2)
+    limit = foundation._limit
+    if side.dashpot_load < 0 or side.elastic[yielded] != limit:
+        return None
+    edge = float(side.x[yielded] - side.width[yielded] / 2)
     kink = _virgin_radius(foundation, foundation.depth - limit)
     if not edge <= kink <= front:
         return None
-    rim = foundation.medium.E_star * lag
-    exact = load[yielded] * (kink - edge) + (load[yielded] + rim) / 2 * (front - kink)
-    return exact - float(load[yielded : last + 1] @ width[yielded : last + 1])
+    plateau = side.load[yielded]
+    exact = plateau * (kink - edge) + (plateau + side.dashpot_load) / 2 * (front - kink)
+    ring = slice(yielded, last + 1)
+    return exact - float(side.load[ring] @ side.width[ring])
 
 
-def _contact_correction(foundation, load, last, step, front):
-    """∫ q dx (N) from the edge of the last element in contact to the front, negative if that is inside.
+def _contact_correction(side, boundary, front):
+    """∫ q dx (N) from the edge of the last element in contact to the front, negative if that is inside it.
 
-    `step` is 1 where the contact lies inside the front, −1 where it lies outside, as around a released
-    centre. The load is extrapolated from the last two elements in contact to the middle of the piece.
+    The load is extrapolated to the middle of this piece from the last two elements in contact.
     """
-    inner, x = last - step, foundation._elements.x
-    edge = float(x[last] + step * foundation._elements.width[last] / 2)
+    x, load = side.x, side.load
+    last, second = boundary.last, boundary.second_last
+    edge = float(x[last] + boundary.step * side.width[last] / 2)
     slope = 0.0
-    if 0 <= inner < len(load) and foundation._elements.contact[inner]:
-        slope = (load[last] - load[inner]) / (x[last] - x[inner])
-    elif inner < 0 and front > 0:
+    if 0 <= second < len(load) and side.contact[second]:
+        slope = (load[last] - load[second]) / (x[last] - x[second])
+    elif second < 0 and front > 0:
         # Only the axis is in contact: the load falls to that of the dashpots at the front.
-        slope = (foundation.medium.E_star * max(foundation._current.lag, 0.0) - load[last]) / front
+        slope = (max(side.dashpot_load, 0.0) - load[last]) / front
     middle = float(load[last] + slope * ((front + edge) / 2 - x[last]))
-    return step * (front - edge) * middle
+    return boundary.step * (front - edge) * middle
 
 
-def _contact_front(foundation, load, last, step):
-    """Radius (m) of the front between the element `last` in contact and its free neighbour.
+def _contact_front(foundation, side, boundary):
+    """Radius (m) of the front between the last element in contact and its free neighbour.
 
     On a virgin surface the contact radius; at release where the line through the last two loads is zero;
     else where the line through the gaps of the first two free elements is zero. Always between the two
     midpoints, and halfway if none of these is.
     """
-    elements, x = foundation._elements, foundation._elements.x
-    free, inner, outer = last + step, last - step, last + 2 * step
-    lower, upper = sorted((float(x[last]), float(x[free])))
-    if step > 0 and elements.elastic[free] == 0 and elements.plastic[free] == 0:
+    last, free = boundary.last, boundary.free
+    lower, upper = sorted((float(side.x[last]), float(side.x[free])))
+    if boundary.step > 0 and side.virgin(free):
         return min(max(_virgin_radius(foundation, foundation.depth), lower), upper)
-    if foundation._current.lag < 0 and 0 <= inner < len(x) and load[inner] > load[last]:
-        # At release the load is zero.
-        front = x[last] + load[last] * (x[last] - x[inner]) / (load[inner] - load[last])
-        if lower <= front <= upper:
-            return float(front)
-    gap = elements.elastic - elements.penetration
-    front = (lower + upper) / 2
-    if 0 <= outer < len(x) and gap[outer] > gap[free] and np.isfinite(gap[outer]):
-        front = float(x[free] - gap[free] * (x[outer] - x[free]) / (gap[outer] - gap[free]))
-    return min(max(front, lower), upper)
+    if side.dashpot_load < 0:
+        front = _zero(side.x, side.load, last, boundary.second_last)
+        if front is not None and lower <= front <= upper:
+            return front
+    gap = side.elastic - side.penetration
+    front = _zero(side.x, gap, free, boundary.second_free)
+    return (lower + upper) / 2 if front is None else min(max(front, lower), upper)
+
+
+def _zero(x, values, near, far):
+    """Radius (m) at which the line through the values of two elements is zero.
+
+    None if there is no far element, or if its value is not above that of the near one.
+    """
+    if not 0 <= far < len(x) or not values[near] < values[far] < np.inf:
+        return None
+    return float(x[near] - values[near] * (x[far] - x[near]) / (values[far] - values[near]))

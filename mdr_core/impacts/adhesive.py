@@ -7,7 +7,6 @@ where E at the turning point is not larger than E₁. Energies here are over 2E*
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -26,18 +25,16 @@ from ..contact.adhesion import (
 from ..contact.indentation import Indentation
 from ..contact.integrals import tabulated_for
 from ..contact.live_interval import LiveInterval
-from ..contact.yielding import ConstantCap, yield_rule
+from ..contact.rule_of_yield import ConstantCap
+from ..contact.yielding import yield_rule
 from ..medium import Medium, check_pair
 from ..numerics.blocks import LONG, chunks
 from ..numerics.gauss import gauss_legendre
 from ..numerics.roots import crossing
 from ..profiles.profile import Profile
-from .contact_time import TRANSITIONS, places
 from .energy_balance import turning_interval
 from .result import Impact
-
-#: Gauss nodes of the contact time in each piece.
-_NODES = 32
+from .time_quadrature import TRANSITIONS, places
 
 #: Gauss nodes of the contact time in each piece.
 _NODES = 32
@@ -47,7 +44,7 @@ _NODES = 32
 class AdhesiveImpact(Impact):
     """Impacts on a medium with adhesion."""
 
-    @cached_property
+    @property
     def _rebound_energy(self):
         """Energy over 2E* (m³) after the pull-off, negative for a captured body."""
         return rebound_energy(self.profile, self.medium, self.turning_point.live_interval)

@@ -47,7 +47,7 @@ class Branch:
         integrals = np.einsum("kj,ksj->sk", matrix, self._slopes[number])
         for i, step in enumerate(self._steps):
             rows = number == i
-            states.store(rows, step.state(share[None, rows], integrals[:, None, rows])[0])
+            states = states.replaced(rows, step.state(share[None, rows], integrals[:, None, rows])[0])
         return states
 
     def _where(self, name, values):
@@ -69,10 +69,10 @@ class Branch:
             beside = getattr(self._states(place[rows] + shift), name)
             rate = np.maximum(sign * (beside - getattr(states, name)[rows]) / shift, 1e-300)
             place[rows] = np.clip(place[rows] + sign * miss / rate, low[rows], low[rows] + 1 / _CELLS)
-            states.store(rows, self._states(place[rows]))
+            states = states.replaced(rows, self._states(place[rows]))
         # The ends are known better than from the polynomials.
-        states.store(sign * values <= sign * start, self.start)
-        states.store(sign * values >= sign * end, self.end)
+        states = states.replaced(sign * values <= sign * start, self.start)
+        states = states.replaced(sign * values >= sign * end, self.end)
         return states
 
 
@@ -115,7 +115,7 @@ class DenseMotion:
         pressed = time <= self.turning_time
         state = MotionState(*np.empty((4, time.size)))
         for branch, rows in ((self.loading, pressed), (self.unloading, ~pressed)):
-            state.store(rows, branch.at(time[rows]))
+            state = state.replaced(rows, branch.at(time[rows]))
         # The penetration at the turning point is that of the impact, to the last digit.
         largest = penetration_of(self.turning_point, self.increase)
         y = np.where(time < self.turning_time, np.minimum(state.depth, largest), largest)

@@ -13,13 +13,14 @@ y = d − p₀ into an imprint of plastic depth p₀, the plastic depth p, the l
 solves these equations, in the depth q = y or ℓ and the velocity v.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from ..contact.integrals import integrals, tabulated
 from ..contact.live_interval import LiveInterval
-from ..contact.yielding import YieldRule, yield_rule
+from ..contact.rule_of_yield import YieldRule
+from ..contact.yielding import yield_rule
 from ..numerics.results import Entries
 from ..profiles.profile import Profile
 
@@ -33,10 +34,14 @@ class MotionState(Entries):
     time: np.ndarray
     work: np.ndarray
 
-    def store(self, index, states):
-        """Replaces the states at an index."""
-        self.depth[index], self.velocity[index] = states.depth, states.velocity
-        self.time[index], self.work[index] = states.time, states.work
+    def replaced(self, index, states):
+        """The states with others at an index."""
+        values = []
+        for field in fields(self):
+            value = np.array(getattr(self, field.name))
+            value[index] = getattr(states, field.name)
+            values.append(value)
+        return MotionState(*values)
 
 
 @dataclass(frozen=True)

@@ -7,11 +7,12 @@
 3. The last Legendre coefficients of a step are the estimate of its error, which sets the next length.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from ..contact.quadrature import kink_above
+from ..numerics.results import Entries
 from ..numerics.stable import cube_way
 from .collocation_steps import DepthCoordinate, DepthSteps, VelocitySteps
 from .equation_of_motion import Loading, MotionState, Unloading
@@ -57,7 +58,7 @@ def _load(bodies, tolerance):
     profile, rule, imprint = bodies.profile, bodies.rule, bodies.imprint_depth
     onset = rule.penetration(imprint, imprint)
     equation, steps, zero = Loading(bodies), [], np.zeros_like(bodies.speed)
-    state = MotionState(zero.copy(), bodies.speed.copy(), zero.copy(), zero.copy())
+    state = MotionState(zero, bodies.speed, zero, zero)
     kinks = [kink - imprint for kink in profile.kinks]
     end = np.broadcast_to(profile.known_depth - imprint, zero.shape)
     edges = np.array([onset, *kinks, *(rule.penetration(kink, imprint) for kink in profile.kinks)])
@@ -67,14 +68,14 @@ def _load(bodies, tolerance):
     for edge in [*edges, end]:
         # Behind a kink the radius is a power of the distance from it, else of that from the kink above.
         root = np.cbrt(np.where((base == 0) | (base == onset), below, 0.0))
-        coordinate, first = DepthCoordinate(base, root), cube_way(root, 0.65 * bodies.dry_penetration)
-        first = np.minimum(first, coordinate.delta(edge))
-        leg = _LoadingLeg(equation[rows], coordinate[rows], edge[rows], state[rows], first[rows])
-        leg.run(tolerance, rows, steps)
-        state.store(rows, leg.state)
-        rows, base = rows[~leg.turned], edge
-    state.depth[rows] = np.inf
-    return state, steps
+        coordinate = DepthCoordinate(base, root)
+        leg = _LoadingLeg(equation, coordinate, edge, coordinate.delta(edge))
+        first = np.minimum(cube_way(root, 0.65 * bodies.dry_penetration), leg.edge_delta)
+        ended, turned = leg.run(leg.from_states(state, rows, first), tolerance, steps)
+        state = state.replaced(ended.row, ended.state)
+        rows, base = np.sort(ended.row[~turned]), edge
+    too_deep = replace(state[rows], depth=np.full((rows.size, 1), np.inf))
+    return state.replaced(rows, too_deep), steps
 
 
 def _unload(bodies, turning_state, tolerance):
@@ -82,133 +83,211 @@ def _unload(bodies, turning_state, tolerance):
     profile, steps, zero = bodies.profile, [], np.zeros_like(bodies.speed)
     interval, _ = bodies.rule.loading(turning_state.depth, bodies.imprint_depth)
     equation = Unloading(bodies, interval.lower)
-    state = MotionState(interval.length, zero.copy(), turning_state.time.copy(), turning_state.work.copy())
+    state = replace(turning_state, depth=interval.length, velocity=zero)
     below = interval.lower - kink_above(profile, interval.lower)
     for edge in [*(kink - interval.lower for kink in profile.kinks[::-1]), zero]:
         rows = np.flatnonzero(((edge >= 0) & (edge < state.depth) & (interval.upper < np.inf))[:, 0])
         root = np.cbrt(np.where(edge == 0, below, 0.0))
-        leg = _UnloadingLeg(equation[rows], DepthCoordinate(edge, root)[rows], edge[rows], state[rows])
-        leg.run(tolerance, rows, steps)
-        state.store(rows, leg.state)
+        coordinate = DepthCoordinate(edge, root)
+        leg = _UnloadingLeg(equation, coordinate, edge, coordinate.delta(edge))
+        ended, _ = leg.run(leg.from_states(state, rows), tolerance, steps)
+        state = state.replaced(ended.row, ended.state)
     return state, steps
 
 
-class _Leg:
-    """One leg of impacts, from a `state` to a depth `edge` (m) or to the turning point, one impact a row.
+@dataclass(frozen=True)
+class _Underway(Entries):
+    """Impacts on their way along a leg, at the end of their last steps: one a row of arrays (N, 1)."""
+
+    #: Numbers of the impacts, of shape (N,): their rows in the arrays of the leg.
+    row: np.ndarray
+    #: Depth q (m), velocity (m/s), time (s) and work (m³).
+    state: MotionState
+    #: Coordinate δ (m^(1/3)) of the depth: a step in depth ends at a known δ, which the depth gives only to
+    #: rounding.
+    delta: np.ndarray
+    #: Longest next step in depth, in δ (m^(1/3)); infinite after a step in velocity, and before any.
+    depth_step: np.ndarray
+    #: Longest next step in velocity (m/s); infinite after a step in depth, and before any.
+    velocity_step: np.ndarray
+    #: Whether only steps in depth are left up to the edge, because one in velocity would pass it.
+    depth_only: np.ndarray
+
+
+@dataclass(frozen=True)
+class _Leg(Entries):
+    """One leg, up to a depth or to the turning point, one impact a row of arrays (N, 1).
 
     Depths q are penetrations below the bottom of the imprint before on loading, and live depths on
-    unloading. Steps in depth go by the coordinate δ of q, counted from the `base` of the
-    `DepthCoordinate`; steps in velocity by v (m/s). The leg is where this state is kept, so that each
-    step changes the rows of the impacts that take it:
-
-    `state`
-        Depth q (m), velocity (m/s), time (s) and work (m³) that are reached, of shape (N, 1).
-    `delta`, `edge_delta`
-        δ there, and δ of the edge (m^(1/3)): the end of a step in depth is known in it without rounding.
-    `in_depth`
-        Whether the last step that was tried was one in depth.
-    `length`
-        Largest length of the next step, in the variable of that last one: δ or v. Given up when the
-        variable changes.
-    `to_edge`
-        Impacts that may take only steps in depth, up to the edge: one in velocity would pass it.
-    `turned`
-        Impacts that have reached the turning point.
-
-    A subclass gives the sign of steps in depth, the kind of steps that run towards zero, the rounding by
-    which a depth may pass the edge, and `_room`: the distance to the end, and the longest step.
+    unloading. A step is one in depth, which goes by the coordinate δ of q, counted from the `base` of the
+    `DepthCoordinate`, or one in velocity. A subclass says how long a step of each kind may be.
     """
 
-    def __init__(self, equation, coordinate, edge, state, first=np.inf):
-        self.equation, self.coordinate, self.edge, self.state = equation, coordinate, edge, state
-        self.edge_delta, self.delta = coordinate.delta(edge), coordinate.delta(state.depth)
-        self.length = np.array(np.broadcast_to(first, edge.shape))
-        self.in_depth = np.ones(len(edge), bool)
-        self.to_edge, self.turned = np.zeros((2, len(edge)), bool)
+    equation: Loading | Unloading
+    coordinate: DepthCoordinate
+    #: Depth (m) at which the leg ends, and δ (m^(1/3)) there.
+    edge: np.ndarray
+    edge_delta: np.ndarray
 
-    def run(self, tolerance, numbers, steps):
-        """Moves all impacts to the end of the leg; notes their `numbers` and steps in `steps`."""
-        rows = np.arange(len(self.edge))
+    def from_states(self, state, rows, first=None):
+        """The `_Underway` of impacts at some rows, from their states and with largest first steps in δ."""
+        none = np.full((rows.size, 1), np.inf)
+        delta = self.coordinate[rows].delta(state.depth[rows])
+        first = none if first is None else first[rows]
+        return _Underway(rows, state[rows], delta, first, none, np.zeros(none.shape, bool))
+
+    def run(self, impacts, tolerance, steps):
+        """The impacts at the end of the leg, and which have turned round; notes their steps in `steps`.
+
+        `steps` gets pairs: the numbers of impacts, and the steps that they have taken.
+        """
+        ended, turned = [impacts[:0]], [np.zeros(0, bool)]
         for _ in range(_MOST_STEPS):
-            if not rows.size:
-                return
-            in_depth, room, longest = self._plan(rows)
-            # A length is one of the variable of the last step.
-            same = (in_depth == self.in_depth[rows])[:, None]
-            self.length[rows] = np.where(same, np.minimum(self.length[rows], longest), longest)
-            self.in_depth[rows] = in_depth
-            arrived = np.zeros(rows.size, bool)
-            for kind, chosen in ((DepthSteps, in_depth), (VelocitySteps, ~in_depth)):
-                chosen = np.flatnonzero(chosen)
-                if chosen.size:
-                    step, good, arrived[chosen] = self._advance(kind, rows[chosen], room[chosen], tolerance)
-                    if good.any():
-                        steps.append((numbers[rows[chosen][good]], step[np.flatnonzero(good)]))
-            self.turned[rows[arrived & ~in_depth]] = True
-            rows = rows[~arrived]
+            if not impacts.row.size:
+                return _joined(ended), np.concatenate(turned)
+            in_depth, deceleration = self._variable(impacts)
+            going = []
+            # A step in velocity ends a leg only where the velocity is zero.
+            kinds = (in_depth, self._by_depth, False), (~in_depth, self._by_velocity, True)
+            for chosen, advance, turns in kinds:
+                if not chosen.any():
+                    continue
+                after, step, good, arrived = advance(impacts[chosen], deceleration[chosen], tolerance)
+                if good.any():
+                    steps.append((after.row[good], step[np.flatnonzero(good)]))
+                going.append(after[~arrived])
+                ended.append(after[arrived])
+                turned.append(np.full(np.count_nonzero(arrived), turns))
+            impacts = _joined(going)
         raise ValueError(f"no convergence in {_MOST_STEPS} steps of a motion; check mass, speed, viscosity")
 
-    def _plan(self, rows):
-        """Which impacts move in depth; distance to the end in their variable, and the longest step."""
-        state, equation = self.state[rows], self.equation[rows]
+    def _variable(self, impacts):
+        """Which impacts take their next step in depth, shape (N,), and their decelerations (m/s²)."""
+        state, equation = impacts.state, self.equation[impacts.row]
         rate, acceleration, _ = equation.rates(*equation.load(state.depth), state.velocity)
         # In the depth while it changes faster, relative to itself, than the velocity.
         in_depth = np.abs(rate * state.velocity) > np.abs(acceleration * state.depth)
-        in_depth |= self.to_edge[rows, None] | (self.delta[rows] == 0)
-        room, longest = self._room(rows, in_depth, state.depth, state.velocity, np.abs(acceleration))
-        return in_depth[:, 0], room, longest
+        in_depth |= impacts.depth_only | (impacts.delta == 0)
+        return in_depth[:, 0], np.abs(acceleration)
 
-    def _advance(self, kind, rows, room, tolerance):
-        """Tries one step of each of some impacts: the steps, which are good, which end the leg."""
-        last = (room <= 1.001 * self.length[rows])[:, 0]
-        length = np.where(last[:, None], room, self.length[rows])
-        state, in_depth = self.state[rows], kind is DepthSteps
-        origin, sign = (self.delta[rows], self.depth_sign) if in_depth else (state.velocity, -1)
-        step = kind(self.equation[rows], self.coordinate[rows], state, origin, sign * length)
-        step, error = step.solved()
-        end, edge = step.end(), self.edge[rows]
-        # A body that turns round within a step in depth leaves no state at its end.
-        error = np.where((state.velocity * end.velocity >= 0)[:, 0], error, np.inf)
-        passed = (self.depth_sign * (end.depth - edge) > self.margin * edge)[:, 0] & (not in_depth)
-        good = (error <= tolerance) & ~passed
+    def _by_depth(self, impacts, deceleration, tolerance):
+        """Tries one step in depth of each impact.
+
+        Returns the impacts after it, where they were if it was not good; the steps; which are good; and
+        which of these end the leg.
+        """
+        leg, state = self[impacts.row], impacts.state
+        room = self.depth_sign * (leg.edge_delta - impacts.delta)
+        longest = np.where(impacts.depth_only, room, leg.longest_in_depth(impacts, room, deceleration))
+        length, last = _length(room, np.minimum(impacts.depth_step, longest))
+        change = self.depth_sign * length
+        step, error = DepthSteps(leg.equation, leg.coordinate, state, impacts.delta, change).solved()
+        end = step.end()
+        good, factor = _judged(step, end, error, tolerance)
+        if self.depth_vanishes:
+            factor = _shrinking(factor, good, last, length / room)
+        arrived = good & last
+        end = replace(end, depth=np.where(arrived, leg.edge, end.depth))
+        after = _Underway(
+            impacts.row,
+            state=state.replaced(good[:, 0], end[good[:, 0]]),
+            delta=np.where(good, impacts.delta + change, impacts.delta),
+            depth_step=length * factor,
+            velocity_step=np.full_like(length, np.inf),
+            depth_only=impacts.depth_only,
+        )
+        return after, step, good[:, 0], arrived[:, 0]
+
+    def _by_velocity(self, impacts, deceleration, tolerance):
+        """Tries one step in velocity of each impact; returns the same as `_by_depth`."""
+        leg, state = self[impacts.row], impacts.state
+        room, longest = leg.room_in_velocity(impacts, deceleration)
+        length, last = _length(room, np.minimum(impacts.velocity_step, longest))
+        step, error = VelocitySteps(leg.equation, leg.coordinate, state, state.velocity, -length).solved()
+        end = step.end()
+        good, factor = _judged(step, end, error, tolerance)
+        passed = self.depth_sign * (end.depth - leg.edge) > self.margin * leg.edge
+        good &= ~passed
+        factor = np.where(passed, 0.3, factor)
+        if not self.depth_vanishes:
+            factor = _shrinking(factor, good, last, length / room)
         # Past the edge only the depth leads to it; but from rest the depth is no variable.
-        self.to_edge[rows[passed & (error < 1e-3) & (state.velocity != 0)[:, 0]]] = True
-        factor = np.clip(0.9 * (tolerance / error) ** (1 / 30), 0.3, 3.0)
-        factor[passed] = 0.3
-        if kind is self.vanishing:
-            # Steps shrink in proportion to the remainder.
-            factor = np.where(good, factor * (1 - length / room)[:, 0], np.where(last, 0.85, factor))
-        self.length[rows] = length * factor[:, None]
-        taken, ended = rows[good], rows[good & last]
-        self.state.store(taken, end[good])
-        if in_depth:
-            self.delta[taken] = (step.origin + step.length)[good]
-            self.state.depth[ended] = self.edge[ended]
-        else:
-            self.delta[taken] = self.coordinate[taken].delta(end.depth[good])
-        return step, good, good & last
+        depth_only = passed & (error[:, None] < 1e-3) & (state.velocity != 0)
+        after = _Underway(
+            impacts.row,
+            state=state.replaced(good[:, 0], end[good[:, 0]]),
+            delta=np.where(good, leg.coordinate.delta(end.depth), impacts.delta),
+            depth_step=np.full_like(length, np.inf),
+            velocity_step=length * factor,
+            depth_only=impacts.depth_only | depth_only,
+        )
+        return after, step, good[:, 0], (good & last)[:, 0]
 
 
 class _LoadingLeg(_Leg):
-    """A leg of loading: the depth grows, the velocity runs towards zero."""
+    """A leg of loading: the depth grows, the velocity falls to zero at the turning point."""
 
-    depth_sign, vanishing, margin = 1, VelocitySteps, 1e-12
+    #: Direction in which the depth goes, and whether it, or else the velocity, goes to zero.
+    depth_sign = 1
+    depth_vanishes = False
+    #: Rounding by which a step in velocity may pass the edge, over its depth.
+    margin = 1e-12
 
-    def _room(self, rows, in_depth, depth, velocity, deceleration):
-        room = np.where(in_depth, self.edge_delta[rows] - self.delta[rows], velocity)
-        # A part of the depth in which the present force would stop the body.
-        stop = self.coordinate[rows].delta(depth + velocity**2 / (3 * deceleration)) - self.delta[rows]
-        return room, np.where(in_depth & ~self.to_edge[rows, None], stop, room)
+    def longest_in_depth(self, impacts, room, deceleration):
+        """Longest step in δ (m^(1/3)): a part of the depth in which the present force stops the body."""
+        depth, velocity = impacts.state.depth, impacts.state.velocity
+        return self.coordinate.delta(depth + velocity**2 / (3 * deceleration)) - impacts.delta
+
+    def room_in_velocity(self, impacts, deceleration):
+        """Velocity (m/s) that is left, and the longest step."""
+        return impacts.state.velocity, impacts.state.velocity
 
 
 class _UnloadingLeg(_Leg):
-    """A leg of unloading: the live depth shrinks towards `edge`, where the coordinate is 0."""
+    """A leg of unloading: the live depth falls to the edge, where δ is 0; the velocity is negative."""
 
-    depth_sign, vanishing, margin = -1, DepthSteps, 0.0
+    depth_sign = -1
+    depth_vanishes = True
+    margin = 0.0
 
-    def _room(self, rows, in_depth, depth, velocity, deceleration):
-        room = np.where(in_depth, self.delta[rows], np.inf)
-        # A part of the velocity that springs alone, or dashpots alone, would return.
-        relaxation_time = self.equation.bodies.relaxation_time[rows]
+    def longest_in_depth(self, impacts, room, deceleration):
+        """Longest step in δ (m^(1/3)): as far as the edge."""
+        return room
+
+    def room_in_velocity(self, impacts, deceleration):
+        """Change of velocity (m/s) up to the end of the leg, which has none, and the longest step.
+
+        That is a part of the velocity that springs alone, or dashpots alone, would return.
+        """
+        depth, relaxation_time = impacts.state.depth, self.equation.bodies.relaxation_time
         gain = 0.4 / (1 / np.sqrt(depth * deceleration) + relaxation_time / depth)
-        return room, np.where(in_depth, room, gain)
+        return np.full_like(gain, np.inf), gain
+
+
+def _length(room, longest):
+    """Lengths of steps: the longest ones, or all of the room where it is hardly longer; and where it is."""
+    last = room <= 1.001 * longest
+    return np.where(last, room, longest), last
+
+
+def _judged(step, end, error, tolerance):
+    """Which steps are good, and by which factor the next ones are longer, both (N, 1)."""
+    # A body that turns round within a step in depth leaves no state at its end.
+    error = np.where(step.start.velocity * end.velocity >= 0, error[:, None], np.inf)
+    return error <= tolerance, np.clip(0.9 * (tolerance / error) ** (1 / 30), 0.3, 3.0)
+
+
+def _shrinking(factor, good, last, share):
+    """Factors of steps towards zero, which shrink with what remains; each has taken a `share` of that."""
+    return np.where(good, factor * (1 - share), np.where(last, 0.85, factor))
+
+
+def _joined(parts):
+    """The `_Underway` of all impacts of several."""
+    if len(parts) == 1:
+        return parts[0]
+    state = MotionState(*(
+        np.concatenate([getattr(part.state, field.name) for part in parts]) for field in fields(MotionState)
+    ))  # fmt: skip
+    names = [field.name for field in fields(_Underway) if field.name != "state"]
+    return _Underway(state=state, **{n: np.concatenate([getattr(p, n) for p in parts]) for n in names})

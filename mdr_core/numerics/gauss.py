@@ -5,6 +5,7 @@ from functools import lru_cache
 import numpy as np
 
 
+# Kept, single states of a rounded cone are 1.9 times as fast.
 @lru_cache
 def gauss_legendre(count):
     """Nodes and weights on [0, 1]."""
@@ -31,6 +32,7 @@ def _to_legendre(count):
     return (2 * np.arange(count)[:, None] + 1) * (polynomials * weight[:, None]).T
 
 
+# Kept, one reduced height of a `Smooth` profile is 1.3 times as fast.
 @lru_cache
 def tanh_sinh(step=1 / 28):
     """Nodes and weights on [0, 1] for functions that behave as any power at both ends.
@@ -45,7 +47,6 @@ def tanh_sinh(step=1 / 28):
     return node, weight / weight.sum()
 
 
-@lru_cache
 def crowded():
     """Nodes and weights on [0, 1] for a function that is singular at 0, or just outside.
 

@@ -21,10 +21,13 @@ import numpy as np
 from ..numerics.blocks import chunks
 from .viscous_friction import largest_force
 
-#: Gauss's points of a cell.
+#: Gauss's points of a cell, from its inner side (0) to its outer side (1).
 _POINTS = np.array([[0.5 - np.sqrt(1 / 12)], [0.5 + np.sqrt(1 / 12)]])
-#: Impacts times levels that are solved at a time; halvings of steps, and levels of a run, at most.
-_BLOCK, _HALVINGS, _MOST = 32768, 7, 2048
+#: Impacts times levels that are solved at a time.
+_BLOCK = 32768
+#: Largest number of halvings of the steps, and of levels of a run.
+_HALVINGS = 7
+_MOST = 2048
 
 
 class DryRun:
@@ -33,6 +36,24 @@ class DryRun:
     Records are velocities W (m/s) and forces ∫Q dx (m²), with a row for each instant of `levels`, forces
     also with one for each middle of a step; `element_states` are loads of elements and their bounds (m), by
     the numbers of the `recorded` instants.
+
+    Every array has a column for each impact. Those of the elements have a row for each, from the axis
+    outward: element 0 is the flat face, of no width where there is none; then come two for each of the
+    n = `levels.turn` cells. Cell k, counted from 0, has the elements 2k + 1 and 2k + 2. Its inner side, the
+    one towards the axis, is the edge of the contact at instant k of loading, its outer side that at instant
+    k + 1. In contact are always the first ones, so many as `count` says.
+
+    Attributes
+    ----------
+    width, depth : ndarray, shape (2n + 1, N)
+        Width (m) and depth g (m) of each element.
+    reach : ndarray, shape (2n + 1, N)
+        Width (m) of each element and of all inside it.
+    origin, zero : ndarray, shape (2n + 1, N)
+        Origin O of each element, and the depth max(g, p) (m) at which its bound is zero. Changed by each
+        step for the elements that are in contact; elements that were released keep their last values.
+    displacement, velocity, force : ndarray, shape (N,)
+        U, W and F = ∫Q dx at the instant that is reached.
     """
 
     def __init__(self, motions, inertia, velocity, counts, depths=()):
@@ -42,27 +63,27 @@ class DryRun:
         width = np.diff(edge, axis=0)
         x = (edge[:-1, None] + width[:, None] * _POINTS).reshape(-1, velocity.size)
         depth = motions.profile.reduced_at(x)
-        # The first element is the flat face, if there is one. There are no elements behind a wall.
         self.width = np.vstack([edge[:1], np.repeat(width / 2, 2, axis=0)])
+        # There are no elements behind a wall.
         self.depth = np.where(self.width > 0, np.vstack([0 * edge[:1], depth]), 0.0)
         self.reach = np.cumsum(self.width, axis=0)
-        # The depth at which the bound of an element is zero, and the range of origins that it allows.
-        self.zero, self.low, self.high, self.origin = np.zeros((4, *self.width.shape))
+        self.origin = np.zeros_like(self.width)
+        self.zero = np.zeros_like(self.width)
         # Beyond some 10⁵ d_c steps are too long for the oscillation of elements that stick. A smaller κ, in
         # this ratio, makes it slower, and leaves slip as it is.
         longest = self.levels.step.max(axis=0)
         self.softness = 1 / np.maximum(inertia * edge[-1] * longest**2 / 2, 1.0)
         self.inertia = self.softness * inertia
-        self.displacement, self.force, self.velocity = 0 * velocity, 0 * velocity, self.softness * velocity
+        self.displacement = np.zeros_like(velocity)
+        self.force = np.zeros_like(velocity)
+        self.velocity = self.softness * velocity
 
     def solve(self, recorded=()):
         """The run itself, which returns itself."""
         self.velocities, self.forces = [self.velocity], [self.force]
         self.element_states = {0: (self.origin[:0], self.origin[:0])}
         for i in range(len(self.levels.step)):
-            back = i - self.levels.turn
-            count = 2 * i + 3 if back < 0 else len(self.width) - 2 * back
-            self._step(i, count, pressed=back < 0)
+            count = self._load(i) if i < self.levels.turn else self._unload(i)
             if i + 1 in recorded:
                 load, bound = self.displacement - self.origin, self.levels.depth[i + 1] - self.zero
                 self.element_states[i + 1] = load[:count], bound[:count]
@@ -70,74 +91,125 @@ class DryRun:
         self.forces = np.array(self.forces)
         return self
 
-    def _step(self, i, count, pressed):
-        """The step from instant i to i + 1, Nyström's, with the first `count` elements from the axis.
+    def _load(self, i):
+        """The step from instant i to i + 1 of loading, in which the edge of the contact moves over cell i.
 
-        The last two of these are the cell that is covered (`pressed`) or released in the step. With the
-        displacement U, its rate W and F = ∫Q dx, so that Ẇ = −C F, over a time h
+        From its inner to its outer side. An element that is covered has for its origin the U of the instant
+        at which the depth d is its g: from a line in d through U at the start and the middle of the step,
+        which is enough for the force at the middle; then from the parabola in d through all three.
 
-            U(h/2) = U + h W/2 − h² C F/8
-            U(h) = U + h W − h² C (F + 2 F(h/2))/6
-            W(h) = W − h C (F + 4 F(h/2) + F(h))/6
-
-        An element that is covered has for its origin the U of the instant at which the depth d is that of
-        its reduced profile: from a line in d through U(0) and U(h/2) for F(h/2), then from the parabola in
-        d through all three. `half` and `share` are counted from the start of the step: parts of its change
-        of depth up to its middle, and up to where d reaches these two elements.
+        Returns the number of elements in contact, this cell included.
         """
-        levels, C, U, W, F = self.levels, self.inertia, self.displacement, self.velocity, self.force
-        h = levels.step[i]
+        levels, start_U = self.levels, self.displacement
         start, middle, end = levels.depth[i], levels.middle[i], levels.depth[i + 1]
-        last, half = slice(count - 2, count), _ratio(middle - start, end - start)
-        middle_U = U + h / 2 * W - h**2 / 8 * C * F
-        if pressed:
-            share = _ratio(self.depth[last] - start, end - start)
-            self.origin[last] = U + (middle_U - U) * _ratio(share, half)
+        cell = _cell(i)
+        # Shares of the change of depth in this step: up to its middle, and up to where d = g.
+        half = _ratio(middle - start, end - start)
+        covered = _ratio(self.depth[cell] - start, end - start)
+        middle_U = self._middle_displacement(i)
+        self.origin[cell] = start_U + (middle_U - start_U) * _ratio(covered, half)
+        middle_F = self._slip(cell.stop, middle_U, middle, levels.middle_plastic_depth[i])
+        end_U = self._end_displacement(i, middle_F)
+        self.origin[cell] = _parabola(covered, half, start_U, middle_U, end_U)
+        end_F = self._slip(cell.stop, end_U, end, levels.plastic_depth[i + 1])
+        self._finish(i, end_U, middle_F, end_F)
+        return cell.stop
+
+    def _unload(self, i):
+        """The step from instant i to i + 1 of unloading, in which one cell is released.
+
+        The edge of the contact moves inward: at the start of the step it is at the outer side of the cell,
+        at the end at the inner one, from which on the next cell towards the axis is at the edge, all of it
+        in contact. At the turning point, instant n, all n cells are in contact.
+
+        Returns the number of elements in contact at the start, those of the released cell included; at the
+        end their bounds and loads are zero.
+        """
+        levels = self.levels
+        start, middle, end = levels.depth[i], levels.middle[i], levels.depth[i + 1]
+        released = 2 * levels.turn - 1 - i
+        count = _cell(released).stop
+        # Share of the change of depth in this step that is still to come at its middle.
+        rest = 1 - _ratio(middle - start, end - start)
+        middle_U = self._middle_displacement(i)
         middle_F = self._slip(count, middle_U, middle, levels.middle_plastic_depth[i])
-        if not pressed:
-            middle_F += self._edge(count - 2, middle_U, middle, end, 1 - half)
-        end_U = U + h * W - h**2 / 6 * C * (F + 2 * middle_F)
-        if pressed:
-            # U = U(0) + share (U(h) − U(0)) + share (1 − share) bend is U(h/2) at half.
-            bend = _ratio(middle_U - U - half * (end_U - U), half * (1 - half))
-            self.origin[last] = U + share * (end_U - U) + share * (1 - share) * bend
+        middle_F += self._excess(released, middle_U, middle, end, rest)
+        end_U = self._end_displacement(i, middle_F)
         end_F = self._slip(count, end_U, end, levels.plastic_depth[i + 1])
-        if not pressed and i + 1 < len(levels.step):
-            # These two are released, and the next cell is at the edge, all of it in contact.
-            end_F += self._edge(count - 4, end_U, end, levels.depth[i + 2], 1.0)
-        self.velocity = W - h / 6 * C * (F + 4 * middle_F + end_F)
-        self.displacement, self.force = end_U, end_F
+        if i + 1 < len(levels.step):
+            end_F += self._excess(released - 1, end_U, end, levels.depth[i + 2], 1.0)
+        self._finish(i, end_U, middle_F, end_F)
+        return count
+
+    def _middle_displacement(self, i):
+        """U(h/2) = U + h W/2 − h² C F/8 of Nyström's step i, of the time h."""
+        h = self.levels.step[i]
+        return self.displacement + h / 2 * self.velocity - h**2 / 8 * self.inertia * self.force
+
+    def _end_displacement(self, i, middle_F):
+        """U(h) = U + h W − h² C (F + 2 F(h/2))/6."""
+        h = self.levels.step[i]
+        mean = self.force + 2 * middle_F
+        return self.displacement + h * self.velocity - h**2 / 6 * self.inertia * mean
+
+    def _finish(self, i, end_U, middle_F, end_F):
+        """Goes on to the end of step i, with W(h) = W − h C (F + 4 F(h/2) + F(h))/6, and records it."""
+        total = self.force + 4 * middle_F + end_F
+        self.velocity = self.velocity - self.levels.step[i] / 6 * self.inertia * total
+        self.displacement = end_U
+        self.force = end_F
         self.velocities.append(self.velocity)
         self.forces += [middle_F, end_F]
 
     def _slip(self, count, U, depth, plastic_depth):
-        """F (m²) at a displacement U, a depth d and a plastic depth p (m) after slip, which moves origins.
+        """F (m²) of the first `count` elements at U, a depth d and a plastic depth p (m), after slip.
 
-        The first `count` elements are in contact. The bound of the load is B = d − `zero` with
-        zero = max(g, p), at most d for the two at the edge; |U − O| ≤ B for O between `low`
-        and `high`. All are lengths along the surface, in units of μ/κ, or depths (m). They are changed in
-        place: rows that are released keep their last values.
+        Slip moves origins O until |U − O| ≤ B, with the bound B = d − `zero` and `zero` = max(g, p). In the
+        last two elements, those of the cell over which the edge of the contact moves, `zero` is at most d,
+        so that B is not negative.
         """
         zero = np.maximum(self.depth[:count], plastic_depth, out=self.zero[:count])
         np.minimum(zero[-2:], depth, out=zero[-2:])
-        low = np.add(zero, U - depth, out=self.low[:count])
-        high = np.subtract(U + depth, zero, out=self.high[:count])
-        origin = np.maximum(self.origin[:count], low, out=self.origin[:count])
-        np.minimum(origin, high, out=origin)
+        origin = self.origin[:count]
+        np.maximum(origin, zero + (U - depth), out=origin)
+        np.minimum(origin, (U + depth) - zero, out=origin)
         return self.reach[count - 1] * U - np.einsum("ij,ij->j", self.width[:count], origin)
 
-    def _edge(self, inner, U, depth, inner_depth, share):
-        """By how much the load (m²) of the cell at the edge of the contact exceeds that of its pair.
+    def _excess(self, cell, U, depth, inner_depth, share):
+        """By how much the load (m²) of a cell on unloading exceeds that of its two elements.
 
-        The cell begins at a depth (m), where `inner` is the number of its first element; this `share` of it
-        is in contact. The bound falls to zero at the edge. If the inner element sticks, all have its load,
-        but for a ring in which the bound is less; if it slips, they all have their bounds.
+        The edge of the contact is in this cell: from the inner side up to it a `share` of the width is in
+        contact, and over this the bound falls from B_i = d − `inner_depth` to zero, with the g (m) of the
+        inner side. If the inner element sticks with the load Q, so does all of the cell but for the ring at
+        the edge in which B < |Q|: the mean load is Q (1 − |Q|/(2 B_i)). If it slips, so does all of the
+        cell, with the mean ±B_i/2.
         """
-        load, outer_load = U - self.origin[inner : inner + 2]
-        most, width = np.maximum(depth - inner_depth, 1e-300), self.width[inner]
-        sticks = np.abs(load) < (depth - self.zero[inner]) * (1 - 1e-9)
-        mean = np.where(sticks, load * (1 - np.abs(load) / (2 * most)), np.sign(load) * most / 2)
-        return width * (2 * share * mean - load - outer_load)
+        inner, outer = self._pair_loads(cell, U)
+        number = _cell(cell).start
+        # The width of one element, half of that of the cell.
+        width = self.width[number]
+        most = np.maximum(depth - inner_depth, 1e-300)
+        sticks = np.abs(inner) < (depth - self.zero[number]) * (1 - 1e-9)
+        mean = np.where(sticks, inner * (1 - np.abs(inner) / (2 * most)), np.sign(inner) * most / 2)
+        return width * (2 * share * mean - inner - outer)
+
+    def _pair_loads(self, cell, U):
+        """Loads Q = U − O of the inner and the outer element of a cell."""
+        return U - self.origin[_cell(cell)]
+
+
+def _cell(number):
+    """The two elements of a cell."""
+    return slice(2 * number + 1, 2 * number + 3)
+
+
+def _parabola(share, half, start, middle, end):
+    """Values at shares of a step, of a parabola through those at its start, at the share `half`, and end.
+
+    U(s) = U(0) + s (U(1) − U(0)) + s (1 − s) bend, with the bend for which U(half) is that of the middle.
+    """
+    bend = _ratio(middle - start - half * (end - start), half * (1 - half))
+    return start + share * (end - start) + share * (1 - share) * bend
 
 
 def _ratio(part, whole):

@@ -58,13 +58,13 @@ class Smooth(Profile):
 
     shape = ()
 
-    @cached_property
+    @property
     def known_radius(self):
         """Radius (m) up to which the profile is known: where a valid slope ends, at most `radius`."""
         end = self._mean_slope.x[-1]
         return float(np.exp(end)) if end < np.log(self.radius) else self.radius
 
-    @cached_property
+    @property
     def known_depth(self):
         """Depth (m) up to which the profile is known, to 10⁻³ of it."""
         end = self._mean_slope.x[-1]
@@ -77,6 +77,7 @@ class Smooth(Profile):
             "the slope ends, is not finite or smooth, or g falls, so that the contact would not be compact"
         )
 
+    # Kept, single states are 1700 times as fast.
     @cached_property
     def _mean_slope(self):
         """g/x as a piecewise polynomial of ln x, from the tip outward to the end of a valid slope."""

@@ -1,9 +1,11 @@
-"""Where pieces of quadratures are cut: errors of contact time and plastic work with other cuts.
+"""Cuts and nodes of quadratures: errors of contact time and plastic work with others.
 
 python -m tests.benchmarks.constants
 
-For `TRANSITIONS` (contact_time.py) and `scales` (yielding.py): the largest relative error over impacts of
-five shapes with a transition depth, from far below it to far above, against much denser cuts.
+For `TRANSITIONS` and `NODES` (time_quadrature.py), `scales` (rule_of_yield.py, radius_cap.py) and `_NODES`
+(radius_cap.py): the largest relative error over impacts of five shapes with a transition depth, from far
+below it to far above, against much denser cuts, or more nodes; for `_NODES` (creep_loading.py) that of the
+work of the dashpots in creep.
 """
 
 from unittest.mock import patch
@@ -11,8 +13,10 @@ from unittest.mock import patch
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.contact.yielding import RadiusCap, YieldRule
-from mdr_core.impacts import contact_time
+from mdr_core.contact import creep_loading, radius_cap
+from mdr_core.contact.radius_cap import RadiusCap
+from mdr_core.contact.rule_of_yield import YieldRule
+from mdr_core.impacts import time_quadrature
 
 SHAPES = (
     mdr.Sphere(1e-6),
@@ -45,17 +49,44 @@ def table(what, medium, target, name, candidates, dense):
         exact = list(values(medium))
     print(f"{what}, contact time and plastic work:")
     with np.errstate(all="ignore"):
-        for cuts in candidates:
-            time, work = error(medium, target, name, np.asarray(cuts), exact)
-            print(f"  {np.array2string(np.asarray(cuts), precision=3):60} {time:9.1e} {work:9.1e}")
+        for tried in candidates:
+            time, work = error(medium, target, name, tried, exact)
+            print(f"  {np.array2string(np.asarray(tried), precision=3):60} {time:9.1e} {work:9.1e}")
+
+
+def creeps():
+    """Works of the dashpots (J) under a force that is ramped, held and taken away, an array a shape."""
+    time = np.array([0.0, 0.1, 1.0, 3.0, 3.2, 4.0]) * 1e-8
+    for shape in (*SHAPES, mdr.Cone(0.3)):
+        for medium in (mdr.Medium(1e9, eta=2.5), mdr.Medium(1e9, q_c=5.0, eta=2.5)):
+            force = np.array([0.0, 0.1, 1.0, 1.0, 0.5, 0.0]) * 1e-5
+            yield mdr.creep(shape, medium, force, time, tolerance=1e-10).viscous_work[1:]
+
+
+def creep_table(candidates, dense):
+    """Prints the largest errors of the works in creep, over the largest work, for numbers of nodes."""
+    with patch.object(creep_loading, "_NODES", dense):
+        exact = list(creeps())
+    print("_NODES of creep, work of the dashpots:")
+    for tried in candidates:
+        with patch.object(creep_loading, "_NODES", tried):
+            pairs = list(zip(creeps(), exact, strict=True))
+        largest = max(np.max(np.abs(got - right)) / right[-1] for got, right in pairs)
+        print(f"  {tried!s:60} {largest:9.1e}")
 
 
 def main():
     """Prints the tables."""
+    for what, medium in MEDIA.items():
+        counts = (14, 6), (20, 9), (28, 9), (28, 12), (28, 18), (40, 12)
+        table(f"NODES, {what}", medium, time_quadrature, "NODES", counts, (56, 40))
+    table("_NODES of RadiusCap", MEDIA["H, q_c, f_c"], radius_cap, "_NODES", (8, 12, 16, 20, 24, 32), 64)
     shares = ([], [1.0], [6.0], [0.5, 3.0], [1.0, 6.0], [2.0, 12.0], [1.0, 3.0, 9.0])
+    shares = [np.array(share) for share in shares]
     dense = np.geomspace(0.1, 100.0, 17)
     for what, medium in MEDIA.items():
-        table(f"TRANSITIONS, {what}", medium, contact_time, "TRANSITIONS", shares, dense)
+        table(f"TRANSITIONS, {what}", medium, time_quadrature, "TRANSITIONS", shares, dense)
+    creep_table((4, 6, 8, 12, 16), 40)
     rules = ("ConstantCap", MEDIA["q_c"], YieldRule), ("RadiusCap", MEDIA["H, q_c, f_c"], RadiusCap)
     for what, medium, rule in rules:
         first, factor = rule.scales[0], rule.scales[1] / rule.scales[0]

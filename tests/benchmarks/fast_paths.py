@@ -5,7 +5,9 @@ python -m tests.benchmarks.fast_paths
 A cache or a fast path stays if it gains more than a factor of 1.3 for the call that it is for.
 """
 
-from contextlib import ExitStack
+import itertools
+import sys
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from statistics import median
 from time import perf_counter
@@ -15,9 +17,13 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core import _check, hardness
-from mdr_core.contact import adhesion, integrals, quadrature
-from mdr_core.impacts import contact_time, energy_balance
+from mdr_core.contact import adhesion, creep_retreat, indentation, integrals, quadrature
+from mdr_core.impacts import contact_time, energy_balance, result, time_quadrature
+from mdr_core.numerics import collocation, gauss
+from mdr_core.profiles import radius_table
 from mdr_core.profiles.power import PowerLaw, kappa
+
+from ..laws import Layered
 
 DRY, HARD = mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, hardness=1e7)
 WET = mdr.Medium(1e9, 10.0, eta=3.0)
@@ -41,6 +47,7 @@ class Wear(mdr.HardnessLaw):
 
 
 OWN = mdr.Medium(1e9, hardness=Wear())
+STEP = mdr.Medium(1e9, hardness=Layered(1e7, 0.5, 1e-7, 1e-3))
 
 
 def times(profile, speeds=SPEEDS, medium=DRY):
@@ -102,6 +109,47 @@ def sharp():
     return hardness, "_sharp_radii", hardness._sharp_radii.__wrapped__
 
 
+@contextmanager
+def recomputed(owner, *names):
+    """Where values that objects of a class keep are computed each time that they are read."""
+    with ExitStack() as stack:
+        for name in names:
+            stack.enter_context(patch.object(owner, name, property(vars(owner)[name].func)))
+        yield
+
+
+@contextmanager
+def uncached_everywhere(function):
+    """Where a cached function of the core is called each time, in all modules that have imported it."""
+    with ExitStack() as stack:
+        for name, module in list(sys.modules.items()):
+            if name.startswith("mdr_core") and vars(module).get(function.__name__) is function:
+                stack.enter_context(patch.object(module, function.__name__, function.__wrapped__))
+        yield
+
+
+def tables_for_one():
+    """Where a single depth is enough for a table of the profile."""
+    return patch.object(integrals, "_FEW", 0)
+
+
+def new_tips(count):
+    """Restitutions of impacts of tips that are new each time, so that no table of theirs is kept."""
+    for _ in range(5):
+        tip = mdr.Sampled(R, R**2 / (2e-5 + next(NUMBER) * 1e-12))
+        yield mdr.impact(tip, DRY, 1e-9, SPEEDS[-count:] / 5).restitution
+
+
+NUMBER = itertools.count()
+
+
+def crept(profile, medium):
+    """Depths of creep: a ramp, a hold, and a force that is taken away in steps."""
+    time = np.append(np.linspace(0, 1e-7, 5), 1e-7 + np.linspace(1e-9, 1e-6, 40))
+    force = np.append([0, 0.5, 1, 1, 1], np.linspace(0.9, 0, 40)) * 1e-4
+    return mdr.creep(profile, medium, force, time)
+
+
 def shapeless():
     """`Parameters.shape` computed each time."""
     return patch.object(_check.Parameters, "shape", property(_check.Parameters.shape.func))
@@ -139,11 +187,59 @@ PATHS = (
      lambda: one_by_one(TIP, HARD)),
     ("_ranges kept, samples, adhesion", lambda: uncached(adhesion, "_ranges"),
      lambda: one_by_one(TIP, STICKY)),
-    ("_sharp_radii kept, own law, impacts", lambda: patch.object(*sharp()), lambda: hits(CONE, OWN, 5)),
+    ("_sharp_radii kept, a smooth law", lambda: patch.object(*sharp()), lambda: times(CONE, 0.1, OWN)),
+    ("_sharp_radii kept, a step", lambda: patch.object(*sharp()), lambda: times(CONE, 0.1, STEP)),
     ("PowerLaw._reduced_coefficient kept",
      without_coefficient,
      lambda: times(POWER, SPEEDS[::15], WET)),
     ("Parameters.shape kept, single states", shapeless, lambda: one_by_one(CONE)),
+    ("_LONG, 2000 elastic states of rounded cones", lambda: patch.object(integrals, "_LONG", np.inf),
+     lambda: mdr.indent(ROUND, mdr.Medium(1e9), DEPTHS * 100).force),
+    ("_LONG, 10⁵ impacts of rounded cones", lambda: patch.object(integrals, "_LONG", np.inf),
+     lambda: mdr.impact(ROUND, DRY, 1e-9, np.geomspace(1e-3, 1.0, 10**5)).restitution),
+    ("_FEW, 1 impact of a new tip", tables_for_one, lambda: list(new_tips(1))),
+    ("_FEW, 16 impacts of a new tip", tables_for_one, lambda: list(new_tips(16))),
+    ("Indentation._quick, 20,000 states of samples", lambda: patch.object(indentation, "_MANY", np.inf),
+     lambda: mdr.indent(TIP, DRY, np.linspace(1e-8, 1e-6, 20_000)).force),
+    ("Indentation._quick, 10⁵ states of samples", lambda: patch.object(indentation, "_MANY", np.inf),
+     lambda: mdr.indent(TIP, DRY, np.linspace(1e-8, 1e-6, 10**5)).force),
+    ("Indentation._quick, 20,000 states, smooth", lambda: patch.object(indentation, "_MANY", np.inf),
+     lambda: mdr.indent(SMOOTH, DRY, np.linspace(1e-8, 1e-6, 20_000)).force),
+    ("Impact._dense_motion kept, two motions", lambda: recomputed(result.Impact, "_dense_motion"),
+     lambda: (lambda hit: (hit.motion(50), hit.motion(200)))(mdr.impact(ROUND, WET, 1e-9, 0.1))),
+    ("arrays of samples kept, 20 states",
+     lambda: recomputed(mdr.Sampled, "_r", "_z", "_slope", "_bend"), lambda: one_by_one(TIP)),
+    ("Sampled._g kept, 20 states", lambda: recomputed(mdr.Sampled, "_g"), lambda: one_by_one(TIP)),
+    ("Sampled._slope_inside kept, 20 states", lambda: recomputed(mdr.Sampled, "_slope_inside"),
+     lambda: one_by_one(TIP)),
+    ("Smooth._mean_slope kept, 20 states", lambda: recomputed(mdr.Smooth, "_mean_slope"),
+     lambda: one_by_one(SMOOTH, count=3)),
+    ("Tabulated.table kept, 300 samples", lambda: recomputed(radius_table.Tabulated, "table"),
+     lambda: times(TIP, SPEEDS[::100] / 5)),
+    ("RadiusTable._inverses kept, 300 samples", lambda: recomputed(radius_table.RadiusTable, "_inverses"),
+     lambda: mdr.impact(TIP, DRY, 1e-9, SPEEDS / 5).restitution),
+    ("RadiusTable._inverses kept, one rounded cone",
+     lambda: recomputed(radius_table.RadiusTable, "_inverses"), lambda: hits(ROUND)),
+    ("_unit_table kept, a state", lambda: uncached_everywhere(radius_table._unit_table),
+     lambda: mdr.indent(ROUND, DRY, 1e-6).force),
+    ("_unit kept, 20 states", lambda: uncached_everywhere(radius_table._unit), lambda: one_by_one(ROUND)),
+    ("gauss_legendre kept, 20 states", lambda: uncached_everywhere(gauss.gauss_legendre),
+     lambda: one_by_one(ROUND)),
+    ("gauss_legendre kept, a contact time", lambda: uncached_everywhere(gauss.gauss_legendre),
+     lambda: times(ROUND, 0.1)),
+    ("_rule kept, a contact time", lambda: uncached(time_quadrature, "_rule"), lambda: times(ROUND, 0.1)),
+    ("tanh_sinh kept, a reduced height", lambda: uncached_everywhere(gauss.tanh_sinh),
+     lambda: SMOOTH.reduced(1e-6)),
+    ("_collocation kept, a viscous impact", lambda: uncached_everywhere(collocation._collocation),
+     lambda: times(ROUND, 0.1, WET)),
+    ("Retreat.states kept, elements in creep", lambda: recomputed(creep_retreat.Retreat, "states"),
+     lambda: crept(ROUND, WET).elements(np.linspace(0, 1e-6, 50))),
+    ("Retreat.length kept, creep", lambda: recomputed(creep_retreat.Retreat, "length"),
+     lambda: crept(ROUND, WET)),
+    ("Retreat._edges kept, creep", lambda: recomputed(creep_retreat.Retreat, "_edges"),
+     lambda: crept(ROUND, WET)),
+    ("_parameters kept, 100 cones", lambda: uncached_everywhere(_check._parameters),
+     lambda: [mdr.Cone(slope=0.2 + 0.01 * i) for i in range(100)]),
 )  # fmt: skip
 
 

@@ -1,0 +1,128 @@
+"""The scalar law of creep of an indenter that recedes.
+
+With the contact radius a(s), f = F/(2E*), and A = ∫ a ds over the live interval [d_p, D], D = d + τḋ is the
+height g at which elements are released, from the rim inward, and
+
+    A = f     as long as the force does not rise.
+
+The edge of the contact follows the force at once, and the lead e = d − D of the indenter over it obeys
+τ ė = −e − τ Ḋ. Released elements relax from the e of their release on, and are not met again. Times are in
+units of τ, and f is linear between the given times.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..numerics.gauss import gauss_legendre
+from .integrals import integrals
+from .live_interval import LiveInterval
+from .loading import live_length
+from .quadrature import nodes
+from .rule_of_yield import YieldRule
+
+#: Ages (τ) between which the memory of a retreating edge is integrated; what is older counts e⁻⁶⁴.
+_AGES = np.array([0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Retreat:
+    """The law of a falling depth from a turning point on, with states at times of `area` f (m²).
+
+    The first state is the turning point. `interval` is its live interval, `ds` (τ) the times between the
+    states; `count` is the number of Gauss nodes in each piece.
+    """
+
+    rule: YieldRule
+    interval: LiveInterval
+    area: np.ndarray
+    ds: np.ndarray
+    count: int
+
+    # Kept, `length` makes creep 2.5 times as fast, `_edges` 3.7 times, and `states` its elements 2.5 times.
+    @cached_property
+    def length(self):
+        """D − d_p (m) of the states."""
+        return self._lengths(self.area)
+
+    @property
+    def depth(self):
+        """Depths d (m) of the states."""
+        return self.interval.lower + (self.length + self.states[0])
+
+    def _lengths(self, area):
+        """D − d_p (m) at which A has values (m²)."""
+        return live_length(self.rule.profile, self.interval, area)
+
+    @property
+    def fall(self):
+        """−df/ds (m²) between the states."""
+        return -np.diff(self.area) / self.ds
+
+    @cached_property
+    def _edges(self):
+        """D − d_p (m) at the `_AGES` before each state but the first: a row for each, ascending.
+
+        Ages end at the state before it.
+        """
+        ages = np.minimum(_AGES, self.ds[:, None])
+        area = np.minimum(self.area[1:, None] + self.fall[:, None] * ages, self.area[:-1, None])
+        edges = np.where(ages < self.ds[:, None], self._lengths(area), self.length[:-1, None])
+        edges[:, 0] = self.length[1:]
+        return np.maximum.accumulate(edges, axis=1)
+
+    def _memory(self, k, low):
+        """∫ e⁻ᵛ dD, ∫ e⁻ᵛ (1 − e⁻ᵛ) dD and ∫ (1 − e⁻ᵛ) dD (m), shape (3, M), between states k and k + 1.
+
+        The edge of the contact went from the D of state k down to D − d_p = `low` (m), shape (M,); v (τ) is
+        how long before state k + 1 it was at D: v = (A(D) − f)/(−df/ds), with the f of that state.
+        """
+        start = np.maximum(self._edges[k, :-1], low[:, None])
+        stop = np.broadcast_to(self._edges[k, 1:], start.shape)
+        row, piece = np.nonzero(stop > start)
+        result = np.zeros((3, low.size))
+        # Older than the last of the ages.
+        result[2] = self.length[k] - np.maximum(self._edges[k, -1], low)
+        if not row.size:
+            return result
+        start, stop, lower = start[row, piece], stop[row, piece], self.interval.lower
+        length, weight = nodes(start, stop, lower + start, gauss_legendre(self.count))
+        area = integrals(self.rule.profile).radius_integral(LiveInterval.above(lower, length))
+        age = np.maximum(area - self.area[k + 1], 0.0) / self.fall[k]
+        share, faded = weight * np.exp(-age), -np.expm1(-age)
+        for sums, values in zip(result, (share, share * faded, weight * faded), strict=True):
+            sums += np.bincount(row, values.sum(axis=1), minlength=low.size)
+        return result
+
+    @cached_property
+    def states(self):
+        """e (m), R (m³) and work of the dashpots over 2E* (m³) of the states, shape (3, N).
+
+        E* R is the energy e² a E* of the contact that e adds beside 2E* (∫ (D − s) a ds + e A), and that of
+        the elements that were released: dR/ds = −2R + 2e(−df/ds), and the dashpots take 2 · E* R ds.
+        """
+        states = np.zeros((3, len(self.area)))
+        for k, (ds, fall) in enumerate(zip(self.ds, self.fall, strict=True)):
+            lead, remainder, work = states[:, k]
+            decay, passed = np.exp(-ds), -np.expm1(-ds)
+            memory, released, followed = self._memory(k, self.length[k + 1 : k + 2])[:, 0]
+            later = remainder * decay**2 + 2 * fall * (lead * decay * passed + released)
+            # ∫ e ds, by which the indenter goes back.
+            travel = lead * passed + followed
+            taken = np.maximum((remainder - later) / 2 + fall * travel, 0.0)
+            states[:, k + 1] = lead * decay + memory, later, work + taken
+        return states
+
+    def released(self, height):
+        """Compressions (m) of released elements of reduced heights g (m) in all states, shape (N, M)."""
+        place, result = height - self.interval.lower, np.zeros((len(self.area), height.size))
+        for k, ds in enumerate(self.ds):
+            decay, lead = np.exp(-ds), self.states[0, k]
+            free = place >= self.length[k]
+            result[k + 1, free] = result[k, free] * decay
+            # Less those that had never been in contact.
+            now = np.flatnonzero(~free & (place >= self.length[k + 1]))
+            if now.size:
+                result[k + 1, now] = lead * decay + self._memory(k, place[now])[0]
+        return result

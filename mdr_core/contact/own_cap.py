@@ -1,0 +1,128 @@
+"""The rule of yield for a law of hardness of one's own, of which nothing is known beforehand."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..numerics.blocks import broadcast_flat, chunks
+from .radius_cap import RadiusCap
+
+#: Halvings of a piece of the plastic work: to 10⁻⁹ of its length, as at a kink.
+_HALVINGS = 30
+#: A falling cap is looked for from this share of a depth on, in so many steps, each deeper by 7 %.
+_SHALLOWEST = 1e-6
+_STEPS = 200
+_STEP = 1.07
+
+
+@dataclass(frozen=True, eq=False)
+class OwnCap(RadiusCap):
+    """`RadiusCap` of a law of hardness of one's own, of which nothing is known beforehand."""
+
+    def may_fall(self, depth):
+        depth = np.asarray(depth, dtype=float)
+        if np.any(depth == np.inf):
+            return True
+        if self.shape:
+            return self._any_may_fall(depth)
+        largest = np.max(depth, initial=0.0)
+        if largest == 0:
+            return False
+        smallest = np.min(depth)
+        steps = int(np.log(largest / smallest) / np.log(_STEP)) + _STEPS
+        return self._falls(np.geomspace(_SHALLOWEST * smallest, largest, steps))
+
+    def _any_may_fall(self, depth):
+        """`may_fall` of an ensemble, up to a depth (m) each."""
+        shape, (depth,) = broadcast_flat(
+            np.broadcast_to(depth, np.broadcast_shapes(depth.shape, self.shape))
+        )
+        share = np.geomspace(_SHALLOWEST, 1.0, _STEPS)
+        for rows in chunks(depth.size, 512):
+            own = self.flat_entries(rows, shape).entries((slice(None), None), depth[rows].shape)
+            if own._falls(depth[rows][:, None] * share):
+                return True
+        return False
+
+    @np.errstate(all="ignore")
+    def _falls(self, depth):
+        """Whether the cap falls at any of the depths (m)."""
+        return bool(np.any(self.cap_rate_at(self.profile.radius_at(depth)) < 0))
+
+    def _cuts(self, imprint, increase):
+        cuts = super()._cuts(imprint, increase)
+        # Where the law itself changes fast.
+        sharp = np.minimum(self.law.sharp, self.profile.known_radius)
+        penetration = self.profile.reduced_at(sharp) - imprint
+        first, last = cuts[:, :1], cuts[:, -1:]
+        return np.sort(np.hstack([cuts, np.clip(penetration, first, last)]), axis=1)
+
+    def _plastic_sums(self, imprint, increase):
+        work, *_ = self._refined(imprint, increase)
+        return work
+
+    def breaks(self, imprint, increase, onset):
+        cuts = self._cuts(imprint, increase)
+        _, row, halved_at = self._refined(imprint, increase)
+        return np.hstack([cuts, _padded(row, halved_at, len(cuts))]) - onset
+
+    @np.errstate(all="ignore")
+    def _refined(self, imprint, increase):
+        """The plastic work in pieces, halved until each is the sum of its halves; one loading a row.
+
+        Returns
+        -------
+        work : ndarray, shape (N,)
+            ∫ u_c a(p) dp (m³).
+        row, halved_at : ndarray, shape (M,)
+            Loadings, and the penetrations (m) at which pieces of theirs were halved.
+        """
+        imprint, increase = np.broadcast_arrays(imprint, increase)
+        cuts = self._cuts(imprint, increase)
+        cuts = np.broadcast_to(cuts, (len(imprint), cuts.shape[1]))
+        row, number = np.nonzero(np.diff(cuts) > 0)
+        start, stop = cuts[row, number, None], cuts[row, number + 1, None]
+        whole = self._pieces(row, start, stop, imprint, increase)
+        work = np.zeros(len(imprint))
+        halved_row, halved_at = [row[:0]], [start[:0, 0]]
+        for _ in range(_HALVINGS):
+            middle = (start + stop) / 2
+            # The first halves of all pieces, and then the second ones.
+            half_row = np.append(row, row)
+            half_start, half_stop = np.vstack([start, middle]), np.vstack([middle, stop])
+            half = self._pieces(half_row, half_start, half_stop, imprint, increase)
+            both = half[: row.size] + half[row.size :]
+            scale = work + np.bincount(row, np.abs(both), len(work))
+            # To the rounding of the sum.
+            rough = np.abs(both - whole) > 1e-14 * scale[row]
+            work += np.bincount(row[~rough], both[~rough], len(work))
+            halved_row.append(row[rough])
+            halved_at.append(middle[rough, 0])
+            again = np.append(rough, rough)
+            row, start, stop, whole = half_row[again], half_start[again], half_stop[again], half[again]
+            if not row.size:
+                break
+        work += np.bincount(row, whole, len(work))
+        return work, np.concatenate(halved_row), np.concatenate(halved_at)
+
+    def _pieces(self, row, start, stop, imprint, increase):
+        """`_piece` of loadings `row` of the ensemble, one piece a row of the penetrations (M, 1)."""
+        own = self.entries(row) if self.shape else self
+        return own._piece(start, stop, imprint[row], increase[row])
+
+    def wall_integral(self):
+        # Without a wall its limit for a → ∞ is not known: a force that is too large has no depth.
+        wall = np.asarray(self.profile.wall)
+        load = self.law.wall_load(np.where(wall < np.inf, wall, 1.0))
+        return np.where(wall < np.inf, load, np.inf)[()]
+
+
+def _padded(row, values, count):
+    """Values by the numbers of their rows, as rows of one length that end in zeros: shape (count, K)."""
+    order = np.argsort(row, kind="stable")
+    row = row[order]
+    # Place of each value among those of its row.
+    place = np.arange(row.size) - np.searchsorted(row, row)
+    padded = np.zeros((count, np.max(place, initial=-1) + 1))
+    padded[row, place] = values[order]
+    return padded
