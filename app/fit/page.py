@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import panel as pn
 from bokeh.document import Document
-from bokeh.events import ConnectionLost
+from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 
 from mdr_core.files.text import decoded
@@ -21,7 +21,7 @@ from mdr_core.fit.indentation import IndentationFit
 from mdr_core.measured_curve import MeasuredCurve
 
 from ..tip import in_line, read_tip
-from ..ui import JS, WIDE, html
+from ..ui import JS, WIDE, html, landmarks
 from . import words
 from .files import as_csv, as_json
 from .form import Form
@@ -31,6 +31,13 @@ from .samples import EXAMPLES, example_named
 from .setting import MEDIA, Setting
 from .worker import Here, Worker
 
+#: Roles and names of the parts of the page, by their classes.
+_LANDMARKS = {
+    "fit-header": ("banner", "Measurement"),
+    "asked": ("complementary", "Curve, tip and sample"),
+    "found": ("main", "Result"),
+}
+_NAMES = Path(__file__).with_name("names.js").read_text(encoding="utf-8")
 #: Beginnings of the suffixes of files that are no tables.
 _AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
 _ENDED = (
@@ -75,6 +82,8 @@ class Measurement:
         )  # fmt: skip
         # The address restores what was told when the session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
+        landmarks(self.document, _LANDMARKS, "found", "Skip to the result")
+        self.document.js_on_event(DocumentReady, CustomJS(code=_NAMES))
         if self.document.session_context is not None:
             self.document.on_session_destroyed(lambda context: self.close())
         self._begin()
