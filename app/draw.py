@@ -13,7 +13,7 @@ from mdr_core.show.figures import Axis
 
 from .plot import Plot, View, overlays, rows_of
 from .quantities import lowered
-from .ui import marked
+from .ui import JS, marked
 
 #: The outline of a canvas, which no linked sheet reaches.
 _FOCUS = [".bk-Canvas { --highlight-color: var(--elastic); --outline-width: 2px; }"]
@@ -89,8 +89,7 @@ class Picture:
         f.update(title=None, toolbar_location=None, sizing_mode="stretch_both", min_height=100)
         f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None)
         f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
-        # What is enlarged is drawn anew, not its pixels.
-        f.styles = {"zoom": "calc(1 / var(--zoom, 1))"}
+        f.js_on_change("inner_width", bk.CustomJS(code=JS["canvas"]))
         groups = {row.group for row in rows_of(plot)}
         if any(group.endswith("right") for group in groups):
             f.extra_y_ranges = {"right": bk.Range1d()}

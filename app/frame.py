@@ -14,6 +14,13 @@ from .plot import View
 from .state import State
 from .ui import FULL, LAYOUT, WIDE, html, show
 
+#: Roles and names of the parts of the page, by their classes.
+LANDMARKS = {
+    "above": ("banner", "Preset and tools"),
+    "side": ("complementary", "Drive, indenter and medium"),
+    "results": ("main", "Numbers and plots"),
+    "share": ("region", "Share"),
+}
 _TITLE = text("name", "<h1>Indentation explorer</h1>", "name")
 
 
@@ -41,7 +48,7 @@ class Frame:
         plots = (self.line, self.player, self.below, page.board.grid)
         results = pn.Column(*plots, css_classes=["results"], **FULL)
         columns = pn.Row(self._side, results, css_classes=["columns"], **FULL)
-        head = pn.Row(self.header, self.more, css_classes=["headline"], **WIDE | {"stylesheets": LAYOUT})
+        head = pn.Row(self.header, self.more, css_classes=["above"], **WIDE | {"stylesheets": LAYOUT})
         self.view = pn.Column(head, columns, css_classes=["page"], **FULL)
 
     def toggle(self, name: str) -> None:

@@ -19,14 +19,14 @@ from .board import Board
 from .drives import follow
 from .extra import EXTRAS
 from .fields import Field
-from .frame import Frame
+from .frame import LANDMARKS, Frame
 from .parts import Part, choice
 from .player import frames_in_steps
 from .plot import View
 from .quantities import in_words
 from .scales import Scales
 from .state import VIEW, State, as_shown, preset_state
-from .ui import JS, Messages
+from .ui import JS, Messages, landmarks
 
 _LOG = logging.getLogger(__name__)
 Change = Callable[[State], State]
@@ -111,6 +111,7 @@ class Page:
         self.document.on_event(DocumentReady, lambda event: self._input_rests())
         ready = CustomJS(args={"messages": self.messages}, code=JS["ready"])
         self.document.js_on_event(DocumentReady, ready)
+        landmarks(self.document, LANDMARKS, "springs", "Skip to the plots")
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
 

@@ -1,8 +1,7 @@
 """Private ends of Panel and Bokeh, which may move with any version: the page runs without each of them.
 
 Each is used at one place, here, with what it gains. One that has moved is left out, with a line in the log.
-In the browser `repaint` of a view of Bokeh is another one, in static/player.js: a played state is painted
-in every frame of the screen, not in every second one. There it is left out in silence.
+Those in the browser are in js/private.js, in the same manner, with the line in the console.
 """
 
 import asyncio
@@ -13,11 +12,15 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from .ui import JS
+
 _LOG = logging.getLogger(__name__)
-#: As wide as the screen: a phone would lay the page out for a desk.
-_HEAD = """{% block postamble %}
+#: As wide as the screen: a phone would lay the page out for a desk. The private ends in the browser come
+#: before all other scripts.
+_HEAD = f"""{{% block postamble %}}
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<link rel="modulepreload" href="app/static/parts.js">{% endblock %}"""
+<script>{{% raw %}}{JS["private"]}{{% endraw %}}</script>
+<link rel="modulepreload" href="app/static/parts.js">{{% endblock %}}"""
 _WITHOUT_WEBGL = """{% block js_resources %}
 {% for line in bokeh_js.splitlines() if "bokeh-gl" not in line %}{{ line }}
 {% endfor %}{% endblock %}"""

@@ -12,6 +12,7 @@ from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from .quantities import ASSETS
+from .ui import landmarks
 
 #: Goes to the place that the address names.
 _SCRIPT = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
@@ -43,6 +44,7 @@ def html():
 
 def page(place):
     """The page, starting at an id such as "eq-11" or "section-4"."""
+    landmarks(pn.state.curdoc, {"theory": ("main", "Theory")})
     pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=_SCRIPT))
     return pn.pane.LaTeX(html(), css_classes=["theory"], renderer="katex")
 

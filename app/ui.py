@@ -6,7 +6,10 @@ from pathlib import Path
 
 import panel as pn
 from bokeh.core.properties import AnyRef, Bool, List, Nullable, String
+from bokeh.document import Document
+from bokeh.events import DocumentReady
 from bokeh.model import DataModel
+from bokeh.models import CustomJS
 
 HERE = Path(__file__).parent
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (HERE / "js").glob("*.js")}
@@ -54,6 +57,15 @@ def linked(text):
 
 def html(text="", *classes, **options):
     return pn.pane.HTML(text, css_classes=[*(classes or ["note"])], **WIDE | options)
+
+
+def landmarks(document: Document, parts: dict[str, tuple[str, str]], to: str = "", label: str = "") -> None:
+    """Tell those who do not see a page of its parts: roles and names by classes, the first one on top.
+
+    `to` is the class of the part to which a link, the first tab stop, leads, and `label` its text.
+    """
+    told = {"landmarks": [[name, *part] for name, part in parts.items()], "to": to, "label": label}
+    document.js_on_event(DocumentReady, CustomJS(args=told, code=JS["landmarks"]))
 
 
 def show(part, **values):

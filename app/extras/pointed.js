@@ -2,7 +2,7 @@
 const told = Object.assign(document.createElement("div"), { className: "told", hidden: true })
 told.setAttribute("role", "status")
 document.body.append(told)
-const view = Bokeh.index.find_one(figure), STATES = ["free", "elastic", "yielded", "stretched", "sticks", "slips"], VERTICES = 9
+const el = toolkit.element(figure), STATES = ["free", "elastic", "yielded", "stretched", "sticks", "slips"], VERTICES = 9
 const row = (name) => {
   for (const { data_source: { data } } of figure.renderers) {
     const k = data.row?.indexOf(name) ?? -1
@@ -36,16 +36,15 @@ const sentence = ({ state, x, top }) => {
   return `<b>${state} spring</b> at <i>x</i> = ${digits(x)} ${unit}<br>elastic part <i>u</i> = ${digits(u)}${beside(limit)} ${unit}${limit === null ? "" : ` = ${cap}`}${plastic}
     <br>${named} = ${digits(u * load)}${beside(limit * load)} ${load_unit}`
 }
-view.el.addEventListener("pointermove", (event) => {
-  const { left, top } = view.el.getBoundingClientRect(), { bbox, x_scale } = view.frame
-  const [sx, sy] = [event.clientX - left, event.clientY - top]
-  const inside = sx > bbox.left && sx < bbox.right && sy > bbox.top && sy < bbox.bottom
-  const found = inside && !event.buttons && nearest(x_scale.invert(sx))
+el?.addEventListener("pointermove", (event) => {
+  const { clientX: x, clientY: y } = event, frame = toolkit.frame(figure)
+  const inside = frame && x > frame.left && x < frame.right && y > frame.top && y < frame.bottom
+  const found = inside && !event.buttons && nearest(frame.x.invert(x))
   // Above the springs is the indenter, which is dragged.
-  told.hidden = !found || view.frame.y_scale.invert(sy) > Math.max(found.top, 0)
+  told.hidden = !found || frame.y.invert(y) > Math.max(found.top, 0)
   if (told.hidden) return
   told.innerHTML = sentence(found)
-  Object.assign(told.style, { left: `${Math.min(event.clientX + 14, innerWidth - 250)}px`, top: `${event.clientY + 14}px` })
+  Object.assign(told.style, { left: `${Math.min(x + 14, innerWidth - 250)}px`, top: `${y + 14}px` })
 })
-view.el.addEventListener("pointerleave", () => { told.hidden = true })
-view.el.addEventListener("pointerdown", () => { told.hidden = true }, true)
+el?.addEventListener("pointerleave", () => { told.hidden = true })
+el?.addEventListener("pointerdown", () => { told.hidden = true }, true)

@@ -30,7 +30,7 @@ from ..quantities import CHOICES, QUANTITIES
 from ..shared.dragging import DRAGGED, TOUCH, let_drag, path
 from ..shared.summary import summary
 from ..state import MEDIUM_CHOICES, PRESETS, State, altered, as_shown, used, yield_constant
-from ..ui import CSS, HERE, Messages, marked, symbol
+from ..ui import CSS, HERE, JS, Messages, marked, symbol
 
 _HERE = Path(__file__)
 _TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")
@@ -67,6 +67,7 @@ def scene_file(view: View) -> str:
     _connect(document, view, pictures, Messages(words=readout))
     words = {
         "style": CSS,
+        "private": JS["private"],
         # Of Bokeh alone what draws; file_html adds a script of Panel's server.
         "bokeh": Resources(mode="inline", components=["bokeh"]).js_raw[0],
         "dark": str(state.dark).lower(),

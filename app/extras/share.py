@@ -65,7 +65,8 @@ class Share:
             for extra in EXTRAS.values()
             for label, name, write in extra.files
         ]  # fmt: skip
-        self.view = pn.Column(self.link, self._note, tools(*buttons), self.python, **WIDE)
+        parts = self.link, self._note, tools(*buttons), self.python
+        self.view = pn.Column(*parts, css_classes=["share"], **WIDE)
 
     def address(self) -> tuple[str, str]:
         """Link to the page, or why it has none."""

@@ -3,8 +3,8 @@ const band = Object.assign(document.createElement("div"), { className: "band", h
 document.body.append(band)
 let from = null
 const plot = (event) => {
-  const figures = [...zoom.document.all_models].filter(({ type, name }) => type === "Figure" && name)
-  return figures.map((figure) => [figure, Bokeh.index.find_one(figure)]).find(([, view]) => view && event.composedPath().includes(view.el))
+  const figures = toolkit.figures(zoom.document).filter(({ name }) => name)
+  return figures.find((figure) => event.composedPath().includes(toolkit.element(figure) ?? null))
 }
 const ask = (name, box) => { zoom.asked = [name, box, (zoom.asked[2] ?? 0) + 1] }
 const corners = ({ clientX, clientY }) => [[from.x, clientX].sort((a, b) => a - b), [from.y, clientY].sort((a, b) => a - b)]
@@ -26,21 +26,20 @@ document.addEventListener("pointermove", (event) => {
 document.addEventListener("pointerup", (event) => {
   if (!from) return
   event.stopPropagation()
-  const [[left, right], [top, bottom]] = corners(event), [figure, { el, frame }] = from.found
-  const { left: x, top: y } = el.getBoundingClientRect(), { bbox } = frame
+  const [[left, right], [top, bottom]] = corners(event), { found } = from, frame = toolkit.frame(found)
   band.hidden = true
   from = null
+  if (!frame) return
   const within = (value, low, high) => Math.min(Math.max(value, low), high)
-  const across = [left - x, right - x].map((place) => within(place, bbox.left, bbox.right))
-  const up = [bottom - y, top - y].map((place) => within(place, bbox.top, bbox.bottom))
+  const across = [left, right].map((place) => within(place, frame.left, frame.right))
+  const up = [bottom, top].map((place) => within(place, frame.top, frame.bottom))
   // A click is no box.
   if (across[1] - across[0] < 8 || up[0] - up[1] < 8) return
-  const right_scale = frame.y_scales.get("right")
-  const scales = [[frame.x_scale, across], [frame.y_scale, up], ...(right_scale ? [[right_scale, up]] : [])]
-  ask(figure.name, scales.map(([scale, places]) => places.map((place) => scale.invert(place))))
+  const scales = [[frame.x, across], [frame.y, up], ...(frame.y_right ? [[frame.y_right, up]] : [])]
+  ask(found.name, scales.map(([scale, places]) => places.map((place) => scale.invert(place))))
 }, true)
 document.addEventListener("pointercancel", () => { band.hidden = !(from = null) }, true)
 document.addEventListener("dblclick", (event) => {
   const found = plot(event)
-  if (found) ask(found[0].name, null)
+  if (found) ask(found.name, null)
 })

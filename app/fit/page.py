@@ -1,8 +1,6 @@
 """The page of one person for a measurement: a file in, the number to quote out."""
 
-import re
 import shutil
-import tempfile
 from collections.abc import Callable
 from functools import partial
 from html import escape
@@ -13,54 +11,47 @@ from typing import Any
 import numpy as np
 import panel as pn
 from bokeh.document import Document
-from bokeh.events import ConnectionLost
+from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 
 from mdr_core.files.text import decoded
 from mdr_core.fit.indentation import IndentationFit
-from mdr_core.measured_curve import MeasuredCurve
 
 from ..tip import in_line, read_tip
-from ..ui import JS, WIDE, html
+from ..ui import JS, WIDE, html, landmarks
 from . import words
 from .files import as_csv, as_json
 from .form import Form
-from .measurement import Samples, Told, first_and_last, modulus_of_sample, samples
+from .measurement import Told, first_and_last, modulus_of_sample
 from .results import Results
 from .samples import EXAMPLES, example_named
 from .setting import MEDIA, Setting
+from .source import ENDED, Source
 from .worker import Here, Worker
 
-#: Beginnings of the suffixes of files that are no tables.
-_AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
-_ENDED = (
-    "The process that reads and fits has ended, because of a damaged file or too little memory; "
-    "nothing else is lost. Try another file, or fewer samples"
-)
+#: Roles and names of the parts of the page, by their classes.
+_LANDMARKS = {
+    "fit-header": ("banner", "Measurement"),
+    "asked": ("complementary", "Curve, tip and sample"),
+    "found": ("main", "Result"),
+}
+_NAMES = Path(__file__).with_name("names.js").read_text(encoding="utf-8")
 
 
-class Measurement:
+class Measurement(Source):
     """The page: a setting, the curve that is read, its samples and its fit, and what is shown of them."""
 
     def __init__(self, query: str = "", worker: Worker | Here | None = None):
+        super().__init__(Setting.read(query), Worker() if worker is None else worker)
         self.document = pn.state.curdoc or Document()
-        self.setting = Setting.read(query)
-        self.curve: MeasuredCurve | None = None
-        self.count = 0
-        self.table: Any = None
-        self.taken: Samples | None = None
         self.fit: IndentationFit | None = None
         self.told = Told((), None, "")
         self.E: tuple[float, float] | None = None
-        # What is said below the file and of the fit; what a refused file needs; what is being done.
-        self.about, self.refused, self.not_fitted, self.busy = "", "", "", ""
-        self.wants: set[str] = set()
+        # What is said of the fit, and what is being done.
+        self.not_fitted, self.busy = "", ""
         #: Of each curve of a map its number, E*, error and reason, once all are asked for.
         self.rows: list[tuple[Any, ...]] = []
-        self.worker = Worker() if worker is None else worker
-        self._folder = Path(tempfile.mkdtemp(prefix="measurement-"))
-        self._path, self._files, self._job = "", 0, 0
-        self._example = ""
+        self._job = 0
         self.form, self.results = Form(self), Results(self)
         self._address = pn.widgets.TextInput(visible=False)
         self._address.jscallback(value="history.replaceState(null, '', source.value)")
@@ -75,6 +66,8 @@ class Measurement:
         )  # fmt: skip
         # The address restores what was told when the session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
+        landmarks(self.document, _LANDMARKS, "found", "Skip to the result")
+        self.document.js_on_event(DocumentReady, CustomJS(code=_NAMES))
         if self.document.session_context is not None:
             self.document.on_session_destroyed(lambda context: self.close())
         self._begin()
@@ -94,111 +87,6 @@ class Measurement:
         """End the process and remove the file."""
         self.worker.stop()
         shutil.rmtree(self._folder, ignore_errors=True)
-
-    # Files.
-
-    def take_sample(self, name: str) -> None:
-        """Open a measured example with its tip and sample."""
-        example = EXAMPLES[name]
-        self._take(example.name, example.read(), example.setting, name)
-
-    def take_file(self, name: str, data: bytes) -> None:
-        """Read a file; tip and sample stay as they were told, unless they were those of an example."""
-        old, name = self.setting, in_line(name)
-        if self._example:
-            old = Setting()
-        if name != old.file:
-            # What is known of another curve does not hold for this one.
-            old = old.replace(curve=0, columns={}, corrections={}, samples=())
-            old = old.with_medium(old.medium) if old.medium else old
-            old = old.replace(spring_constant=None, sensitivity=None)
-        self._take(name, data, old)
-
-    def _take(self, name: str, data: bytes, setting: Setting, example: str = "") -> None:
-        self.curve = self.taken = self.fit = self.table = self.E = None
-        self.count, self.rows, self._example = 0, [], example
-        self.about = self.refused = self.not_fitted = ""
-        suffix = re.sub(r"[^\w.-]", "", Path(name).suffix)[:20] if "\0" not in name else ""
-        # A new name each time: the process keeps the curves of the last one.
-        self._files += 1
-        path = self._folder / f"file {self._files}{suffix}"
-        for old in self._folder.iterdir():
-            old.unlink()
-        path.write_bytes(data)
-        self._path, self.setting = str(path), setting.replace(file=name)
-        self._read()
-
-    def reread(self, **given: Any) -> None:
-        """Read the file again with what it lacks."""
-        self.setting = self.setting.replace(samples=(), **given)
-        if self._path:
-            self._read()
-
-    def choose_curve(self, number: int) -> None:
-        """Take another curve of the file."""
-        if self.count and number != self.setting.curve:
-            self.setting = self.setting.replace(curve=number, samples=())
-            self._read()
-
-    @property
-    def is_afm(self) -> bool:
-        """Whether the file is none of a table."""
-        return Path(self._path).suffix.lower().startswith(_AFM)
-
-    @property
-    def _given(self) -> dict[str, Any]:
-        asked = self.setting
-        given = {"spring_constant": asked.spring_constant, "sensitivity": asked.sensitivity}
-        given = {name: value for name, value in given.items() if value is not None}
-        return given | ({"columns": asked.columns} if asked.columns else {})
-
-    def _read(self) -> None:
-        self.busy = f"Reading {self.setting.file}"
-        self.wants, self.refused, self.fit = set(), "", None
-        self.show()
-        self.worker.ask(
-            "read", self._path, self._given, self.setting.curve, tell=self._tell(self._have_read)
-        )
-
-    def _have_read(self, kind: str, answer: Any) -> None:
-        self.busy = ""
-        if kind == "done" and answer[1]:
-            self.curve, self.count = answer
-            self.table = self.curve.table
-            self.about = self._of_file()
-            self._place()
-            self.fit_again()
-            return
-        self.curve = self.taken = None
-        if kind == "done":
-            self.table = answer[0]
-            self.wants = {"columns"}
-            self._refuse(
-                f"{self.setting.file} does not name its columns of depth and force with their units: "
-                "choose them below"
-            )
-        else:
-            text = answer if kind == "refused" else _ENDED
-            text = text.replace(Path(self._path).name, self.setting.file)
-            self.wants = {
-                name for name in ("spring constant", "sensitivity")
-                if re.search(name.replace(" ", "."), text)
-            }  # fmt: skip
-            self._refuse(text)
-        self.show()
-
-    def _refuse(self, text: str) -> None:
-        self.refused = words.refused(text.rstrip(".") + ".")
-
-    def _of_file(self) -> str:
-        curve = self.curve
-        of = f", curve {self.setting.curve + 1} of {self.count}" if self.count > 1 else ""
-        return f"<b>{escape(self.setting.file)}</b>{of}: {len(curve)} samples"
-
-    def _place(self) -> None:
-        """Take the samples of the curve without what is subtracted."""
-        given = self.setting.corrections
-        self.taken = samples(self.curve, given.get("drift", 0.0), given.get("frame", 0.0))
 
     # What is set.
 
@@ -333,7 +221,7 @@ class Measurement:
             self.fit, self.told = answer[0], Told(**answer[1])
             self._find_modulus()
         else:
-            text = answer if kind == "refused" else _ENDED
+            text = answer if kind == "refused" else ENDED
             self.not_fitted = words.refused(text.rstrip(".") + ".")
         self.show()
 
@@ -370,7 +258,7 @@ class Measurement:
             return
         self.busy = ""
         if kind != "done":
-            self.not_fitted = words.refused((answer if kind == "refused" else _ENDED) + ".")
+            self.not_fitted = words.refused((answer if kind == "refused" else ENDED) + ".")
         self.show()
 
     def cancel(self) -> None:

@@ -9,6 +9,7 @@ from bokeh.plotting import figure
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.show.units import fitting
 
+from ..ui import JS
 from .measurement import Samples
 
 #: Colours as those of the explorer's light theme: measured, model, not in use.
@@ -38,6 +39,11 @@ class Plots:
                 axis.axis_label_text_font_size = axis.major_label_text_font_size = "12px"
             each.grid.grid_line_color = "#e8eaed"
             each.outline_line_color = None
+            each.js_on_change("inner_width", bk.CustomJS(code=JS["canvas"]))
+        about = {"aria-label": "Force over measured depth, as measured and of the model"}
+        self.force.html_attributes = {"role": "figure"} | about
+        about = {"aria-label": "Residuals of the force over measured depth, between bounds of the noise"}
+        self.residual.html_attributes = {"role": "img"} | about
         self.force.xaxis.axis_label = ""
         self.sources = {name: bk.ColumnDataSource({"x": [], "y": []}, name=name) for name in _NAMES}
         self._draw()

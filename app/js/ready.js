@@ -1,6 +1,5 @@
-// Once the page is there: the keys Z and Escape, and the theme of the system.
+// Once the page is there: the keys of undo and Escape, and the theme of the system.
 const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
-document.documentElement.lang = "en"
 // Dark or light: as a link asks, else as was chosen in this browser, else as the system is. A browser may refuse to keep it.
 const kept = (act) => { try { return act() } catch { return null } }
 const shade = () => document.documentElement.classList.toggle("dark", messages.dark)
@@ -18,18 +17,26 @@ messages.properties.address.change.connect(() => {
 })
 document.addEventListener("keydown", (event) => {
   const on = event.composedPath()[0]
-  if (event.ctrlKey || event.altKey || event.metaKey || on.matches?.("input[type=text], textarea, select")) return
+  // In a field they are those of what is typed.
+  if (event.altKey || on.matches?.("input[type=text], textarea")) return
+  const key = event.key.toLowerCase(), act = (name) => all(document).find((each) => each.matches(`.act[name=${name}]:not([hidden])`))?.click()
+  if (event.ctrlKey || event.metaKey) {
+    const back = key === "z" && !event.shiftKey, forth = key === "y" || (key === "z" && event.shiftKey)
+    if (!(back || forth)) return
+    event.preventDefault()
+    return void act(back ? "Undo" : "Redo")
+  }
+  if (on.matches?.("select")) return
   if (event.key === "Escape") {
     const open = all(document).filter((each) => each.matches("[popover='']:popover-open, [data-key=escape][aria-pressed=true], .help[aria-expanded=true]"))
     // The browser closes popovers.
     return void (open.some(({ popover }) => popover) || open.at(-1)?.click())
   }
-  if (event.key.toLowerCase() === "z") all(document).find((each) => each.matches("button[data-key=z]"))?.click()
+  if (key === "z") act("Undo")
 })
-// Bokeh does not see that a plot has become a few pixels less high, as by a note that is opened.
+// Plots that have become a few pixels less high, as by a note that is opened, are drawn so.
 let before = null
 new ResizeObserver(([{ contentRect: { height } }]) => {
-  const figures = [...messages.document.all_models].filter(({ type }) => type === "Figure")
-  if (before !== null) for (const figure of figures) Bokeh.index.find_one(figure)?.invalidate_layout?.()
+  if (before !== null) toolkit.figures(messages.document).forEach(toolkit.lay_out)
   before = height
 }).observe(all(document).find((each) => each.shadowRoot && each.classList.contains("plots")))

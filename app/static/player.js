@@ -15,8 +15,7 @@ export function make_player({ messages, figures, ask }) {
     if (!times) return
     sources.forEach((source, n) => { source.data = { ...source.data, ...read(places[n][value]) } })
     messages.setv({ words: words[value] }, { sync: false })
-    // By itself Bokeh paints at most every second frame.
-    setTimeout(() => figures.forEach((figure) => Bokeh.index.find_one(figure)?.repaint?.()))
+    setTimeout(() => figures.forEach(toolkit.paint))
   }
   const move = (k) => {
     if (!moving) ask(null)
@@ -57,7 +56,7 @@ export function make_player({ messages, figures, ask }) {
     range.ariaValueText = told.slice(0, 2).join(", ")
     clearTimeout(wait)
     wait = setTimeout(() => figures.forEach((figure) => {
-      const el = Bokeh.index.find_one(figure)?.el
+      const el = toolkit.element(figure)
       if (el) el.ariaDescription = told.join(", ")
     }), 300)
   }

@@ -3,10 +3,12 @@
 // Until a plot has its new size, which takes seconds on a busy machine; what is then still to be painted is painted
 // within two frames of the browser.
 const pause = (ms) => new Promise((done) => setTimeout(done, ms))
-async function settled(view, width, height) {
+async function settled(figure, width, height) {
   for (let waited = 0; waited < 10_000; waited += 20) {
     await pause(20)
-    if (view.bbox.width === width && view.bbox.height === height) break
+    const size = toolkit.size(figure)
+    if (!size) await pause(1000)
+    if (!size || (size[0] === width && size[1] === height)) break
   }
   await pause(50)
 }
@@ -99,15 +101,14 @@ async function drawn(context, figure, { rows, title }, [left, top, width, height
     context.restore()
   }
   const { sizing_mode, width: before, height: high } = figure
-  const view = Bokeh.index.find_one(figure)
   figure.setv({ sizing_mode: "fixed", width, height: height - head }, { sync: false })
-  await settled(view, width, height - head)
+  await settled(figure, width, height - head)
   const ratio = Object.getOwnPropertyDescriptor(window, "devicePixelRatio")
   window.devicePixelRatio = 2
-  const { canvas } = view.export("png", true)
+  const canvas = toolkit.picture(figure)
   Object.defineProperty(window, "devicePixelRatio", ratio)
   figure.setv({ sizing_mode, width: before, height: high }, { sync: false })
-  context.drawImage(canvas, 0, head, width, height - head)
+  if (canvas) context.drawImage(canvas, 0, head, width, height - head)
   context.restore()
 }
 export async function save(name, scene, plots, [width, height]) {

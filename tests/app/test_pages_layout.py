@@ -19,6 +19,7 @@ PRIVATE = re.compile(
 SCRIPTS = list(APP.rglob("*.js"))
 PAGE = list(APP.glob("*.py"))
 EXTRAS = list((APP / "extras").rglob("*.py"))
+FIT = list((APP / "fit").rglob("*.py"))
 
 
 def lines(paths):
@@ -28,6 +29,7 @@ def lines(paths):
 def test_files_can_be_read_at_once():
     assert max(lines(PAGE)) <= 350
     assert max(lines(EXTRAS)) <= 350
+    assert max(lines(FIT)) <= 350
 
 
 def test_nothing_private_of_the_toolkit_is_used():

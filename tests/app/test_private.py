@@ -43,35 +43,66 @@ def test_all_private_ends_are_there_in_the_versions_that_are_installed(caplog):
     assert caplog.text == ""
 
 
-def test_the_page_is_in_use_without_any_of_them(browser, tmp_path):
-    """Served with all names gone, and in a browser whose views show nothing but their element."""
-    shutil.copytree(ROOT / "app", tmp_path / "app", ignore=shutil.ignore_patterns("__pycache__"))
+#: Names that js/private.js takes from Bokeh, and whether what is done below asks for each.
+IN_THE_BROWSER = {
+    "find_one": True, "el": True, "frame": True, "x_scale": True, "y_scale": True, "bbox": True,
+    "all_models": True, "repaint": True, "export": True, ".bk-events": True,
+    "invalidate_layout": False, ".noUi-handle": False,
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def without(browser, tmp_path_factory):
+    """The page served without all names of the server; a page says which one of the browser is gone."""
+    root = tmp_path_factory.mktemp("without")
+    shutil.copytree(ROOT / "app", root / "app", ignore=shutil.ignore_patterns("__pycache__"))
     for other in ("assets", "mdr_core"):
-        (tmp_path / other).symlink_to(ROOT / other)
-    path = tmp_path / "app" / "private.py"
-    text = path.read_text(encoding="utf-8")
-    for end in ENDS:
-        name = end.rsplit(".", 1)[1]
-        assert f'"{name}"' in text
-        text = text.replace(f'"{name}"', f'"moved_{name}"')
-    path.write_text(text, encoding="utf-8")
-    server = Server(root=tmp_path)
-    try:
-        with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
-            explorer = Explorer(context.new_page(), server.url)
-            explorer.page.evaluate("""() => {
-                const find = Bokeh.index.find_one.bind(Bokeh.index)
-                Bokeh.index.find_one = (model) => find(model) && { el: find(model).el }
-            }""")
-            explorer.change(explorer.type, "d_max", "5 nm")
-            assert explorer.readout("depth") == "5.000 nm"
-            explorer.page.get_by_label("State along the path").press("Home")
-            explorer.wait("explorer.row('force', 'now')[0][0] === 0")
-            assert explorer.problems == []
-    finally:
-        server.stop()
-    assert server.log.count("is not there in this version") >= 3
-    assert "Traceback" not in server.log
+        (root / other).symlink_to(ROOT / other)
+    names = {root / "app/private.py": [], root / "app/js/private.js": IN_THE_BROWSER}
+    for path, ends in names.items():
+        text = path.read_text(encoding="utf-8")
+        for end in ends or [each.rsplit(".", 1)[1] for each in ENDS]:
+            assert f'"{end}"' in text
+            moved = f'(window.without === "{end}" ? "{end}_moved" : "{end}")' if ends else f'"moved_{end}"'
+            text = text.replace(f'"{end}"', moved)
+        path.write_text(text, encoding="utf-8")
+    server = Server(root=root)
+    yield server
+    server.stop()
+
+
+def test_the_page_is_in_use_without_any_of_them(without, browser):
+    with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
+        explorer = Explorer(context.new_page(), without.url)
+        explorer.change(explorer.type, "d_max", "5 nm")
+        assert explorer.readout("depth") == "5.000 nm"
+        assert explorer.problems == []
+    assert without.log.count("is not there in this version") >= 3
+    assert "Traceback" not in without.log
+
+
+@pytest.mark.parametrize("end", IN_THE_BROWSER)
+def test_the_page_is_in_use_without_an_end_in_the_browser(end, without, browser):
+    """Everything is drawn, played and saved, and one line of the console says what is not there."""
+    with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
+        page = context.new_page()
+        page.add_init_script(f"window.without = {end!r}")
+        explorer = Explorer(page, without.url)
+        explorer.change(explorer.type, "d_max", "5 nm")
+        assert explorer.readout("depth") == "5.000 nm"
+        # A box on the pressure, the pointer over the springs, and the player.
+        page.keyboard.down("Shift")
+        explorer.drag("pressure", (0.2, 0.15))
+        page.keyboard.up("Shift")
+        page.locator(".card.springs canvas").first.hover(force=True)
+        page.get_by_label("State along the path").press("Home")
+        explorer.wait("explorer.row('force', 'now')[0][0] === 0")
+        with page.expect_download():
+            explorer.press("Save plots")
+    lines = [each for each in explorer.problems if f"{end}_moved is not there in this version" in each]
+    assert explorer.problems == lines
+    assert len(lines) == 1 if IN_THE_BROWSER[end] else len(lines) <= 1
+    assert "Traceback" not in without.log
 
 
 def test_panel_has_an_upper_bound_at_the_next_minor_version():

@@ -1,0 +1,171 @@
+"""The pages without a mouse and without sight: landmarks, names, the focus and its ring, keys, axe."""
+
+import importlib.resources
+from pathlib import Path
+
+import pytest
+
+from .conftest import DROP, Explorer
+
+pytest.importorskip("axe_playwright_python")
+AXE = importlib.resources.files("axe_playwright_python").joinpath("axe.min.js").read_text(encoding="utf-8")
+FOCUSED = Path(__file__).with_name("focused.js").read_text(encoding="utf-8")
+READY = "window.Bokeh?.documents.length && Bokeh.documents.every((each) => each.is_idle)"
+#: What axe finds of these impacts keeps somebody from using the page.
+GRAVE = ("serious", "critical")
+DESK, PHONE = (1280, 720), (390, 844)
+
+
+def findings(page):
+    """What axe finds: its impact, its rule, and the elements."""
+    page.evaluate(AXE)
+    found = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")["violations"]
+    return [(each["impact"], each["id"], [node["target"] for node in each["nodes"]]) for each in found]
+
+
+def more(explorer):
+    explorer.press("More about the medium")
+    explorer.field("ρ").wait_for()
+
+
+def guide(explorer):
+    explorer.press("Guide")
+    explorer.page.get_by_label("Guided scene").wait_for()
+
+
+def share(explorer):
+    explorer.press("Share")
+    explorer.page.get_by_label("Link to this page").wait_for()
+
+
+def silica(explorer):
+    explorer.press("Sample: fused silica")
+    explorer.page.locator(".big output").wait_for()
+    for name in ("force", "residual"):
+        explorer.page.locator(f".of-{name} canvas").first.wait_for()
+
+
+#: Pages in their states: the query, what is done there, and how large the window is.
+STATES = {
+    "first visit": ("", None, DESK),
+    "medium": ("", more, DESK),
+    "impact": (f"?preset={DROP}&tiles=energy", None, DESK),
+    "guide": ("", guide, DESK),
+    "share": ("", share, DESK),
+    "dark": ("?dark=1", None, DESK),
+    "phone": ("", None, PHONE),
+    "fit": ("?fit", None, DESK),
+    "silica": ("?fit", silica, DESK),
+    "theory": ("?theory", None, DESK),
+}
+
+
+@pytest.fixture(params=STATES)
+def state(request, server, browser):
+    query, act, (width, height) = STATES[request.param]
+    with browser.new_context(viewport={"width": width, "height": height}) as context:
+        of_page = query in ("?fit", "?theory")
+        explorer = Explorer(context.new_page(), server.url + query, READY if of_page else "explorer.idle()")
+        explorer.page.locator("[role=main]").wait_for(state="attached")
+        if act:
+            act(explorer)
+        yield explorer
+        assert explorer.problems == []
+
+
+def test_axe_finds_nothing_grave(state):
+    grave = [each for each in findings(state.page) if each[0] in GRAVE]
+    assert grave == []
+
+
+def test_axe_would_find_what_is_grave(server, browser):
+    """A field that loses its name is found, also where it is inside of components."""
+    with browser.new_context() as context:
+        explorer = Explorer(context.new_page(), server.url)
+        explorer.field("d_max").evaluate("(field) => { field.ariaLabel = null; field.id = 'other' }")
+        assert ("critical", "label") in [each[:2] for each in findings(explorer.page)]
+
+
+def test_all_is_within_landmarks_under_one_heading(state):
+    page = state.page
+    assert page.locator("h1").count() == 1
+    assert page.locator("[role=main]").count() == 1
+    names = [rule for _, rule, _ in findings(page)]
+    assert not {"region", "landmark-one-main", "landmark-unique", "page-has-heading-one"} & {*names}
+
+
+def walk(explorer, most=120):
+    """What takes the focus with the tab key, from the beginning of the page to its end."""
+    explorer.page.evaluate("document.activeElement.blur(); getSelection().removeAllRanges()")
+    explorer.page.evaluate("() => { document.body.tabIndex = -1; document.body.focus() }")
+    found = []
+    for _ in range(most):
+        explorer.page.keyboard.press("Tab")
+        now = explorer.page.evaluate(FOCUSED)
+        if now is None:
+            return found
+        found.append(now)
+    raise AssertionError("the focus does not leave the page")
+
+
+def test_each_tab_stop_has_a_name_and_a_ring_that_is_seen_whole(state):
+    stops = walk(state)
+    assert [each for each in stops if not each["name"]] == []
+    assert [each for each in stops if each["wide"] < 1] == []
+    # Less than a pixel is the rounding of places.
+    assert [each for each in stops if each["cut"] > 1] == []
+    # A canvas does nothing with keys.
+    assert [each for each in stops if "bk-" in each["name"]] == []
+
+
+def test_the_first_tab_stop_leads_to_the_plots(explorer):
+    page = explorer.page
+    page.keyboard.press("Tab")
+    link = page.get_by_role("link", name="Skip to the plots")
+    assert link.bounding_box()["y"] >= 0
+    page.keyboard.press("Enter")
+    # The next one is the first button of a plot, in a page and not in the header.
+    page.keyboard.press("Tab")
+    assert page.evaluate(FOCUSED)["name"].endswith("Large")
+    assert link.bounding_box()["y"] < 0
+
+
+def test_what_is_drawn_has_a_name(explorer):
+    """A fourth plot, too."""
+    explorer.open("Hardness", "hardness", "hardness")
+    for name in ("springs", "pressure", "force", "hardness"):
+        figure = explorer.page.locator(f".card.{name} [role=img]").first
+        assert ", over " in figure.get_attribute("aria-label"), name
+
+
+def test_both_ends_of_the_range_have_names(server, context):
+    explorer = Explorer(context.new_page(), f"{server.url}?fit", READY)
+    silica(explorer)
+    for name in ("First sample of the fit", "Last sample of the fit"):
+        explorer.page.get_by_role("slider", name=name).wait_for()
+    # Also of another curve.
+    explorer.press("Sample: gel by AFM")
+    explorer.page.locator(".big output", has_text="kPa").wait_for()
+    assert explorer.page.get_by_role("slider", name="Last sample of the fit").count() == 1
+    assert explorer.problems == []
+    explorer.page.close()
+
+
+def test_undo_and_redo_have_their_keys(explorer):
+    page, now = explorer.page, explorer.page.keyboard.press
+    depth = "explorer.row('force', 'now')[0][0]"
+    explorer.change(explorer.type, "d_max", "5 nm")
+    explorer.change(explorer.type, "d_max", "7 nm")
+    explorer.slider("d_max").focus()
+    for keys, expected in (
+        ("Control+z", 5), ("Control+z", 8.978), ("Control+Shift+z", 5), ("Control+y", 7), ("z", 5),
+    ):  # fmt: skip
+        explorer.change(now, keys)
+        # As it is shown, to three decimals.
+        assert abs(page.evaluate(depth) - expected) < 1e-3, keys
+    # In a field they are its own: it has again what stood there, and the scene stays.
+    field = explorer.field("q_c")
+    field.press_sequentially("6")
+    field.press("Control+z")
+    assert field.input_value() == "100 N/m"
+    assert page.evaluate(depth) == 5
