@@ -17,6 +17,7 @@ from ..foundation.force_path import Start, chain_creep, check_creep
 from ..medium import Medium
 from ..numerics.results import CLOSED_FORM, CREEP_LAW, Model
 from ..profiles.profile import Profile
+from ..profiles.shape_check import check_shape
 from .creep_law import Loading, Retreat
 from .integrals import integrals, tabulated
 from .live_interval import LiveInterval
@@ -95,6 +96,7 @@ def creep(
     later = chain_creep(
         profile, medium, force[count - 1 :], time[count - 1 :], tolerance=tolerance, start=path.last
     )
+    check_shape(profile, later.depth)
     return _joined(first, later, force, time)
 
 
@@ -152,8 +154,7 @@ class ScalarPath:
     def states(self, time, force, error):
         """The `TimedIndentation` of this path."""
         edge = np.asarray(self.interval.upper)
-        with np.errstate(all="ignore"):
-            radius = np.where(force > 0, self.profile.radius_at(edge), 0.0)
+        radius = np.where(force > 0, self.profile.radius_at(edge), 0.0)
         return TimedIndentation(
             self.profile, self.medium, time, self.depth, force, radius,
             stored_energy=self.stored_energy, plastic_work=self.plastic_work,
@@ -275,6 +276,7 @@ def _refuse_unknown(profile, pressed, force):
     known[-1] &= not pressed.turned or pressed.turning_depth <= profile.known_depth
     bound = f"presses {profile.too_deep()}"
     _check.refuse("force", force[: known.size], ~known, bound, unit="N", remedy="press less")
+    check_shape(profile, pressed.depth)
 
 
 def _pressed_states(profile, medium, law, pressed):
@@ -282,7 +284,7 @@ def _pressed_states(profile, medium, law, pressed):
     rule, modulus, f = law.rule, 2 * medium.E_star, law.area[: pressed.depth.size]
     interval, _ = rule.loading(pressed.depth)
     area, radius = law.pressed(pressed.depth)
-    with np.errstate(all="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         lag = np.where(radius > 0, np.maximum(f - area, 0.0) / radius, 0.0)
     stored = integrals(rule.profile).energy_integral(interval)
     plastic = rule.plastic_integral(np.zeros_like(interval.lower), interval.lower)

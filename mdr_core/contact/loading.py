@@ -6,9 +6,10 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..medium import Medium, check_hardness, check_pair, paths_on
+from ..medium import Medium, check_hardness, check_pair, check_reached, paths_on
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
+from ..profiles.shape_check import check_shape
 from . import adhesion
 from .indentation import Indentation
 from .integrals import integrals
@@ -60,9 +61,9 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     check_pair(profile, medium)
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST)
     depth = profile._known(paths_on(profile, medium, depth))
+    check_reached(profile, medium, depth)
     if np.any(medium.work_of_adhesion):
         return Indentation(profile, medium, depth, *adhesion.depth_path(profile, medium, depth))
-    check_hardness(profile, medium, depth)
     return Indentation(profile, medium, depth, yield_rule(profile, medium).path(depth))
 
 
@@ -114,7 +115,9 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     bound = f"must be less than the {limit:g} N at which {carrier}"
     _check.refuse("force", force, force >= limit, bound, unit="N", remedy="press to a depth instead")
     if adhesive:
-        return Indentation(profile, medium, *adhesion.force_path(profile, medium, force))
+        states = adhesion.force_path(profile, medium, force)
+        check_shape(profile, states[1].upper)
+        return Indentation(profile, medium, *states)
     integral = force / (2 * medium.E_star)
     largest = np.maximum.accumulate(integral, axis=-1) if integral.ndim else integral
     elastic = _elastic_depth(profile, largest) if medium.has_own_law else None
@@ -127,7 +130,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
         carried = np.max(_carried(rule, np.minimum(branches.high, _check.LONGEST)))
         bound = f"is more than the {2 * medium.E_star * carried:g} N that the contact carries on loading"
     _check.refuse("force", force, ~known, bound, unit="N", remedy="press less")
-    check_hardness(profile, medium, largest_depth)
+    check_reached(profile, medium, largest_depth)
     loaded, _ = rule.loading(largest_depth)
     length = np.where(integral == largest, loaded.length, live_length(profile, loaded, integral))
     depth = np.where(integral == largest, largest_depth, loaded.lower + length)
@@ -202,7 +205,6 @@ def _growing_branches(rule, elastic=None):
     if not onset < end or not rule.may_fall(end):
         return _one_branch(end)
 
-    @np.errstate(all="ignore")
     def growing(depth):
         interval, _ = rule.loading(depth)
         # Where the force goes to π f_c only the rounding of the radii is left of its slope.

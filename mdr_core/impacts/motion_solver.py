@@ -29,7 +29,6 @@ class Solution:
     unloading: list
 
     @property
-    @np.errstate(all="ignore")
     def max_deceleration(self):
         """The largest deceleration (m/s²) of each impact."""
         largest = np.zeros(len(self.end.time))
@@ -43,10 +42,8 @@ class Solution:
         return largest
 
 
-@np.errstate(all="ignore")
 def solve(bodies, tolerance=1e-5):
     """The `Solution` of impacts; the tolerance is that between nodes: at ends errors are far smaller."""
-    # A step that is too long may leave double precision; it is then repeated, shorter.
     turning_point, loading = _load(bodies, tolerance)
     end, unloading = _unload(bodies, turning_point, tolerance)
     return Solution(turning_point, end, loading, unloading)
@@ -173,11 +170,14 @@ class _Leg:
         good = (error <= tolerance) & ~passed
         # Past the edge only the depth leads to it; but from rest the depth is no variable.
         self.to_edge[rows[passed & (error < 1e-3) & (state.velocity != 0)[:, 0]]] = True
-        factor = np.clip(0.9 * (tolerance / error) ** (1 / 30), 0.3, 3.0)
+        with np.errstate(divide="ignore"):
+            factor = np.clip(0.9 * (tolerance / error) ** (1 / 30), 0.3, 3.0)
         factor[passed] = 0.3
         if kind is self.vanishing:
             # Steps shrink in proportion to the remainder.
-            factor = np.where(good, factor * (1 - length / room)[:, 0], np.where(last, 0.85, factor))
+            with np.errstate(invalid="ignore"):
+                shrink = factor * (1 - length / room)[:, 0]
+            factor = np.where(good, shrink, np.where(last, 0.85, factor))
         self.length[rows] = length * factor[:, None]
         taken, ended = rows[good], rows[good & last]
         self.state.store(taken, end[good])
@@ -197,7 +197,9 @@ class _LoadingLeg(_Leg):
     def _room(self, rows, in_depth, depth, velocity, deceleration):
         room = np.where(in_depth, self.edge_delta[rows] - self.delta[rows], velocity)
         # A part of the depth in which the present force would stop the body.
-        stop = self.coordinate[rows].delta(depth + velocity**2 / (3 * deceleration)) - self.delta[rows]
+        with np.errstate(divide="ignore"):
+            way = velocity**2 / (3 * deceleration)
+        stop = self.coordinate[rows].delta(depth + way) - self.delta[rows]
         return room, np.where(in_depth & ~self.to_edge[rows, None], stop, room)
 
 
