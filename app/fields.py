@@ -3,8 +3,9 @@
 from functools import partial
 from typing import Any
 
+from app.units import entry, read
 from mdr_core.files.text import decoded
-from mdr_core.show.units import UNITS, Unit, entry, fitting, read, written
+from mdr_core.show.units import UNITS, Unit, fitting, written
 
 from . import changes
 from .extra import EXTRAS

@@ -6,7 +6,8 @@ from math import isclose
 from typing import Any
 
 import mdr_core as mdr
-from mdr_core.show.units import entry, fitting, read, written
+from app.units import entry, read
+from mdr_core.show.units import fitting, written
 
 from .quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
 from .registry import Registry

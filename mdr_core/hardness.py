@@ -124,11 +124,14 @@ class SumOfClasses(HardnessLaw):
     def rate(self, a):
         return -(self.q_c + 2 * np.asarray(self.f_c) / a) / a / a
 
+    # Searches ask at any radius, also 0 and ∞: a H is 0 there for H = 0, and f_c/a² for f_c = 0.
     def line_load(self, a):
-        return self.hardness * a + self.q_c + self.f_c / np.maximum(a, _TINY)
+        with np.errstate(over="ignore", invalid="ignore"):
+            return self.hardness * a + self.q_c + self.f_c / np.maximum(a, _TINY)
 
     def line_load_rate(self, a):
-        return self.hardness - self.f_c / a / a
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            return self.hardness - self.f_c / a / a
 
     def wall_load(self, a):
         # The limit for a → ∞ is f_c without the two others.
@@ -202,8 +205,7 @@ def _is_none(name, value):
 def _range_of(law):
     """Radii (m) between which a law is finite and above 0: the longest range, in steps of 7 %."""
     radius = np.geomspace(NARROWEST, _WIDEST, 5786)
-    with np.errstate(all="ignore"):
-        hardness, rate = law_values(law, "at", radius), law_values(law, "rate", radius)
+    hardness, rate = law_values(law, "at", radius), law_values(law, "rate", radius)
     good = (hardness > 0) & (hardness < np.inf) & np.isfinite(rate)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(int)))
     if not edges.size:
@@ -242,8 +244,7 @@ def _sharp_radii(law):
     """Radii (m), ascending, between which a law changes so little that its rates at both ends tell it."""
     low, high = _range_of(law)
     radii = np.geomspace(max(low, 1e-18), min(high, 1e6), 817)[None]
-    with np.errstate(all="ignore"):
-        places, _ = steep_places(law, radii, law_values(law, "at", radii), 1e-3)
+    places, _ = steep_places(law, radii, law_values(law, "at", radii), 1e-3)
     return np.unique(places)
 
 

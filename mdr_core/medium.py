@@ -9,6 +9,7 @@ from ._check import Array, ArrayLike, Parameter, shown
 from .hardness import HardnessLaw, SumOfClasses
 from .hardness_check import check_law
 from .profiles.profile import Profile
+from .profiles.shape_check import check_shape
 
 
 def check_pair(profile, medium, what=None):
@@ -45,6 +46,12 @@ def refuse_own_law(medium, what, instead):
     if medium.has_own_law:
         law = shown(medium.hardness)
         raise ValueError(f"{what} does not support the law of hardness {law}; {instead}")
+
+
+def check_reached(profile, medium, depth):
+    """Refuses a shape or a law of a user's own that is none at the contact radii of depths (m)."""
+    check_shape(profile, depth)
+    check_hardness(profile, medium, depth)
 
 
 def check_hardness(profile, medium, depth):

@@ -49,7 +49,7 @@ from .contact.yielding import yield_rule
 from .hardness import HardnessLaw
 from .impacts.impact import impact
 from .impacts.result import Impact
-from .medium import Medium, check_hardness
+from .medium import Medium, check_reached
 from .oblique.oblique_impact import ObliqueImpact, oblique_impact
 from .profiles.profile import Profile
 from .profiles.sampled import Sampled
@@ -339,9 +339,9 @@ def _press(profile, E_star, work_of_adhesion, depth, **hardness):
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST)
     shape = np.broadcast_shapes(profile.shape, medium.shape, depth.shape)
     depth = profile._known(np.broadcast_to(depth, shape))
+    check_reached(profile, medium, depth)
     if np.any(np.asarray(work_of_adhesion) > 0):
         return Indentation(profile, medium, depth, *first_contacts(profile, medium, depth))
-    check_hardness(profile, medium, depth)
     interval, _ = yield_rule(profile, medium).loading(np.maximum(depth, 0.0))
     return Indentation(profile, medium, depth, interval)
 

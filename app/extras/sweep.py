@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
+from app.units import in_full
 from mdr_core.show.figures import NOTHING, line, mark
 from mdr_core.show.quantities import QUANTITIES as RESULTS
-from mdr_core.show.units import KINDS, digits, in_full
+from mdr_core.show.units import KINDS, digits
 
 from ..changes import CONSTANTS, option, shown
 from ..extra import Extra

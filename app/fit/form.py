@@ -5,8 +5,9 @@ from typing import Any
 
 import panel as pn
 
+from app.units import entry, read
 from mdr_core.reading import SIZES
-from mdr_core.show.units import UNITS, entry, fitting, read
+from mdr_core.show.units import UNITS, fitting
 
 from ..ui import WIDE, html, show
 from . import words

@@ -1,6 +1,6 @@
 """Numbers of a scene with their symbols, and a scene in one line."""
 
-from mdr_core.show.units import in_full
+from app.units import in_full
 
 from ..quantities import QUANTITIES
 from ..state import State, regions, used_by

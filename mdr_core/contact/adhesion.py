@@ -32,9 +32,16 @@ def stretch(medium, radius):
 
 def stretch_rate(profile, radius, length):
     """Δl/g′(a) (m) for the stretch `length` (m) at a radius a (m); 0 where a wall holds the rim."""
+    slope = np.where(radius >= profile.wall, np.inf, profile.reduced_slope_at(radius))
     with np.errstate(divide="ignore", invalid="ignore"):
-        slope = np.where(radius >= profile.wall, np.inf, profile.reduced_slope_at(radius))
         return length / slope
+
+
+def _half_rate(profile, radius, length):
+    """Δl/(2a g′(a)) for the stretch `length` (m) at a radius a (m)."""
+    rate = stretch_rate(profile, radius, length)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return rate / (2 * radius)
 
 
 def tension_integral(profile, interval, radius, length):
@@ -89,7 +96,8 @@ def _power_range(profile, threshold, exponent):
     _check.refuse("exponent", np.asarray(exponent), exponent <= 0.5, bound)
     if np.any(profile.wall < np.inf):
         return np.zeros(np.broadcast_shapes(np.shape(threshold), profile.shape))
-    with np.errstate(all="ignore"):
+    # Of a weak power the radius may leave double precision.
+    with np.errstate(over="ignore"):
         radius = (threshold / profile.reduced_slope_at(np.ones(()))) ** (1 / (exponent - 0.5))
         return np.asarray(profile.reduced_at(radius))
 
@@ -104,8 +112,7 @@ def _ranges(profile, threshold):
     inner, outer, up = x[change], x[change + 1], stable[change + 1]
     for _ in range(60):
         middle = np.sqrt(inner) * np.sqrt(outer)
-        with np.errstate(all="ignore"):
-            passed = (np.sqrt(middle) * profile.reduced_slope_at(middle) >= threshold) == up
+        passed = (np.sqrt(middle) * profile.reduced_slope_at(middle) >= threshold) == up
         inner, outer = np.where(passed, inner, middle), np.where(passed, middle, outer)
     low, high = profile.reduced_at(inner[up]), profile.reduced_at(inner[~up])
     if stable[0]:
@@ -124,6 +131,7 @@ def _rates(profile):
     near = np.geomspace(1e-12, 0.3, 24 if edges.size < 50 else 6)
     x = np.unique(np.concatenate([*x, *np.multiply.outer([*(1 - near), *(1 + near)], edges)]))
     x = x[(x > face) & (x < end)]
+    # The slope is looked at: radii are far beyond those of any contact.
     with np.errstate(all="ignore"):
         rate = np.sqrt(x) * profile.reduced_slope_at(x)
     if profile.wall < np.inf:
@@ -137,7 +145,7 @@ def contact_interval(profile, medium, lower, live_depth, low, high):
     def depth(length):
         radius = profile.radius_at(lower + length)
         stretched = stretch(medium, radius)
-        return length - stretched - live_depth, 1 - stretch_rate(profile, radius, stretched) / (2 * radius)
+        return length - stretched - live_depth, 1 - _half_rate(profile, radius, stretched)
 
     low = np.maximum(low - lower, 0.0)
     start = live_depth + stretch(medium, profile.radius_at(lower + np.maximum(live_depth, low)))
@@ -234,9 +242,8 @@ def force_path(profile, medium, force):
 
     start = np.full(force.shape, max(2 * low, d_c if d_c < np.inf else 0.0, 1e-30))
     upper = crossing(loading, np.minimum(start, known), np.full(force.shape, low), known)
-    with np.errstate(all="ignore"):
-        miss, slope = loading(upper)
-        rises = (slope > 0) & (np.abs(miss) <= 1e-6 * upper * slope)
+    miss, slope = loading(upper)
+    rises = (slope > 0) & (np.abs(miss) <= 1e-6 * upper * slope)
     bound = f"presses {profile.too_deep()}, or is not reached because adhesion draws the indenter in"
     _check.refuse(
         "force", force, ~((upper <= known) & rises), bound, unit="N", remedy="press to a depth instead"
@@ -279,7 +286,8 @@ def _tension(profile, interval, stretched, target, yielding):
     """Force over 2E* less a target (m²), and its derivative with respect to D (m)."""
     radius = profile.radius_at(interval.upper)
     rate = stretch_rate(profile, radius, stretched)
-    inner = np.where(yielding, profile.radius_at(interval.lower) * (1 - rate / (2 * radius)), 0.0)
+    lower = profile.radius_at(interval.lower) * (1 - _half_rate(profile, radius, stretched))
+    inner = np.where(yielding, lower, 0.0)
     value = tension_integral(profile, interval, radius, stretched)
     return value - target, radius - 1.5 * rate - inner
 
@@ -290,15 +298,13 @@ def stiffness(state):
     radius, stretched = state.contact_radius, -state.uniform_load / medium.E_star
     loaded = np.isclose(interval.length, medium.critical_depth + stretched, rtol=1e-14, atol=0.0)
     yielding = (interval.lower > 0) & loaded
-    with np.errstate(all="ignore"):
-        rate = stretch_rate(profile, radius, stretched)
-        part = rate / (2 * radius)
-        inner = np.where(yielding, state.plastic_radius, 0.0)
-        width = np.where(yielding, integrals(profile).radius_drop(interval), radius)
-        # (a − 3Δl/(2g′))/(1 − Δl/(2a g′)) − c, with the difference a − c.
-        return np.where(
-            radius > 0, 2 * medium.E_star * (width - 1.5 * rate + inner * part) / (1 - part), 0.0
-        )
+    rate, part = stretch_rate(profile, radius, stretched), _half_rate(profile, radius, stretched)
+    inner = np.where(yielding, state.plastic_radius, 0.0)
+    width = np.where(yielding, integrals(profile).radius_drop(interval), radius)
+    # (a − 3Δl/(2g′))/(1 − Δl/(2a g′)) − c, with the difference a − c.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        width = (width - 1.5 * rate + inner * part) / (1 - part)
+    return np.where(radius > 0, 2 * medium.E_star * width, 0.0)
 
 
 def pull_off_integral(profile, medium, interval):

@@ -288,7 +288,8 @@ def _root_of_depth(work):
     r = np.maximum(np.maximum(elastic, (2 * work) ** 0.25), 1.0)
     for _ in range(6):
         # 4/15 (r⁵ − q⁵) − ∫ sinh⁴ t dt/24 with q = √(r² − r), and its derivative 4/3 r (r³ − q³).
-        fall = np.log1p(-1 / r)
+        with np.errstate(divide="ignore"):
+            fall = np.log1p(-1 / r)
         sinh = 2 * np.sqrt(r * r - r)
         powers = sinh * (2 * r - 1) * (2 * sinh * sinh - 3) / 8 + 0.375 * np.arcsinh(sinh)
         value = -(4 / 15) * r**5 * np.expm1(2.5 * fall) - powers / 24

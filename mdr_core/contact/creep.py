@@ -17,6 +17,7 @@ from ..foundation.depth_path import Ramps, TimedIndentation
 from ..foundation.force_path import chain_creep, check_creep
 from ..medium import Medium
 from ..profiles.profile import Profile
+from ..profiles.shape_check import check_shape
 from .creep_loading import Loading
 from .creep_retreat import Retreat
 from .creep_states import ScalarPath, pressed_states, retreating_states
@@ -97,6 +98,7 @@ def creep(
     later = chain_creep(
         profile, medium, force[count - 1 :], time[count - 1 :], tolerance=tolerance, start=path.last
     )
+    check_shape(profile, later.depth)
     return _joined(first, later, force, time)
 
 
@@ -201,6 +203,7 @@ def _refuse_unknown(profile, pressed, force):
     known[-1] &= not pressed.turned or pressed.turning_depth <= profile.known_depth
     bound = f"presses {profile.too_deep()}"
     _check.refuse("force", force[: known.size], ~known, bound, unit="N", remedy="press less")
+    check_shape(profile, pressed.depth)
 
 
 def _retreat(law, pressed, count):

@@ -72,7 +72,6 @@ class Loading:
         y = float(self.elastic(depth)[0])
         return depth, y, float(self.pressed(depth)[0]) / y
 
-    @np.errstate(all="ignore")
     def solve(self, first):
         """The `Pressed` depths that follow on a first depth (m)."""
         depth = np.full(len(self.area), np.inf)
@@ -215,7 +214,10 @@ class _Stretch:
         before = np.append(0.0, places[:-1])[:, None]
         s = before + (places[:, None] - before) * node**4
         weight = 4 * node**3 * weight * (places[:, None] - before)
-        return self.slope * np.cumsum(np.sum(weight * self.law.depth_of(self._y(s, start, rate)), axis=1))
+        depth = self.law.depth_of(self._y(s, start, rate))
+        # Below the known depth an infinite depth may have no weight.
+        with np.errstate(invalid="ignore"):
+            return self.slope * np.cumsum(np.sum(weight * depth, axis=1))
 
     def _integrated(self, begin, places):
         """What is `_Reached` at places (τ) behind a `_Point`, by an integrator of SciPy.

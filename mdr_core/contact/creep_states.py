@@ -68,8 +68,7 @@ class ScalarPath:
     def states(self, time, force, error):
         """The `TimedIndentation` of this path."""
         edge = np.asarray(self.interval.upper)
-        with np.errstate(all="ignore"):
-            radius = np.where(force > 0, self.profile.radius_at(edge), 0.0)
+        radius = np.where(force > 0, self.profile.radius_at(edge), 0.0)
         return TimedIndentation(
             self.profile, self.medium, time, self.depth, force, radius,
             stored_energy=self.stored_energy, plastic_work=self.plastic_work,
@@ -97,7 +96,7 @@ def pressed_states(profile, medium, law, pressed):
     f = law.area[: pressed.depth.size]
     interval, _ = rule.loading(pressed.depth)
     area, radius = law.pressed(pressed.depth)
-    with np.errstate(all="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         lag = np.where(radius > 0, np.maximum(f - area, 0.0) / radius, 0.0)
     stored = integrals(rule.profile).energy_integral(interval)
     plastic = rule.plastic_integral(np.zeros_like(interval.lower), interval.lower)

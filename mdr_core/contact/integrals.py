@@ -102,15 +102,17 @@ class Integrals(ABC):
 @lru_cache(maxsize=64)
 def _growing_mean_slope(profile):
     """Whether g(x)/x nowhere falls between 10⁻¹² and 10³ m, as far as the profile is known."""
-    with np.errstate(all="ignore"):
-        last = profile.known_radius
-        if np.all(np.isfinite(profile.known_depth)):
-            # Beyond this radius g may have no value at all.
-            last = np.minimum(last, profile.radius_at(np.asarray(profile.known_depth)))
-        for radius in np.geomspace(1e-12, 1e3, 256):
-            x = np.minimum(np.full(profile.shape, radius), last)
-            if np.any(x * profile.reduced_slope_at(x) < profile.reduced_at(x) * (1 - 1e-9)):
-                return False
+    last = profile.known_radius
+    if np.all(np.isfinite(profile.known_depth)):
+        # Beyond this radius g may have no value at all.
+        last = np.minimum(last, profile.radius_at(np.asarray(profile.known_depth)))
+    for place in np.geomspace(1e-12, 1e3, 256):
+        x = np.minimum(np.full(profile.shape, place), last)
+        # Radii may be far beyond those of any contact: what is asked there is no number, or true.
+        with np.errstate(all="ignore"):
+            falls = np.any(x * profile.reduced_slope_at(x) < profile.reduced_at(x) * (1 - 1e-9))
+        if falls:
+            return False
     return True
 
 

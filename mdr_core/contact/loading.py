@@ -6,9 +6,10 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..medium import Medium, check_hardness, check_pair, paths_on
+from ..medium import Medium, check_hardness, check_pair, check_reached, paths_on
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
+from ..profiles.shape_check import check_shape
 from . import adhesion
 from .indentation import Indentation
 from .integrals import integrals
@@ -61,9 +62,9 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     check_pair(profile, medium)
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST)
     depth = profile._known(paths_on(profile, medium, depth))
+    check_reached(profile, medium, depth)
     if np.any(medium.work_of_adhesion):
         return Indentation(profile, medium, depth, *adhesion.depth_path(profile, medium, depth))
-    check_hardness(profile, medium, depth)
     return Indentation(profile, medium, depth, yield_rule(profile, medium).path(depth))
 
 
@@ -116,7 +117,9 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     bound = f"must be less than the {limit:g} N at which {carrier}"
     _check.refuse("force", force, force >= limit, bound, unit="N", remedy="press to a depth instead")
     if adhesive:
-        return Indentation(profile, medium, *adhesion.force_path(profile, medium, force))
+        states = adhesion.force_path(profile, medium, force)
+        check_shape(profile, states[1].upper)
+        return Indentation(profile, medium, *states)
     # A = ∫ a ds over the live interval stands for the force, here and below.
     area = force / (2 * medium.E_star)
     largest_area = np.maximum.accumulate(area, axis=-1) if area.ndim else area
@@ -125,7 +128,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     branches = _growing_branches(rule, elastic_depth)
     largest_depth = _loading_depth(rule, branches, largest_area)
     _refuse_not_carried(profile, medium, rule, branches, force, largest_depth)
-    check_hardness(profile, medium, largest_depth)
+    check_reached(profile, medium, largest_depth)
     loaded, _ = rule.loading(largest_depth)
     on_loading = area == largest_area
     length = np.where(on_loading, loaded.length, live_length(profile, loaded, area))
@@ -222,7 +225,6 @@ def _growing_branches(rule, elastic_depth=None):
     if not onset < end or not rule.may_fall(end):
         return _one_branch(end)
 
-    @np.errstate(all="ignore")
     def grows_at(depth):
         """Whether the force grows with depth at depths (m)."""
         interval, _ = rule.loading(depth)

@@ -6,6 +6,7 @@ from .. import _check
 from .._check import Array, ArrayLike
 from ..medium import Medium, check_hardness, check_pair, shape_with
 from ..profiles.profile import Profile
+from ..profiles.shape_check import check_shape
 from .integrals import integrals
 from .live_interval import LiveInterval
 from .yielding import yield_rule
@@ -143,6 +144,7 @@ def _onset(what, profile, medium, **values):
     unknown = (onset > profile.known_depth) & (rule.cap(profile.known_depth) < np.inf)
     bound = f"is {profile.too_deep()}"
     _check.refuse("yield depth", onset, unknown, bound, unit="m")
+    check_shape(profile, onset)
     # A law under which a sharp tip yields from first touch on is looked at next to its tip.
     check_hardness(profile, medium, np.where(onset > 0, onset, 1e-20))
     return onset

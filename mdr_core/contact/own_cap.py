@@ -44,7 +44,6 @@ class OwnCap(RadiusCap):
                 return True
         return False
 
-    @np.errstate(all="ignore")
     def _falls(self, depth):
         """Whether the cap falls at any of the depths (m)."""
         return bool(np.any(self.cap_rate_at(self.profile.radius_at(depth)) < 0))
@@ -66,7 +65,6 @@ class OwnCap(RadiusCap):
         _, row, halved_at = self._refined(imprint, increase)
         return np.hstack([cuts, _padded(row, halved_at, len(cuts))]) - onset
 
-    @np.errstate(all="ignore")
     def _refined(self, imprint, increase):
         """The plastic work in pieces, halved until each is the sum of its halves; one loading a row.
 

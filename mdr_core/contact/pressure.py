@@ -55,20 +55,21 @@ def _pressure(profile, radius, weight, edges, starts, r):
     total = np.zeros_like(r)
     # Number of the piece that contains r, −1 below all of them.
     own = np.searchsorted(starts, r, side="right") - 1
-    with np.errstate(all="ignore"):
-        sharp = profile.reduced_slope_at(np.zeros(1))[0] > 0
-        # Under a tip that is not sharp the integrand has no singularity on the axis.
-        own = np.where((r == 0) & (own == 0) & ~sharp, -1, own)
-        for piece in range(len(radius)):
-            rows = own < piece
-            if rows.any():
-                place = r[rows, None]
-                # Next to r ≈ c the radius of the first punches rounds to r, but it is larger.
-                outside = np.maximum(radius[piece], np.nextafter(place, np.inf))
-                total[rows] += (weight[piece] / root(outside, place)).sum(axis=1)
-        rows = np.flatnonzero((own >= 0) & (own < len(radius)))
-        if rows.size:
-            total[rows] += _pressure_from(profile, r[rows], edges[own[rows] + 1])
+    sharp = profile.reduced_slope_at(np.zeros(1))[0] > 0
+    # Under a tip that is not sharp the integrand has no singularity on the axis.
+    own = np.where((r == 0) & (own == 0) & ~sharp, -1, own)
+    for piece in range(len(radius)):
+        rows = own < piece
+        if rows.any():
+            place = r[rows, None]
+            # Next to r ≈ c the radius of the first punches rounds to r, but it is larger.
+            outside = np.maximum(radius[piece], np.nextafter(place, np.inf))
+            total[rows] += (weight[piece] / root(outside, place)).sum(axis=1)
+    # On the axis the pressure of the piece at the tip is infinite, and so is that of its flat punches.
+    total[(r == 0) & (own >= 0) & (own < len(radius))] = np.inf
+    rows = np.flatnonzero((r > 0) & (own >= 0) & (own < len(radius)))
+    if rows.size:
+        total[rows] += _pressure_from(profile, r[rows], edges[own[rows] + 1])
     return total
 
 
@@ -84,7 +85,7 @@ def _pressure_from(profile, r, end):
     # Not below r, and not on a kink at the end, where g′ is the slope on its other side.
     x = np.clip(x, r[:, None], np.nextafter(end, 0.0)[:, None])
     integral = (width * weight * profile.reduced_slope_at(x)).sum(axis=1)
-    return np.where(np.isinf(profile.reduced_slope_at(r)) | (r == 0), np.inf, integral)
+    return np.where(np.isinf(profile.reduced_slope_at(r)), np.inf, integral)
 
 
 def displacement_integral(profile, interval, r):

@@ -20,8 +20,9 @@ def radius(profile, depth):
 
 def radius_rate(profile, depth):
     """da/ds (dimensionless); 0 at a wall."""
+    slope = profile.reduced_slope_at(profile.radius_at(depth))
     with np.errstate(divide="ignore"):
-        return 1 / profile.reduced_slope_at(profile.radius_at(depth))
+        return 1 / slope
 
 
 def integrate(profile, interval, function, moment):
@@ -49,9 +50,12 @@ def _sums(profile, lower, upper, length, function, moment):
         total[inner] = first + remainder[inner] * zeroth if moment else zeroth
     outer = ~inner
     node, weight = nodes(start[outer], stop[outer], offset[outer], gauss_legendre(24))
-    values = weight * function(profile.entries((row[outer], None)), lower[row[outer], None] + node)
-    if moment:
-        values *= length[row[outer], None] - node
+    values = function(profile.entries((row[outer], None)), lower[row[outer], None] + node)
+    # Below the known depth values are infinite.
+    with np.errstate(invalid="ignore"):
+        values = weight * values
+        if moment:
+            values *= length[row[outer], None] - node
     total[outer] = values.sum(axis=1)
     return np.bincount(row, total, minlength=length.size)
 

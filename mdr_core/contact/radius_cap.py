@@ -33,7 +33,6 @@ class RadiusCap(YieldRule):
 
     scales = 0.5 * 50.0 ** np.arange(6)
 
-    @np.errstate(all="ignore")
     def cap(self, depth):
         return self.cap_at(self.profile.radius_at(np.maximum(depth, 0.0)))
 
@@ -45,13 +44,15 @@ class RadiusCap(YieldRule):
         # d(a σ_c)/da < 0 at small radii.
         return bool(np.any(self.law.f_c))
 
-    @np.errstate(all="ignore")
     def rate(self, depth):
         return 1 - self.cap_rate_at(self.profile.radius_at(depth))
 
     def cap_rate_at(self, a):
         """du_c/ds at contact radii (m)."""
-        rate = self.law.line_load_rate(a) / self.profile.reduced_slope_at(a)
+        rate, slope = self.law.line_load_rate(a), self.profile.reduced_slope_at(a)
+        # At first touch both may be 0, or infinite.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            rate = rate / slope
         return np.where(a < self.profile.wall, rate, 0.0)
 
     def penetration(self, plastic_depth, imprint):
@@ -69,14 +70,13 @@ class RadiusCap(YieldRule):
             total = plastic_depth + self.cap_at(a)
             return depth / total, (total - depth * self.cap_rate_at(a)) / total / total
 
-        with np.errstate(all="ignore"):
-            # Under a sharp tip that yields from first touch on the ratio is larger everywhere.
-            sought = np.where(ratio(np.asarray(_check.SHORTEST))[0] < 1, 1.0, 0.0)
-            near = plastic_depth + self.cap(plastic_depth)
-            start = np.where((plastic_depth > 0) & (near < np.inf), near, 1.0)
-            depth = increasing_root(ratio, sought, start, self.profile.known_depth)
-            reached = np.where(depth > 0, increase + self.cap(depth), 0.0)
-            return np.where(depth < np.inf, reached, np.inf)
+        # Under a sharp tip that yields from first touch on the ratio is larger everywhere.
+        sought = np.where(ratio(np.asarray(_check.SHORTEST))[0] < 1, 1.0, 0.0)
+        near = plastic_depth + self.cap(plastic_depth)
+        start = np.where((plastic_depth > 0) & (near < np.inf), near, 1.0)
+        depth = increasing_root(ratio, sought, start, self.profile.known_depth)
+        reached = np.where(depth > 0, increase + self.cap(depth), 0.0)
+        return np.where(depth < np.inf, reached, np.inf)
 
     def increase(self, penetration, imprint):
         # Without the rounding of the imprint's depth.
@@ -94,7 +94,6 @@ class RadiusCap(YieldRule):
             result[rows] = rule._plastic_sums(imprint[rows, None], increase[rows, None])
         return result.reshape(shape)[()]
 
-    @np.errstate(all="ignore")
     def _plastic_sums(self, imprint, increase):
         """∫ u_c a(p) dp of loadings, one a row of (N, 1), from kink to kink of a(s) and a(p)."""
         cuts, total = self._cuts(imprint, increase), np.zeros(len(imprint))

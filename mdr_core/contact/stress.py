@@ -106,8 +106,7 @@ def stress(state, r, z):
     # The stress of a point force falls as 1/distance², so that large distances need not be resolved.
     nearer = np.minimum(_FAR / np.maximum(np.maximum(at_r, at_z), 1.0), 1.0)
     at_r, at_z = at_r * nearer, np.where(at_z > _SURFACE, at_z * nearer, 0.0)
-    with np.errstate(all="ignore"):
-        J, K, T, L, M = _integrals(state, unit, at_r, at_z) * (state.medium.E_star / np.pi * nearer**2)
+    J, K, T, L, M = _integrals(state, unit, at_r, at_z) * (state.medium.E_star / np.pi * nearer**2)
     surface = at_z == 0
     J[surface] = state.pressure(r.ravel()[surface])
     K[surface] = T[surface] = M[surface] = 0.0
@@ -266,7 +265,9 @@ def _punches(x, weight, r, z):
     square.real = (r[:, None] - x) * (r[:, None] + x) + (z * z)[:, None]
     square.imag = x * (-2 * z)[:, None]
     S = np.sqrt(square)
-    first = 1 / S
+    with np.errstate(divide="ignore", invalid="ignore"):
+        # At the rim of a punch.
+        first = 1 / S
     S.real += z[:, None]
     S.imag -= x
     last, third = 1 / S, first * first * first

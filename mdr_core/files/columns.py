@@ -4,15 +4,15 @@ import re
 
 from .. import _check
 from . import words
-from .units import UNITS, unit_named
+from .units import COLUMN_UNITS, unit_named
 
 #: Sizes of the units of each quantity (SI); a minus turns the sign of a column.
 SIZES = {
-    each: UNITS[kind] | {f"−{unit}": -size for unit, size in UNITS[kind].items()}
+    each: COLUMN_UNITS[kind] | {f"−{unit}": -size for unit, size in COLUMN_UNITS[kind].items()}
     for each, kind in {"depth": "length", "force": "force", "time": "time"}.items()
 }
 #: Units of a deflection, which times the stiffness of the cantilever is a force.
-_DEFLECTION = UNITS["length"] | UNITS["voltage"]
+_DEFLECTION = COLUMN_UNITS["length"] | COLUMN_UNITS["voltage"]
 _GIVE = 'give columns={"depth": (0, "nm"), "force": (1, "mN")}, numbers and units'
 #: Words of the time that are no symbols.
 _TIME = re.compile(r"\b(time|\w*zeit|temps|tiempo|tempo)\b|时间")
@@ -124,7 +124,7 @@ def _deflection(table, name, free, cantilever):
     if not candidates:
         return None
     # In m no sensitivity is needed.
-    best = min(candidates, key=lambda k: table.unit(k) in UNITS["voltage"])
+    best = min(candidates, key=lambda k: table.unit(k) in COLUMN_UNITS["voltage"])
     _need_cantilever(table, name, best, table.unit(best), cantilever)
     return best
 
@@ -132,7 +132,7 @@ def _deflection(table, name, free, cantilever):
 def _need_cantilever(table, name, column, unit, cantilever):
     """Refuse a deflection without the constants that turn it into a force."""
     needed = {"spring_constant": "spring_constant= (N/m)"}
-    if unit.lstrip("−") in UNITS["voltage"]:
+    if unit.lstrip("−") in COLUMN_UNITS["voltage"]:
         needed["sensitivity"] = "sensitivity= (m/V)"
     lacking = [text for each, text in needed.items() if each not in (cantilever or ())]
     if lacking:

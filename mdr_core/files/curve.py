@@ -13,7 +13,7 @@ from .columns import SIZES, NoCurve, UnknownColumns, columns_of, size_of, stiffn
 from .results import as_results, of_tests
 from .several import below_each_other, jumps, retract_of, side_by_side
 from .text import Table
-from .units import UNITS, cleaned, unit_of
+from .units import COLUMN_UNITS, cleaned, unit_of
 
 #: Largest force (N) below which an instrument may be one with a cantilever, whose deflection counts.
 _SMALL = 1e-5
@@ -186,7 +186,7 @@ def _deflected(table, name, values, columns, known, sensitivity, remarks):
             raise ValueError(f"the forces of {name} are already in units of force: leave out sensitivity")
         return
     factor, text = known["spring_constant"], "the stiffness"
-    if unit.lstrip("−") in UNITS["voltage"]:
+    if unit.lstrip("−") in COLUMN_UNITS["voltage"]:
         factor, text = factor * known["sensitivity"], "the sensitivity and the stiffness"
     elif sensitivity is not None:
         raise ValueError(f"the deflection of {name} is already a length, in {unit}: leave out sensitivity")

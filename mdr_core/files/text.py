@@ -20,7 +20,7 @@ _LONGEST_LINE = 10_000
 _BRACKETS = re.compile(r"[(\[]\s*([^(\[)\]\s]+)\s*[)\]]")
 #: Lines of a header that have a name before the cells, as "# units: m N s".
 _LABELLED = re.compile(r"#*\s*([A-Za-z][\w.-]*):\s+")
-#: Cells of a line of units that are none of `UNITS`.
+#: Cells of a line of units that are none of `COLUMN_UNITS`.
 _OTHER_UNITS = re.compile(
     r"[kMG]?Pa|deg|°|°?C|K|k?Hz|%|-|a\.?u\.?|[nµmp]?A|rad|[nµm]?J|[nµm]?m\^[23]|[\wµ²³^-]{1,4}(/[\wµ²³^-]{1,4})+|\W*"
 )
@@ -64,7 +64,7 @@ class Table:
         return unit_of(head.removesuffix(cell).strip() if cell else head, cell)
 
     def unit(self, column: int) -> str:
-        """Known unit of a column, as in `UNITS`; else the empty text."""
+        """Known unit of a column, as in `COLUMN_UNITS`; else the empty text."""
         unit = self.unit_of(column)
         return "" if unit.doubt else unit.name
 

@@ -6,12 +6,20 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from ..profiles.samples import LENGTHS
+from ..show.units import UNITS
 
-#: Sizes of units (SI) by their kind.
-UNITS = {
+
+def _sizes(kind, *names):
+    """Sizes (SI) of units of a kind by their names."""
+    known = {unit.name: unit.factor for unit in UNITS[kind]}
+    return {name: known[name] for name in names}
+
+
+#: Sizes (SI) of the units that a column of a file may have, by their kind.
+COLUMN_UNITS = {
     "length": LENGTHS,
-    "force": {"kN": 1e3, "N": 1.0, "mN": 1e-3, "µN": 1e-6, "nN": 1e-9, "pN": 1e-12, "MN": 1e6},
-    "time": {"min": 60.0, "s": 1.0, "ms": 1e-3, "µs": 1e-6, "h": 3600.0},
+    "force": _sizes("force", "kN", "N", "mN", "µN", "nN", "pN", "MN"),
+    "time": {"min": 60.0} | _sizes("time", "s", "ms", "µs") | {"h": 3600.0},
     "voltage": {"V": 1.0, "mV": 1e-3},
 }
 #: Names of units of a stiffness by their sizes (N/m).
@@ -86,8 +94,8 @@ _LONGEST = 300
 class Unit:
     """Unit of a column by its header.
 
-    `kind` is a key of `UNITS`, "stiffness", "sensitivity" or empty for other quantities; `name` one of
-    `UNITS[kind]`; `size` in SI. `doubt` is what stands beside and is not understood.
+    `kind` is a key of `COLUMN_UNITS`, "stiffness", "sensitivity" or empty for other quantities; `name` one
+    of `COLUMN_UNITS[kind]`; `size` in SI. `doubt` is what stands beside and is not understood.
     """
 
     kind: str = ""
@@ -114,9 +122,9 @@ def cleaned(text):
 
 
 def unit_named(text):
-    """Name of a known unit as in `UNITS`, or None."""
+    """Name of a known unit as in `COLUMN_UNITS`, or None."""
     parsed = _parsed(cleaned(str(text)).strip(" ()[]"))
-    return parsed.name if parsed and not parsed.doubt and parsed.kind in UNITS else None
+    return parsed.name if parsed and not parsed.doubt and parsed.kind in COLUMN_UNITS else None
 
 
 @lru_cache(maxsize=4096)
@@ -138,7 +146,7 @@ def unit_of(head, cell=""):
 
 def _with(unit, remainder):
     """A unit with the doubt that is in the rest of the header."""
-    if unit.doubt or unit.kind not in UNITS:
+    if unit.doubt or unit.kind not in COLUMN_UNITS:
         return unit
     beside = _SCALING.search(remainder) or (unit.size in (1.0, 60.0) and _LONE_PREFIX.search(remainder))
     if beside:
@@ -260,13 +268,13 @@ def _parsed(text, capitals=False):
     before = _BEFORE.match(text)
     if before and not (remainder := text[before.end() :].strip()).startswith(("/", "^")):
         unit = _parsed(remainder, capitals)
-        if unit is None or unit.kind not in UNITS:
+        if unit is None or unit.kind not in COLUMN_UNITS:
             return unit and Unit(unit.kind, unit.name, unit.size, before[0].strip())
         return _scaled(unit, before, inside=True)
     after = re.search(rf"({_TIMES}|\s*/\s*){_POWER}$", text)
     if after and after.start():
         unit = _parsed(text[: after.start()], capitals)
-        if unit is None or unit.kind not in UNITS:
+        if unit is None or unit.kind not in COLUMN_UNITS:
             return unit and Unit(unit.kind, unit.name, unit.size, after[0].strip())
         return _scaled(unit, after, inside=True)
     return _plain(text, capitals)
@@ -295,7 +303,7 @@ def _plain(text, capitals):
 
 def _named(kind, size):
     """Kind, name, size and doubt of a unit of a size."""
-    for name, known in UNITS[kind].items():
+    for name, known in COLUMN_UNITS[kind].items():
         if abs(known - size) < 1e-9 * size:
             return kind, name, known, ""
     return kind, "", size, f"{size:g} {_SYMBOLS[kind]}"
@@ -341,7 +349,9 @@ def _word(text):
         return None
     prefix = match["prefix"].lower()
     kind = next(
-        kind for kind in UNITS if match[kind] or (match["symbol"] and match["symbol"] == _SYMBOLS[kind])
+        kind
+        for kind in COLUMN_UNITS
+        if match[kind] or (match["symbol"] and match["symbol"] == _SYMBOLS[kind])
     )
     if match["symbol"] and not prefix:
         return None

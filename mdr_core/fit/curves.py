@@ -141,8 +141,7 @@ class Curves:
     def states(self, x):
         """Parameters by name, and the states of the model that belong to the samples."""
         values = self.values(x)
-        with np.errstate(all="ignore"):
-            return values, self.states_at(values, self.depth - values["contact_point"])
+        return values, self.states_at(values, self.depth - values["contact_point"])
 
     def model_states(self, x):
         """`states`, with samples in contact where the model has them."""

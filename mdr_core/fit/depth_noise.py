@@ -54,22 +54,19 @@ class NoisyDepthCurves(Curves):
             depth, force = measured - state.depth, load - state.force
             return (depth / self.depth_noise) ** 2 + (force / self.sigma) ** 2
 
-        with np.errstate(all="ignore"):
-            state = self.states_at(values, measured)
-            nearest, least = state.depth, distance(state)
-            # The slope is 0 without contact: the search also starts just within the contact.
-            state = self.states_at(
-                values, np.maximum(measured, state.live_interval.lower + self.depth_noise)
-            )
-            for _ in range(6):
-                squares = distance(state)
-                nearest = np.where(squares < least, state.depth, nearest)
-                least = np.minimum(squares, least)
-                residual = load - state.force - state.slope * (measured - state.depth)
-                share = state.slope * self.depth_noise**2 / self.noise(state.slope) ** 2
-                state = self.states_at(values, measured + share * residual)
-            nearest = np.where(distance(state) < least, state.depth, nearest)
-            return values, self.states_at(values, nearest)
+        state = self.states_at(values, measured)
+        nearest, least = state.depth, distance(state)
+        # The slope is 0 without contact: the search also starts just within the contact.
+        state = self.states_at(values, np.maximum(measured, state.live_interval.lower + self.depth_noise))
+        for _ in range(6):
+            squares = distance(state)
+            nearest = np.where(squares < least, state.depth, nearest)
+            least = np.minimum(squares, least)
+            residual = load - state.force - state.slope * (measured - state.depth)
+            share = state.slope * self.depth_noise**2 / self.noise(state.slope) ** 2
+            state = self.states_at(values, measured + share * residual)
+        nearest = np.where(distance(state) < least, state.depth, nearest)
+        return values, self.states_at(values, nearest)
 
     def noise(self, slope):
         return np.sqrt(self.sigma**2 + (slope * self.depth_noise) ** 2)

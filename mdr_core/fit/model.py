@@ -62,13 +62,13 @@ def states(profile, values, cap_at, depth, largest, loading, rate):
     c = np.where(contact & (interval.lower > 0), profile.radius_at(interval.lower), 0.0)
     area = integrals(profile).radius_integral(interval)
     gradient = {
-        "E_star": 2 * (area - np.where(c > 0, c * cap, 0.0) - a * ahead),
+        "E_star": 2 * (area - _plastic(c, cap) - a * ahead),
         "eta": 8 * a * rate,
     }
     for name, derivative in cap_by_constants.items():
-        gradient[name] = np.pi * np.where(c > 0, c * derivative, 0.0)
+        gradient[name] = np.pi * _plastic(c, derivative)
     force = modulus * area
-    memory_slope = -modulus * np.where(c > 0, c * rate_of_plastic_depth, 0.0)
+    memory_slope = -modulus * _plastic(c, rate_of_plastic_depth)
     slope = modulus * a + np.where(loading, memory_slope, 0.0)
     uniform_load = np.where(contact, E_star * np.maximum(lag, 0.0), 0.0)
     if uniform_load.any():
@@ -82,6 +82,12 @@ def states(profile, values, cap_at, depth, largest, loading, rate):
     return States(depth, loading, cap, interval, uniform_load, force, slope, memory_slope, gradient)
 
 
+def _plastic(c, rate):
+    """c times a rate, 0 where nothing has yielded, c = 0, and the rate may be infinite."""
+    with np.errstate(invalid="ignore"):
+        return np.where(c > 0, c * rate, 0.0)
+
+
 def constant_cap(profile, values, largest):
     """`radius_cap` for the hardness q_c/a alone: a constant."""
     return ConstantCap.of(profile, values["E_star"], values["q_c"]).critical_depth, 1.0, {"q_c": 1.0}
@@ -92,4 +98,6 @@ def radius_cap(profile, values, largest):
     share = np.pi / 2 / values["E_star"]
     law = SumOfClasses(*(share * values[name] for name in ("hardness", "q_c", "f_c")))
     rule, a = RadiusCap(profile, law), profile.radius_at(np.maximum(largest, 0.0))
-    return rule.cap_at(a), 1 - rule.cap_rate_at(a), {"hardness": a, "q_c": 1.0, "f_c": 1 / a}
+    with np.errstate(divide="ignore"):
+        by_constants = {"hardness": a, "q_c": 1.0, "f_c": 1 / a}
+    return rule.cap_at(a), 1 - rule.cap_rate_at(a), by_constants

@@ -292,14 +292,14 @@ def _values_and_errors(profile, depth, force, constants, contact):
 def _moduli(profile, contact_depth, force, stiffness, beta):
     """E* and H (Pa) at contact depths (m)."""
     a = _radius_at_height(profile, contact_depth)
-    with np.errstate(all="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         return stiffness / (2 * beta * a), force / (np.pi * a**2)
 
 
 def _over_depth(profile, depth, force, stiffness, constants, contact):
     """Values and errors by name at each sample with a measured stiffness, and remarks."""
     epsilon, beta = constants
-    with np.errstate(all="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         contact_depth = depth - epsilon * force / stiffness
     used = (stiffness > 0) & (force > 0) & (contact_depth > 0)
     used &= contact_depth < profile.known_depth

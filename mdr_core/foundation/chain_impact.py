@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import _check
-from ..medium import Medium, check_hardness, check_pair, refuse_adhesion
+from ..medium import Medium, check_pair, check_reached, refuse_adhesion
 from ..numerics.motions import ImpactResult, Motion, instants
 from ..numerics.results import CHAIN, Limit, above
 from ..profiles.profile import Profile
@@ -87,7 +87,7 @@ def chain_impact(
     if medium.has_own_law and medium.eta == 0:
         # Without dashpots the body goes no less deep than on an elastic medium, whose bound has 5 % more.
         elastic = impact_depth_bound(profile, Medium(medium.E_star), mass, speed, history) / 1.1
-        check_hardness(profile, medium, elastic)
+        check_reached(profile, medium, elastic)
     bound = impact_depth_bound(profile, medium, mass, speed, history)
 
     def solve(elements, depth, steps):
@@ -106,7 +106,7 @@ def chain_impact(
     floor = np.array([1.0 if name == "restitution" else 0.0 for name in _TRUST])
     limit, errors = refine(run, tolerance, _RUNS, 2, orders=(2,), runs=3, trust=trust, floor=floor)
     quantities = dict(zip(_TRUST, limit.tolist(), strict=True))
-    check_hardness(profile, medium, quantities["max_depth"])
+    check_reached(profile, medium, quantities["max_depth"])
     errors = dict(zip(_TRUST, errors.tolist(), strict=True))
     error = max(errors["restitution"], errors["max_depth"])
     # Close to zero, the limit may be negative within its error.

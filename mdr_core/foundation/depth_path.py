@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _check, abel
 from .._check import Array, ArrayLike
-from ..medium import Medium, check_hardness, check_pair, refuse_adhesion
+from ..medium import Medium, check_pair, check_reached, refuse_adhesion
 from ..numerics.results import CHAIN, Limit, Model, Result, above
 from ..profiles.profile import Profile
 from . import element
@@ -84,7 +84,7 @@ def indent_in_time(
     depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
     time = check_times(time, depth, "depth")
     tolerance = _check.positive_number("tolerance", tolerance)
-    check_hardness(profile, medium, np.max(depth))
+    check_reached(profile, medium, np.max(depth))
     nodes = _node_radii(profile, medium, depth, time)
     # A path without contact has no width of its own.
     half_width = float(profile.contact_radius(max(np.max(depth), 0.0))) or min(1.0, profile.known_radius)

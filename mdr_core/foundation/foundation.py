@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .. import _check
-from ..medium import Medium, check_hardness, check_pair, refuse_adhesion
+from ..medium import Medium, check_pair, check_reached, refuse_adhesion
 from ..numerics.gauss import gauss_legendre
 from ..numerics.results import above
 from ..profiles.profile import Profile
@@ -162,7 +162,7 @@ class Foundation:
         depth = float(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
         dt = _check.positive_number("dt", dt, unit="s", infinite=True)
         if depth > self._current.largest:
-            check_hardness(self.profile, self.medium, depth)
+            check_reached(self.profile, self.medium, depth)
         moved, travel = self, depth - self.depth
         for end in self._ends(depth):
             share = (end - moved.depth) / travel if travel else 1.0

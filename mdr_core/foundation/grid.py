@@ -47,8 +47,8 @@ def _grading(profile, fixed):
     Where g rises as (x − lower)^n with n < 1, p = 3/(1 + n) makes h³ g″ the same for all elements.
     """
     lower, length = fixed[:-1], np.diff(fixed)
-    with np.errstate(all="ignore"):
-        base, near, far = profile.reduced(lower + length * np.array([[0.0], [2.0**-20], [2.0**-19]]))
+    base, near, far = profile.reduced(lower + length * np.array([[0.0], [2.0**-20], [2.0**-19]]))
+    with np.errstate(divide="ignore", invalid="ignore"):
         exponent = np.log2((far - base) / (near - base))
     return np.where((exponent > 0) & (exponent < 0.99), 3 / (1 + exponent), 1.0)
 

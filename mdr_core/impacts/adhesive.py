@@ -223,7 +223,7 @@ def _step(profile, medium, upper, kinetic, inertia):
     """dt/dD (s/m) at D = `upper` (m) with a kinetic energy (m³)."""
     radius = profile.radius_at(upper)
     rate = 1 - stretch_rate(profile, radius, stretch(medium, radius)) / (2 * radius)
-    with np.errstate(all="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(kinetic > 0, rate * np.sqrt(inertia / (2 * kinetic)), 0.0)
 
 
@@ -276,8 +276,7 @@ def capture_speeds(profile: Profile, medium: Medium, mass: ArrayLike) -> tuple[A
     if d_c < np.inf:
         # The imprint holds a body where Δl(c) is about d_c.
         radius = medium.E_star * d_c**2 / (2 * np.pi * medium.work_of_adhesion)
-        with np.errstate(all="ignore"):
-            scales += [d_c, float(profile.reduced_at(np.asarray(min(radius, profile.known_radius))))]
+        scales += [d_c, float(profile.reduced_at(np.asarray(min(radius, profile.known_radius))))]
     spaced = np.geomspace(1e-6, 1e6, 601)
     upper = np.unique(np.concatenate([scale * spaced for scale in scales if scale < np.inf]))
     upper = start.upper + upper[start.upper + upper <= known]

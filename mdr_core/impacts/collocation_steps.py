@@ -35,7 +35,9 @@ class DepthCoordinate(Entries):
 
     def delta(self, depth):
         """Coordinates of depths (m)."""
-        return cube_way(self.root, depth - self.base)
+        # Both are infinite below the known depth.
+        with np.errstate(invalid="ignore"):
+            return cube_way(self.root, depth - self.base)
 
 
 @dataclass(frozen=True)
@@ -82,7 +84,8 @@ class Steps(Entries):
         # Near zero the work counts against a part of the kinetic energy.
         work = np.abs(end.work) + 1e-3 * bodies.inertia * bodies.speed**2
         size = np.hstack([self._size(end), np.abs(end.time), work])
-        error = np.max(last_coefficient(step.slopes) * np.abs(self.length) / size, axis=1)
+        with np.errstate(all="ignore"):
+            error = np.max(last_coefficient(step.slopes) * np.abs(self.length) / size, axis=1)
         return step, np.where(settled & (error < np.inf), error, np.inf)
 
     def largest_deceleration(self):
@@ -117,14 +120,18 @@ class DepthSteps(Steps):
 
         def slopes(velocity):
             rate, acceleration, power = self.equation.rates(load, radius, velocity)
-            time = depth_rate / rate
-            return (acceleration * time, time, power * time), -(damping + acceleration / rate) * time
+            # A step that is too long passes the turning point; it is not good.
+            with np.errstate(all="ignore"):
+                time = depth_rate / rate
+                return (acceleration * time, time, power * time), -(damping + acceleration / rate) * time
 
         return slopes
 
     def decelerations(self):
         """Decelerations (m/s²) at the nodes."""
-        return -self.slopes[:, 0] / self.slopes[:, 1]
+        # At an end in the coordinate of a kink both may be 0.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return -self.slopes[:, 0] / self.slopes[:, 1]
 
 
 class VelocitySteps(Steps):
@@ -144,8 +151,10 @@ class VelocitySteps(Steps):
             load, radius = self.equation.load(depth)
             rate, acceleration, power = self.equation.rates(load, radius, velocity)
             stiffness = self.equation.stiffness(depth, radius, velocity)
-            jacobian = stiffness * velocity / self.equation.bodies.inertia / acceleration**2
-            return (rate / acceleration, 1 / acceleration, power / acceleration), jacobian
+            # Without contact there is no acceleration; such a step is not good.
+            with np.errstate(all="ignore"):
+                jacobian = stiffness * velocity / self.equation.bodies.inertia / acceleration**2
+                return (rate / acceleration, 1 / acceleration, power / acceleration), jacobian
 
         return slopes
 

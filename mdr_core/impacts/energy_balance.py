@@ -122,21 +122,22 @@ def _penetration(rule, target, before):
         return stored + part.plastic_integral(before[rows], increase), force
 
     highest = np.broadcast_to(rule.profile.known_depth - before, target.shape)
-    with np.errstate(all="ignore"):
-        y = np.minimum(_first_guess(rule, target, before), highest)
-        rows = np.arange(y.size)
-        for _ in range(12):
-            value, slope = work(y[rows], rows)
+    y = np.minimum(_first_guess(rule, target, before), highest)
+    rows = np.arange(y.size)
+    for _ in range(12):
+        value, slope = work(y[rows], rows)
+        # Far from the root powers leave double precision.
+        with np.errstate(all="ignore"):
             step = np.log(target[rows] / value) * value / (slope * y[rows])
             new = np.minimum(y[rows] * np.exp(step), highest[rows])
-            # At the known depth the work is still less than the energy.
-            y[rows] = np.where((y[rows] == highest[rows]) & (step > 1e-13), np.inf, new)
-            # After a step of 10⁻⁷ the next one would be its square, which is rounding.
-            rows = rows[~(np.abs(step) < 1e-7) & (y[rows] < np.inf)]
-            if not rows.size:
-                return y
-        # The first guess was poor, or left double precision: in a bracket.
-        y[rows] = increasing_root(lambda y: work(y, rows), target[rows], 1.0, highest[rows])
+        # At the known depth the work is still less than the energy.
+        y[rows] = np.where((y[rows] == highest[rows]) & (step > 1e-13), np.inf, new)
+        # After a step of 10⁻⁷ the next one would be its square, which is rounding.
+        rows = rows[~(np.abs(step) < 1e-7) & (y[rows] < np.inf)]
+        if not rows.size:
+            return y
+    # The first guess was poor, or left double precision: in a bracket.
+    y[rows] = increasing_root(lambda y: work(y, rows), target[rows], 1.0, highest[rows])
     return y
 
 
@@ -150,10 +151,13 @@ def _first_guess(rule, target, before):
     elastic = table.depth_of_volume(target)
     if imprint:
         # Not deeper than a flat punch of the plastic radius.
-        punch = np.sqrt(2 * target / table.radius(before))
+        with np.errstate(divide="ignore"):
+            punch = np.sqrt(2 * target / table.radius(before))
         elastic = np.where(before > 0, np.minimum(elastic, punch), elastic)
     # The mean of a force that goes as the power 3/2 of the depth is nearly that in the middle.
     cap = rule.cap(before + elastic)
-    middle = table.depth_of_area(target / cap + (table.area(before) if imprint else 0.0))
-    yielding = middle - cap * cap / (48 * middle) + cap / 2 - before
+    # The cap may be 0 or infinite, where the other guess is taken.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        middle = table.depth_of_area(target / cap + (table.area(before) if imprint else 0.0))
+        yielding = middle - cap * cap / (48 * middle) + cap / 2 - before
     return np.where(elastic > onset, np.maximum(yielding, onset), elastic)

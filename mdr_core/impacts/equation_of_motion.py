@@ -130,7 +130,9 @@ class Loading(Equation):
             c = profile.radius_at(interval.lower)
             slope = np.where(yields, radius - c * rule.rate(interval.upper), radius)
         # At a wall the contact no longer grows.
-        spread = np.where(radius < profile.wall, 1 / profile.reduced_slope_at(radius), 0.0)
+        with np.errstate(divide="ignore"):
+            spread = 1 / profile.reduced_slope_at(radius)
+        spread = np.where(radius < profile.wall, spread, 0.0)
         return slope + self.bodies.relaxation_time * velocity * spread
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..medium import Medium, check_hardness, check_pair, refuse_adhesion, shape_with
+from ..medium import Medium, check_pair, check_reached, refuse_adhesion, shape_with
 from ..profiles.profile import Profile
 from .adhesive import adhesive_impact
 from .energy_balance import dry_impact
@@ -92,12 +92,10 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, *, in_time=False):
 
 def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
     """The `Impact`, refused if a law of hardness is none up to its largest contact radius."""
-    # The search may start far from the root, where powers leave double precision.
-    with np.errstate(all="ignore"):
-        if medium.has_own_law:
-            _check_elastic(profile, medium, mass, speed, imprint_depth)
-        hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
-        check_hardness(profile, medium, hit.turning_point.live_interval.upper)
+    if medium.has_own_law:
+        _check_elastic(profile, medium, mass, speed, imprint_depth)
+    hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
+    check_reached(profile, medium, hit.turning_point.live_interval.upper)
     return hit
 
 
@@ -110,7 +108,7 @@ def _check_elastic(profile, medium, mass, speed, imprint_depth):
     some = (values.ravel()[rows] for values in (mass, speed, imprint_depth))
     own, medium = (each.flat_entries(rows, mass.shape) for each in (profile, medium))
     elastic = _solved(own, Medium(medium.E_star, eta=medium.eta), *some, False)
-    check_hardness(own, medium, elastic.turning_point.live_interval.upper)
+    check_reached(own, medium, elastic.turning_point.live_interval.upper)
 
 
 def _solved(profile, medium, mass, speed, imprint_depth, in_time):

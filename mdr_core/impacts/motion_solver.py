@@ -30,7 +30,6 @@ class Solution:
     unloading: list
 
     @property
-    @np.errstate(all="ignore")
     def max_deceleration(self):
         """The largest deceleration (m/s²) of each impact."""
         largest = np.zeros(len(self.end.time))
@@ -44,10 +43,8 @@ class Solution:
         return largest
 
 
-@np.errstate(all="ignore")
 def solve(bodies, tolerance=1e-5):
     """The `Solution` of impacts; the tolerance is that between nodes: at ends errors are far smaller."""
-    # A step that is too long may leave double precision; it is then repeated, shorter.
     turning_point, loading = _load(bodies, tolerance)
     end, unloading = _unload(bodies, turning_point, tolerance)
     return Solution(turning_point, end, loading, unloading)
@@ -185,7 +182,7 @@ class _Leg(Entries):
         end = step.end()
         good, factor = _judged(step, end, error, tolerance)
         if self.depth_vanishes:
-            factor = _shrinking(factor, good, last, length / room)
+            factor = _shrinking(factor, good, last, length, room)
         arrived = good & last
         end = replace(end, depth=np.where(arrived, leg.edge, end.depth))
         after = _Underway(
@@ -210,7 +207,7 @@ class _Leg(Entries):
         good &= ~passed
         factor = np.where(passed, 0.3, factor)
         if not self.depth_vanishes:
-            factor = _shrinking(factor, good, last, length / room)
+            factor = _shrinking(factor, good, last, length, room)
         # Past the edge only the depth leads to it; but from rest the depth is no variable.
         depth_only = passed & (error[:, None] < 1e-3) & (state.velocity != 0)
         after = _Underway(
@@ -236,7 +233,9 @@ class _LoadingLeg(_Leg):
     def longest_in_depth(self, impacts, room, deceleration):
         """Longest step in δ (m^(1/3)): a part of the depth in which the present force stops the body."""
         depth, velocity = impacts.state.depth, impacts.state.velocity
-        return self.coordinate.delta(depth + velocity**2 / (3 * deceleration)) - impacts.delta
+        with np.errstate(divide="ignore"):
+            way = velocity**2 / (3 * deceleration)
+        return self.coordinate.delta(depth + way) - impacts.delta
 
     def room_in_velocity(self, impacts, deceleration):
         """Velocity (m/s) that is left, and the longest step."""
@@ -274,12 +273,16 @@ def _judged(step, end, error, tolerance):
     """Which steps are good, and by which factor the next ones are longer, both (N, 1)."""
     # A body that turns round within a step in depth leaves no state at its end.
     error = np.where(step.start.velocity * end.velocity >= 0, error[:, None], np.inf)
-    return error <= tolerance, np.clip(0.9 * (tolerance / error) ** (1 / 30), 0.3, 3.0)
+    with np.errstate(divide="ignore"):
+        factor = np.clip(0.9 * (tolerance / error) ** (1 / 30), 0.3, 3.0)
+    return error <= tolerance, factor
 
 
-def _shrinking(factor, good, last, share):
-    """Factors of steps towards zero, which shrink with what remains; each has taken a `share` of that."""
-    return np.where(good, factor * (1 - share), np.where(last, 0.85, factor))
+def _shrinking(factor, good, last, length, room):
+    """Factors of steps towards zero, which shrink with what remains of the room that they had."""
+    with np.errstate(invalid="ignore"):
+        shrunk = factor * (1 - length / room)
+    return np.where(good, shrunk, np.where(last, 0.85, factor))
 
 
 def _joined(parts):

@@ -14,26 +14,36 @@ def collocate(derivative, first, length):
     u at the start and the length of each interval. Returns u at the nodes, of shape (N, 24) and of one sign
     in each interval, and whether Newton's method has converged.
     """
-    integrate, one, _ = _collocation()
-    u, settled = np.repeat(first, len(one), axis=1), np.zeros(len(first), bool)
+    integrate, _, _ = _collocation()
+    u, settled = np.repeat(first, len(integrate), axis=1), np.zeros(len(first), bool)
     for _ in range(8):
         value, rate = derivative(u)
-        residual, rate = u - first - length * (value @ integrate.T), length * rate
-        # The linear equation δ − ∫ f′δ = r has the solution δ = r + E ∫ f′r/E with E = exp ∫ f′. Up to
-        # E = e^20 its polynomial is accurate to 10⁻¹⁰, so that Newton's method converges as fast.
-        exponent = rate @ integrate.T
-        factor = np.exp(exponent)
-        change = residual + factor * ((rate * residual / factor) @ integrate.T)
-        steep = np.flatnonzero(~(np.abs(exponent).max(axis=1) < 20.0))
-        if steep.size:
-            matrix = one - rate[steep, None, :] * integrate
-            matrix[~np.isfinite(matrix).all(axis=(1, 2))] = one
-            change[steep] = np.linalg.solve(matrix, residual[steep, :, None])[..., 0]
-        u = np.where(change / u < 0.75, u - change, u / 4)
-        settled = np.all(np.abs(change) <= 1e-9 * np.abs(u), axis=1)
+        # An interval that is too long may leave double precision; it is not settled.
+        with np.errstate(all="ignore"):
+            change = _newton_step(u - first - length * (value @ integrate.T), length * rate)
+            u = np.where(change / u < 0.75, u - change, u / 4)
+            settled = np.all(np.abs(change) <= 1e-9 * np.abs(u), axis=1)
         if settled.all():
             break
     return u, settled
+
+
+def _newton_step(residual, rate):
+    """δ with δ − ∫ f′δ = r for the residual r and the rate f′, times the length, at the nodes.
+
+    It is δ = r + E ∫ f′r/E with E = exp ∫ f′. Up to E = e^20 its polynomial is accurate to 10⁻¹⁰, so that
+    Newton's method converges as fast.
+    """
+    integrate, one, _ = _collocation()
+    exponent = rate @ integrate.T
+    factor = np.exp(exponent)
+    change = residual + factor * ((rate * residual / factor) @ integrate.T)
+    steep = np.flatnonzero(~(np.abs(exponent).max(axis=1) < 20.0))
+    if steep.size:
+        matrix = one - rate[steep, None, :] * integrate
+        matrix[~np.isfinite(matrix).all(axis=(1, 2))] = one
+        change[steep] = np.linalg.solve(matrix, residual[steep, :, None])[..., 0]
+    return change
 
 
 # Kept, one viscous impact is 1.4 times as fast.

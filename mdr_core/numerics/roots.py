@@ -22,7 +22,6 @@ def largest_value(function, low, high, grids=2):
     return np.where(np.abs(after - before) < 2 * bend, top, values.max(axis=1))
 
 
-@np.errstate(all="ignore")
 def increasing_root(function, target, start, highest=np.inf, *, largest=_check.LARGEST, quantity="depth"):
     """Positive x with function(x) = target, elementwise, for a function that grows about as a power.
 
@@ -54,17 +53,21 @@ def increasing_root(function, target, start, highest=np.inf, *, largest=_check.L
     for iteration in range(200):
         value, slope = function(x)
         high, low = np.where(value >= target, x, high), np.where(value <= target, x, low)
-        miss = np.log(target / value)
+        # Far from the root values may leave double precision, and 0 is not sought.
+        with np.errstate(all="ignore"):
+            miss = np.log(target / value)
+            # The slope is infinite at the edge of a flat face and at some kinks, and a step there is 0.
+            step = np.clip(np.where(slope < np.inf, miss * value / (slope * x), np.nan), -3, 3)
+            new, middle = x * np.exp(step), np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 16)
+            middle = np.where(high < np.inf, middle, 16 * x)
+            inside = (new > low) & (new < high) & (iteration < 12 or iteration % 2 == 0)
+            new = np.where(inside, new, middle)
+            # Neither the step nor the bracket is more than rounding.
+            settled = (np.abs(new - x) <= 4 * eps * x) | (high - low <= 4 * eps * low)
         stalled = np.where(np.abs(miss) < least, 0, stalled + 1)
         best, least = np.where(stalled == 0, x, best), np.fmin(np.abs(miss), least)
-        # The slope is infinite at the edge of a flat face and at some kinks, and a step there is 0.
-        new = x * np.exp(np.clip(np.where(slope < np.inf, miss * value / (slope * x), np.nan), -3, 3))
-        middle = np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 16)
-        middle = np.where(high < np.inf, middle, 16 * x)
-        inside = (new > low) & (new < high) & (iteration < 12 or iteration % 2 == 0)
-        new = np.where(inside, new, middle)
         # Rounding of f ends the iteration where no step comes closer any more.
-        settled = (np.abs(new - x) <= 4 * eps * x) | (high - low <= 4 * eps * low) | (least <= 8 * eps)
+        settled |= least <= 8 * eps
         settled |= (stalled > 0) & (least <= 1e-14) | (stalled > 1) & (least <= 1e-13)
         reachable &= low < largest
         if np.all(settled | ~sought | ~reachable):
@@ -78,19 +81,19 @@ def crossing(function, x, low, high):
 
     `function` gives values and slopes. NaN where there is no root up to the largest length.
     """
-    with np.errstate(all="ignore"):
-        for _ in range(200):
-            value, slope = function(x)
-            low, high = np.where(value < 0, x, low), np.where(value >= 0, x, high)
+    for _ in range(200):
+        value, slope = function(x)
+        low, high = np.where(value < 0, x, low), np.where(value >= 0, x, high)
+        with np.errstate(all="ignore"):
             step = value / slope
             new = x - step
             inside = (slope > 0) & (new >= low) & (new <= high)
             # After a step of 10⁻⁹ the next one is rounding.
             settled = inside & (np.abs(step) <= 1e-9 * np.abs(x)) | (high - low <= 4e-16 * np.abs(x))
             middle = np.where(high < np.inf, (low + high) / 2, 2 * np.maximum(x, low))
-            x = np.where(inside, new, middle)
-            if settled.all() or not np.any(np.abs(x) < _check.FARTHEST):
-                break
+        x = np.where(inside, new, middle)
+        if settled.all() or not np.any(np.abs(x) < _check.FARTHEST):
+            break
     return np.where(np.abs(x) < _check.FARTHEST, x, np.nan)
 
 

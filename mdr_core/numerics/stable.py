@@ -5,14 +5,18 @@ import numpy as np
 
 def cube_rise(begin, step):
     """(b + δ)³ − b³ without cancellation."""
-    return step * (3 * begin * begin + step * (3 * begin + step))
+    # A step may be infinite.
+    with np.errstate(over="ignore", invalid="ignore"):
+        return step * (3 * begin * begin + step * (3 * begin + step))
 
 
 def cube_way(begin, rise):
     """δ at (b + δ)³ − b³ = `rise`, the inverse of `cube_rise`."""
     end = np.cbrt(begin**3 + rise)
-    squares = begin * begin + begin * end + end * end
-    step = np.divide(rise, squares, out=np.zeros_like(rise), where=rise > 0)
+    # Either may be infinite.
+    with np.errstate(over="ignore", invalid="ignore"):
+        squares = begin * begin + begin * end + end * end
+        step = np.divide(rise, squares, out=np.zeros_like(rise), where=rise > 0)
     return np.where(rise < np.inf, step, np.inf)
 
 

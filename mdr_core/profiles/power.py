@@ -200,7 +200,9 @@ class PowerLaw(Profile):
         return self._reduced_coefficient * x**self.exponent
 
     def reduced_slope_at(self, x):
-        return self.exponent * self._reduced_coefficient * x ** (self.exponent - 1)
+        # Infinite at the tip for n < 1.
+        with np.errstate(divide="ignore"):
+            return self.exponent * self._reduced_coefficient * x ** (self.exponent - 1)
 
     def radius_at(self, depth):
         c, p = self._reduced_coefficient, 1 / self.exponent

@@ -1,6 +1,7 @@
 """Base class of profiles: height z(r), reduced height g(x), its slope g′(x) and its kinks."""
 
 from abc import ABC, abstractmethod
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ import numpy as np
 from .. import _check
 from .._check import Array, ArrayLike
 from ..numerics.roots import increasing_root
+from .shape_check import is_own, sound_range
 
 #: Names that functions of a shape had before, and those that they have now.
 _FORMER = {
@@ -32,13 +34,17 @@ class Profile(_check.Parameters, ABC):
         face_radius           radius (m) of a flat face at the tip, 0 without one
         wall                  radius (m) of a vertical wall, ∞ without one
         kinks                 depths (m) at which the edge of the contact passes a kink of g, a tuple
-        known_depth           depth (m) to which the shape is known, ∞ without an end
-        known_radius          radius (m) to which it is known, ∞ without an end
+        known_depth           depth (m) to which the shape is known; found from g if not given
+        known_radius          radius (m) to which it is known; found from g if not given
         too_deep()            words for depths beyond known_depth, in refusals
 
     The checked functions for users are `height`, `reduced`, `reduced_slope` and `contact_radius`.
     `body_radius` and `transition_depth` are for limits in words, and scales. Parameters may be arrays that
     broadcast with each other, with radii and with depths: an ensemble of indenters for `impact`.
+
+    Every calculation checks a shape of your own at 200 radii, from 10⁻⁶ of its largest contact radius up to
+    it: g is 0 at the tip, finite, and does not fall, z is finite and g′ a number. A shape ends, if it does
+    not say where, at the first radius at which this is not so.
 
     Examples
     --------
@@ -70,9 +76,6 @@ class Profile(_check.Parameters, ABC):
     wall = np.inf
     #: Radius (m) of a flat face at the tip: the contact radius at depth 0.
     face_radius = 0.0
-    #: Largest depth and radius (m) for which the profile is known.
-    known_depth = np.inf
-    known_radius = np.inf
     #: Radius (m) of the body that ends in the tip; the half-space needs a contact that is small against it.
     body_radius = np.inf
     #: Depths (m), ascending, at which the edge of the contact passes a kink of g, or reaches the wall.
@@ -86,12 +89,33 @@ class Profile(_check.Parameters, ABC):
 
     def __init_subclass__(cls, **keywords: Any):
         super().__init_subclass__(**keywords)
+        for name in ("known_depth", "known_radius"):
+            if name in cls.__annotations__ and name not in vars(cls):
+                # A field without a default of its own has none that is found from g.
+                setattr(cls, name, np.inf)
         for old, new in _FORMER.items():
             if old in vars(cls):
                 raise TypeError(
                     f"{cls.__name__} gives {old}, a former name of a function of a shape: call it {new}; a "
                     f"shape gives {', '.join(_FORMER.values())}, the last one only in closed form"
                 )
+
+    @cached_property
+    def known_depth(self):
+        """Largest depth (m) for which the profile is known."""
+        return np.inf if self.shape or not is_own(self) else self.sound.depth
+
+    @cached_property
+    def known_radius(self):
+        """Largest radius (m) for which the profile is known."""
+        return np.inf if self.shape or not is_own(self) else self.sound.radius
+
+    @cached_property
+    def sound(self):
+        """The `SoundRange` of a profile of a user's own."""
+        given = type(self).known_radius is not Profile.known_radius
+        end = min(self.wall, self.known_radius if given else np.inf)
+        return sound_range(self, end, type(self).radius_at is not Profile.radius_at)
 
     @abstractmethod
     def height_at(self, r: np.ndarray) -> np.ndarray:
@@ -127,9 +151,10 @@ class Profile(_check.Parameters, ABC):
         depth = self._places("depth", depth, most=_check.LONGEST)
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
         depth = self._known(depth)
-        with np.errstate(all="ignore"):
-            radius = self.radius_at(depth)
+        radius = self.radius_at(depth)
         _check.refuse("depth", depth, np.isinf(radius), "has a contact beyond double precision", unit="m")
+        remedy = f"mend radius_at of {type(self).__name__}"
+        _check.refuse("depth", depth, np.isnan(radius), "has no contact radius", unit="m", remedy=remedy)
         return radius[()]
 
     def radius_at(self, depth):
@@ -145,8 +170,10 @@ class Profile(_check.Parameters, ABC):
         known = np.min(self.known_radius, initial=np.inf)
         bound = f"is beyond the radius up to which the shape is known, {known:g} m"
         _check.refuse(quantity, r, r > self.known_radius, bound, unit="m")
-        with np.errstate(all="ignore"):
-            return function(r)[()]
+        values = function(r)[()]
+        remedy = f"mend {function.__name__} of {type(self).__name__}"
+        _check.refuse(quantity, r, np.isnan(values), "has no height or slope", unit="m", remedy=remedy)
+        return values
 
     def _places(self, quantity, values, most=_check.FARTHEST):
         """Radii or depths (m), checked and broadcast to the ensemble."""
@@ -164,4 +191,10 @@ class Profile(_check.Parameters, ABC):
 
     def too_deep(self):
         """Text for a refusal of depths below `known_depth`."""
+        if is_own(self) and not self.shape and self.sound.fault and self.known_depth == self.sound.depth:
+            return (
+                f"deeper than {type(self).__name__} is a shape, {self.known_depth:g} m, since "
+                f"{self.sound.fault}: mend its functions, or give known_depth and known_radius, or wall, "
+                "where the shape ends"
+            )
         return f"deeper than {self._last}, {np.min(self.known_depth, initial=_check.LONGEST):g} m"

@@ -37,10 +37,15 @@ class Sphere(OneLength):
         inside = np.minimum(u, 1.0)
         return np.where(u > 1, np.inf, inside * (inside / (1 + np.sqrt((1 - inside) * (1 + inside)))))
 
-    _G = staticmethod(lambda u: np.where(u < 1, u * np.arctanh(np.minimum(u, 1.0)), np.inf))
-    _G_slope = staticmethod(
-        lambda u: np.where(u < 1, np.arctanh(np.minimum(u, 1.0)) + u / ((1 - u) * (1 + u)), np.inf)
-    )
+    @staticmethod
+    def _G(u):
+        with np.errstate(divide="ignore"):
+            return np.where(u < 1, u * np.arctanh(np.minimum(u, 1.0)), np.inf)
+
+    @staticmethod
+    def _G_slope(u):
+        with np.errstate(divide="ignore"):
+            return np.where(u < 1, np.arctanh(np.minimum(u, 1.0)) + u / ((1 - u) * (1 + u)), np.inf)
 
 
 @dataclass(frozen=True, eq=False)

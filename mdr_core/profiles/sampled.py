@@ -253,19 +253,22 @@ class Sampled(Profile):
         highest = np.nextafter(self._r[zone + 1], 0)
         t, rows = np.clip(np.nan_to_num(guess), np.sqrt(np.spacing(vertex)), end), np.arange(depth.size)
         # Inside the first vertex the tip is a cone.
-        with np.errstate(all="ignore"):
-            t = np.where((zone > 0) | (depth == 0), t, np.sqrt(depth / (np.pi / 2 * self._slope[0])))
-            for _ in range(50):
-                old = t[rows]
-                x = np.minimum(vertex[rows] + old * old, highest[rows])
-                reduced, slope = self._reduced_and_slope(x)
-                step = np.nan_to_num((reduced - depth[rows]) / (2 * old * slope), posinf=0.0, neginf=0.0)
-                t[rows] = new = np.clip(old - step, old / 8, end[rows])
-                # The square of the last step is rounding.
-                close = (np.abs(new - old) <= 1e-8 * new) | (np.abs(new**2 - old**2) <= 8 * np.spacing(x))
-                rows = rows[~close]
-                if not rows.size:
-                    break
+        with np.errstate(divide="ignore", invalid="ignore"):
+            cone = np.sqrt(depth / (np.pi / 2 * self._slope[0]))
+        t = np.where((zone > 0) | (depth == 0), t, cone)
+        for _ in range(50):
+            old = t[rows]
+            x = np.minimum(vertex[rows] + old * old, highest[rows])
+            reduced, slope = self._reduced_and_slope(x)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                step = (reduced - depth[rows]) / (2 * old * slope)
+            step = np.nan_to_num(step, posinf=0.0, neginf=0.0)
+            t[rows] = new = np.clip(old - step, old / 8, end[rows])
+            # The square of the last step is rounding.
+            close = (np.abs(new - old) <= 1e-8 * new) | (np.abs(new**2 - old**2) <= 8 * np.spacing(x))
+            rows = rows[~close]
+            if not rows.size:
+                break
         radius = np.where(depth > 0, vertex + t * t, self.face_radius)
         return np.where(depth <= self.known_depth, radius, np.inf).reshape(shape)
 
@@ -279,8 +282,8 @@ class Sampled(Profile):
         zone = np.clip(np.searchsorted(self._g, depth, side="right") - 1, 0, len(self.r) - 2)
         end = np.sqrt(np.diff(self._r))
         first, whole = self._bend * np.sqrt(2 * self._r[:-1]) * end, np.diff(self._g)
-        with np.errstate(all="ignore"):
-            last = 2 * end**2 * self._slope_inside
+        last = 2 * end**2 * self._slope_inside
+        with np.errstate(divide="ignore", invalid="ignore"):
             third = last + first - 2 * whole
             first, second, third = first[zone], (whole - first - third)[zone], third[zone]
             rise = np.maximum(depth - self._g[zone], 0.0)

@@ -43,7 +43,8 @@ class TruncatedCone(_FlatFaced):
     @staticmethod
     def _G_slope(u):
         tau = _tau(u)
-        return np.where(u < 1, 0.0, np.arctan(tau) + 1 / tau)
+        with np.errstate(divide="ignore"):
+            return np.where(u < 1, 0.0, np.arctan(tau) + 1 / tau)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,7 +74,8 @@ class TruncatedParaboloid(_FlatFaced):
     @staticmethod
     def _G_slope(u):
         tau = _tau(u)
-        return np.where(u < 1, 0.0, tau + u * (u / tau))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(u < 1, 0.0, tau + u * (u / tau))
 
 
 @dataclass(frozen=True, eq=False)

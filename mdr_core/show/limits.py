@@ -48,9 +48,10 @@ def contact_limits(profile, medium, radius, *, slow=False):
 def _slope_limit(profile, radius):
     """Largest slope of the indenter within the contact: that at its edge, or the mean up to there."""
     a = np.asarray(radius) if profile.shape else np.max(radius, initial=0.0)
-    with np.errstate(all="ignore"):
-        height = profile.height_at(a)
-        edge = (height - profile.height_at(a * (1 - 1e-6))) / (1e-6 * a)
+    height = profile.height_at(a)
+    inside = profile.height_at(a * (1 - 1e-6))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        edge = (height - inside) / (1e-6 * a)
         slope = np.where(a > 0, np.fmax(edge, height / a), 0.0)
     # The difference has nine digits.
     value = float(f"{np.max(slope, initial=0.0):.9g}")

@@ -1,8 +1,7 @@
-"""Units: numbers in SI as text in the unit that fits them, and typed text as numbers in SI."""
+"""Units: numbers in SI as text in the unit that fits them."""
 
-import re
 from dataclasses import dataclass
-from math import floor, isclose, isfinite, log10, pi, radians, tan
+from math import floor, isfinite, log10, pi
 
 
 @dataclass(frozen=True)
@@ -56,8 +55,6 @@ UNITS = {
 #: Kinds by the names of their SI units: "N" is a force.
 KINDS = {unit.name: kind for kind, units in UNITS.items() for unit in units if unit.factor == 1}
 KINDS |= {"": "number", "rad": "angle"}
-#: Units that are read, and shown where they were typed.
-_READ = {"length": (Unit("Å", 1e-10), Unit("um", 1e-6))}
 
 
 def fitting(value: float, kind: str, like: float = 0.0) -> Unit:
@@ -108,75 +105,3 @@ def written(value: float, kind: str, count: int = 4) -> str:
         return digits(value)
     unit = fitting(value, kind)
     return f"{digits(value / unit.factor, count)} {unit.name}".strip()
-
-
-def entry(value: float, unit: Unit) -> str:
-    """A value (SI) as text for a field, readable by `read`: all digits up to nine, else five."""
-    if not isfinite(value):
-        return digits(value)
-    number = value / unit.factor
-    exact = isclose(float(f"{number:.9g}"), number, rel_tol=1e-13)
-    return f"{number:{'.9g' if exact else '.5g'}} {unit.name}".strip()
-
-
-def in_full(value: float, kind: str) -> str:
-    """A value (SI) in the unit that fits it, with all digits as in `entry`."""
-    return entry(value, fitting(value, kind)) if isfinite(value) else digits(value)
-
-
-#: Letters of units, with those that keyboards have for them.
-_KEYBOARD = str.maketrans("µ·³²", "u*32")
-_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
-#: A comma before exactly three digits is a decimal comma, or separates thousands.
-_TWO_READINGS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?!\d)", re.ASCII)
-
-
-def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
-    """Value (SI) of typed text, and its unit.
-
-    Decimal commas, spaces between thousands, and half-angles for slopes are accepted.
-
-    Parameters
-    ----------
-    text : str
-        A number, with a unit or without. One with an exponent and without a unit is in SI.
-    kind : str
-        Kind of quantity, a key of `UNITS`.
-    shown : Unit
-        Unit of numbers without one.
-
-    Raises
-    ------
-    ValueError
-        If the text is no number, or can be two.
-
-    Examples
-    --------
-    >>> from mdr_core.show.units import Unit, read
-    >>> read("12,5 um", "length", Unit("nm", 1e-9))
-    (1.25e-05, Unit(name='µm', factor=1e-06))
-    """
-    plain = text.strip().replace("−", "-").replace("μ", "µ")
-    plain = re.sub(r"(?<=\d)\s(?=\d{3}(?!\d))", "", plain)
-    if plain.count(",") == 1 and "." not in plain:
-        whole, part = plain.replace(",", ""), plain.replace(",", ".")
-        if _TWO_READINGS.match(plain):
-            raise ValueError(f"“{text:.40}” can be {whole:.40} or {part:.40}: type one of these")
-        plain = part
-    match = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None
-    known = (*UNITS[kind], *_READ.get(kind, ()))
-    units = {name: unit for unit in known for name in (unit.name, unit.name.translate(_KEYBOARD))}
-    if match and kind == "slope" and match[3] == "°" and 0 < float(match[1]) < 90:
-        return 1 / tan(radians(float(match[1]))), shown
-    if match and kind == "slope" and match[3] == "°":
-        raise ValueError("the half-angle must be above 0° and below 90°")
-    if match is None or (match[3] and match[3] not in units):
-        names = ", ".join(unit.name for unit in UNITS[kind] if unit.name) or "°" * (kind == "slope")
-        raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {names}" * bool(names))
-    factor = units[match[3]].factor if match[3] else 1.0 if match[2] else shown.factor
-    # 15 nm as 1.5e-08, not as 1.5000000000000002e-08.
-    value = float(f"{float(match[1]) * factor:.15g}")
-    if not isfinite(value):
-        raise ValueError(f"“{text}” is too large")
-    typed = (unit for unit in known if match[3] and unit.factor == factor)
-    return value, next(typed, shown)

@@ -10,7 +10,7 @@ from app.drives import follow
 from app.extras import sweep
 from app.extras.guide import TOURS, step_state
 from app.state import OPENING, medium, profile
-from mdr_core.show.units import in_full
+from app.units import in_full
 
 from ..approx import approx
 from .conftest import DROP, PUNCH

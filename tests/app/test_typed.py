@@ -7,7 +7,8 @@ from app.fields import Field
 from app.page import Page
 from app.quantities import QUANTITIES
 from app.state import preset_state
-from mdr_core.show.units import UNITS, read
+from app.units import read
+from mdr_core.show.units import UNITS
 
 from ..approx import approx
 from .conftest import DROP, GOLD, Explorer

@@ -1,0 +1,213 @@
+"""Whether a shape of one's own is one: g starts at 0, is finite and does not fall, and g′, z, a are finite.
+
+A shape of the library is trusted. Of one that a user wrote two things are asked: up to which radius its
+functions are finite at all (`sound_range`, once for a profile), which ends its known depth; and whether it
+is a shape at the radii that a calculation reaches (`check_shape`).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .. import _check
+from .._check import shown
+
+#: Radii (m) between which a shape is looked at: 33 in each decade, no two 8 % apart.
+_RADII = np.concatenate([[0.0], np.geomspace(1e-18, 1e12, 1000)])
+#: Halvings of the gap between two of these, at which the end of a shape is found to rounding.
+_HALVINGS = 50
+#: Share of the largest depth by which g may fall, or be off 0 at the tip: the rounding of a formula, as of
+#: √(x² + R²) − R next to the tip, is less; and height g (m) of a tip that is more than such a rounding.
+_ROUNDING, _TIP = 1e-6, 1e-12
+#: Share by which a contact radius may differ from that of g.
+_SAME = 1e-3
+#: Radii at which each indenter of an ensemble is checked below its contact radius, over so many decades;
+#: indenters that are checked at a time.
+_COUNT, _DECADES, _ROWS = 24, 6, 4096
+#: What is wrong, and what to do about it.
+_ENDS = "mend its functions, or give known_depth and known_radius, or wall, where the shape ends"
+_RADIUS = "mend radius_at(depth), or leave it out"
+_FALLS = "g(x) has fallen to {value:g} m at x = {place:g} m, so that the contact would not be compact"
+_RISE = "mend reduced_at(x): g is 0 at the tip, and does not fall"
+
+
+def is_own(profile):
+    """Whether a user wrote the class of a profile."""
+    return not type(profile).__module__.startswith(f"{__package__}.")
+
+
+class SoundRange(NamedTuple):
+    """Radius and depth (m) up to which a shape is one, infinite without an end; and why it is none there.
+
+    `levels` are the largest g (m) up to ascending radii, and `falls` the largest height (m) by which g has
+    fallen below such a level, up to there; `places` are the radii (m) of these.
+    """
+
+    radius: float
+    depth: float
+    fault: str
+    levels: np.ndarray
+    falls: np.ndarray
+    places: np.ndarray
+
+
+def sound_range(profile, end, own_radius):
+    """The `SoundRange` of one profile that a user wrote, looked at up to the radius `end` (m).
+
+    It ends before the first radius at which g or z is not finite, g′ is not a number, the contact radius is
+    not that of g if the shape has its own (`own_radius`), or from which on g never again reaches a depth
+    that it had. Refused if it is none at the tip.
+    """
+    x = np.append(_RADII[end > _RADII], end if end < _RADII[-1] else [])
+    reduced, fault = _values(profile, x)
+    fault[0] |= abs(reduced[0]) > _TIP
+    if fault[0]:
+        raise _refused(profile, _said(profile, x[0]), _ENDS)
+    count = int(np.argmax(fault)) if fault.any() else x.size
+    x, reduced, beyond = x[:count], reduced[:count], x[count:]
+    levels = np.maximum.accumulate(reduced)
+    falls = levels - reduced
+    worst = np.maximum.accumulate(falls)
+    places = x[np.maximum.accumulate(np.where(falls == worst, np.arange(count), 0))]
+    if falls[-1] > 0:
+        # The largest value of g that falls for good is the last one that the edge of a contact reaches.
+        top = int(np.argmax(reduced))
+        radius, depth = float(x[top]), float(reduced[top])
+        fault = f"g(x) falls from {depth:g} m at x = {radius:g} m on"
+    elif beyond.size:
+        radius, bad = _last_sound(profile, x[-1], beyond[0])
+        depth, fault = float(_values(profile, np.array([radius]))[0][0]), _said(profile, bad)
+    else:
+        radius, depth, fault = np.inf, float(reduced[-1]) if end < _RADII[-1] else np.inf, ""
+    if own_radius:
+        radius, depth, fault = _up_to_wrong_radius(profile, x, reduced, (radius, depth, fault))
+    return SoundRange(radius, depth, fault, levels, worst, places)
+
+
+def _last_sound(profile, low, high):
+    """The last radius (m) between two at which a shape is one, and the first one at which it is none."""
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        none = _values(profile, np.array([middle]))[1][0]
+        low, high = (low, middle) if none else (middle, high)
+    return float(low), float(high)
+
+
+def _up_to_wrong_radius(profile, x, reduced, known):
+    """The radius and depth (m) and fault that are `known`, or those of a contact radius that is wrong."""
+    rises = np.diff(reduced) > 1e-6 * reduced[1:]
+    # Radii at which g rises on both sides; at a jump the same radius belongs to a range of depths.
+    inner = 1 + np.flatnonzero(rises[:-1] & rises[1:] & (x[1:-1] > 0) & (reduced[1:-1] <= known[1]))
+    with np.errstate(all="ignore"):
+        radius = np.broadcast_to(profile.radius_at(reduced[inner]), inner.shape)
+    wrong = ~(np.abs(radius - x[inner]) <= _SAME * x[inner])
+    if not wrong.any():
+        return known
+    first = np.argmax(wrong)
+    depth = reduced[inner[first]]
+    said = f"the contact radius is {radius[first]:g} m at depth = {depth:g} m, where g is not that depth"
+    if not first:
+        raise _refused(profile, said, _RADIUS)
+    return float(x[inner[first] - 1]), float(reduced[inner[first] - 1]), said
+
+
+def _values(profile, x):
+    """g (m) at radii (m), and whether g, g′ or z is none there."""
+    try:
+        reduced, slope, height = functions_at(profile, x)
+    except (ValueError, ArithmeticError):
+        if x.size == 1:
+            return np.full(1, np.nan), np.ones(1, bool)
+        # It ends somewhere: an interpolation, say, fails beyond its table.
+        each = [_values(profile, x[i : i + 1]) for i in range(x.size)]
+        return tuple(np.concatenate(values) for values in zip(*each, strict=True))
+    return reduced, ~np.isfinite(reduced) | np.isnan(slope) | ~np.isfinite(height)
+
+
+def functions_at(profile, x):
+    """g (m), g′ and z (m) at radii (m), whose values are looked at: it is asked where no solver goes."""
+    with np.errstate(all="ignore"):
+        values = profile.reduced_at(x), profile.reduced_slope_at(x), profile.height_at(x)
+    return [np.broadcast_to(value, x.shape).astype(float) for value in values]
+
+
+def _said(profile, x):
+    """Words for what is wrong with a shape at a radius (m)."""
+    try:
+        reduced, slope, height = (float(value[0]) for value in functions_at(profile, np.array([x])))
+    except (ValueError, ArithmeticError) as error:
+        return f"it fails at x = {x:g} m ({type(error).__name__}: {error})"
+    if x == 0 or not np.isfinite(reduced):
+        return f"g(x) is {reduced:g} m at x = {x:g} m"
+    return (
+        f"g′(x) is {slope:g} at x = {x:g} m" if np.isnan(slope) else f"z(r) is {height:g} m at r = {x:g} m"
+    )
+
+
+def check_shape(profile, depth):
+    """Refuses a shape of one's own that is none at the contact radii (m) of depths (m) up to the largest.
+
+    That of one profile is known from `sound_range` already, but for places where g falls and rises again.
+    An indenter of an ensemble is checked from 10⁻⁶ of its contact radius on. Depths that are infinite or
+    not positive are left out.
+    """
+    if not is_own(profile):
+        return
+    depth = np.asarray(depth, dtype=float)
+    shape = np.broadcast_shapes(depth.shape, profile.shape)
+    depth = np.minimum(np.broadcast_to(depth, shape), profile.known_depth).ravel()
+    rows = np.flatnonzero((depth > 0) & (depth <= _check.LONGEST))
+    if not rows.size:
+        return
+    if not profile.shape:
+        _check_falls(profile, np.max(depth[rows]))
+        return
+    for start in range(0, rows.size, _ROWS):
+        some = rows[start : start + _ROWS]
+        _check_each(profile.flat_entries(some, shape), depth[some])
+
+
+def _check_falls(profile, depth):
+    """Refuses one profile whose g falls, and rises again, by more than rounding above a depth (m)."""
+    sound = profile.sound
+    number = np.searchsorted(sound.levels, depth, side="right") - 1
+    if sound.falls[number] > _ROUNDING * depth:
+        x = sound.places[number]
+        raise _refused(profile, _FALLS.format(place=x, value=profile.reduced_at(np.array([x]))[0]), _RISE)
+
+
+def _check_each(profile, depth):
+    """`check_shape` of an ensemble, with one depth (m) for each indenter."""
+    radius = np.broadcast_to(profile.radius_at(depth), depth.shape)
+    wrong = "the contact radius is {value:g} m at depth = {place:g} m"
+    _refuse(profile, depth, radius, ~(radius >= 0), wrong, _RADIUS)
+    share = np.append(0.0, np.geomspace(10.0**-_DECADES, 1 - _SAME, _COUNT))
+    # The last one is just outside, where g is larger than the depth, but at a wall.
+    outside = np.where(radius < profile.wall, (1 + _SAME) * radius, radius)
+    x = np.vstack([share[:, None] * radius, radius, outside])
+    reduced, slope, height = functions_at(profile, np.minimum(x, profile.known_radius))
+    _refuse(profile, x, reduced, ~np.isfinite(reduced), "g(x) is {value:g} m at x = {place:g} m", _ENDS)
+    _refuse(profile, x, height, ~np.isfinite(height), "z(r) is {value:g} m at r = {place:g} m", _ENDS)
+    bad = np.isnan(slope) | (slope == -np.inf)
+    _refuse(profile, x, slope, bad, "g′(x) is {value:g} at x = {place:g} m", _ENDS)
+    tip = np.abs(reduced[:1]) > _ROUNDING * depth
+    _refuse(profile, x[:1], reduced[:1], tip, "g(x) is {value:g} m at x = {place:g} m, the tip", _RISE)
+    falls = np.maximum.accumulate(reduced) - reduced > _ROUNDING * depth
+    _refuse(profile, x, reduced, falls, _FALLS, _RISE)
+    off = (radius > profile.face_radius) & (reduced[-3] > depth)
+    off |= (radius < profile.wall) & ~(reduced[-1] >= depth)
+    _refuse(profile, depth, radius, off, f"{wrong}, where g is not that depth", _RADIUS)
+
+
+def _refuse(profile, places, values, bad, what, remedy):
+    """Refuses a profile at the first of the places (m) that is `bad`, with its value in words."""
+    if np.any(bad):
+        first = np.unravel_index(np.argmax(bad), bad.shape)
+        one = profile.entries(first[-1:]) if profile.shape else profile
+        raise _refused(one, what.format(place=places[first], value=values[first]), remedy)
+
+
+def _refused(profile, what, remedy):
+    """The error of a shape that is none: what is wrong with it, and what to do."""
+    text = f"profile {shown(profile)}: {what}; {remedy}"
+    return _check.InvalidArgument(text, "profile", profile, what, "", remedy)
