@@ -3,7 +3,6 @@
 from functools import partial
 from typing import Any
 
-from app.units import entry, read
 from mdr_core.files.text import decoded
 from mdr_core.show.units import UNITS, Unit, fitting, written
 
@@ -15,6 +14,7 @@ from .quantities import QUANTITIES, Quantity
 from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, regions
 from .tip import Uploaded, read_tip
 from .ui import LAYOUT, linked, marked, symbol
+from .units import entry, read
 
 #: Option of the list of shapes that asks for a file.
 _FILE = "file"

@@ -6,11 +6,11 @@ from math import isclose
 from typing import Any
 
 import mdr_core as mdr
-from app.units import entry, read
 from mdr_core.show.units import fitting, written
 
 from .quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
 from .registry import Registry
+from .units import entry, read
 
 _PRESETS = read_data(ASSETS / "presets.json")
 #: The preset that the page opens with.

@@ -7,12 +7,13 @@ from dataclasses import asdict, dataclass, fields, is_dataclass
 import numpy as np
 
 from ._check import one_of, shown
+from .applicability import check_pair, refuse_own_law
 from .contact.indentation import Indentation
 from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
 from .foundation.chain_impact import ChainImpact
 from .foundation.depth_path import TimedIndentation
 from .impacts.result import Impact
-from .medium import Medium, check_pair, refuse_own_law
+from .medium import Medium
 from .numerics.results import Model
 from .oblique.oblique_impact import ObliqueImpact
 from .profiles import power, rounded, sampled, truncated

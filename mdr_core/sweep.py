@@ -43,13 +43,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _check
+from .applicability import check_reached
 from .contact.adhesion import first_contacts
 from .contact.indentation import Indentation
 from .contact.yielding import yield_rule
 from .hardness import HardnessLaw
 from .impacts.impact import impact
 from .impacts.result import Impact
-from .medium import Medium, check_reached
+from .medium import Medium
 from .oblique.oblique_impact import ObliqueImpact, oblique_impact
 from .profiles.profile import Profile
 from .profiles.sampled import Sampled

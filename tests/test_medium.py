@@ -129,8 +129,11 @@ class TestHardness:
         [
             ({"hardness": -1.0}, "hardness = -1 Pa must be finite and not negative"),
             ({"f_c": math.inf}, "f_c = inf N must be finite"),
-            ({"hardness": 0.0}, "q_c = 0 N/m leaves no hardness beside 0 of the others; give one above 0"),
-            ({"q_c": math.inf, "hardness": 1e9}, "q_c = inf N/m means that nothing yields, beside"),
+            ({"hardness": 0.0}, "q_c = 0 N/m leaves no hardness, because the other constants are 0; give"),
+            (
+                {"q_c": math.inf, "hardness": 1e9},
+                "q_c = inf N/m means that nothing yields, which contradicts a hardness",
+            ),
             ({"q_c": [1.0, 0.0], "f_c": [0.0, 0.0]}, r"q_c\[1\] = 0 N/m leaves no hardness"),
         ],
     )

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
-from app.units import in_full
 from mdr_core.show.figures import NOTHING, line, mark
 from mdr_core.show.quantities import QUANTITIES as RESULTS
 from mdr_core.show.units import KINDS, digits
@@ -23,6 +22,7 @@ from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
 from ..state import PRESETS, State, medium, profile, used, used_by, yield_constant
 from ..ui import marked
+from ..units import in_full
 
 _DATA = read_data(Path(__file__).with_suffix(".json"))
 #: Functions of the core and their arguments, by drives, and the results of each.

@@ -5,11 +5,11 @@ from typing import Any
 
 import panel as pn
 
-from app.units import entry, read
 from mdr_core.reading import SIZES
 from mdr_core.show.units import UNITS, fitting
 
 from ..ui import WIDE, html, show
+from ..units import entry, read
 from . import words
 from .setting import CORRECTIONS, IN_TIME, MEDIA, NUMBERS, TIPS, Number, Setting, parameter
 

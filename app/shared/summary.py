@@ -1,9 +1,8 @@
 """Numbers of a scene with their symbols, and a scene in one line."""
 
-from app.units import in_full
-
 from ..quantities import QUANTITIES
 from ..state import State, regions, used_by
+from ..units import in_full
 
 
 def with_symbol(name: str, value: float) -> str:

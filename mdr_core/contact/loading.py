@@ -6,7 +6,8 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..medium import Medium, check_hardness, check_pair, check_reached, paths_on
+from ..applicability import check_hardness, check_pair, check_reached, paths_on
+from ..medium import Medium
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..profiles.shape_check import check_shape

@@ -7,11 +7,12 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
+from ..applicability import check_pair
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..impacts.scaling import class_of
-from ..medium import Medium, check_pair, yield_constant
+from ..medium import Medium, yield_constant
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..show.quantities import engineering

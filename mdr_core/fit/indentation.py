@@ -6,9 +6,10 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
+from ..applicability import check_pair, refuse_own_law
 from ..contact.yielding import yield_rule
 from ..hardness import HardnessLaw
-from ..medium import Medium, check_pair, refuse_own_law
+from ..medium import Medium
 from ..profiles.profile import Profile
 from ..show.progress import progress
 from ..show.quantities import engineering

@@ -7,7 +7,8 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..medium import Medium, check_pair
+from ..applicability import check_pair
+from ..medium import Medium
 from ..numerics.results import Record
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile

@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import _check
-from ..medium import Medium, check_pair, check_reached, refuse_adhesion
+from ..applicability import check_pair, check_reached, refuse_adhesion
+from ..medium import Medium
 from ..numerics.motions import ImpactResult, Motion, instants
 from ..numerics.results import CHAIN, Limit, above
 from ..profiles.profile import Profile

@@ -9,7 +9,8 @@ import numpy as np
 
 from .. import _check, abel
 from .._check import Array, ArrayLike
-from ..medium import Medium, check_pair, check_reached, refuse_adhesion
+from ..applicability import check_pair, check_reached, refuse_adhesion
+from ..medium import Medium
 from ..numerics.results import CHAIN, Limit, Model, Result, above
 from ..profiles.profile import Profile
 from . import element

@@ -12,7 +12,7 @@ import numpy as np
 import scipy
 
 from .. import _check
-from ..medium import check_pair, refuse_adhesion, refuse_own_law
+from ..applicability import check_pair, refuse_adhesion, refuse_own_law
 from ..numerics.roots import root_in_bracket
 from .cap import flat_face_load, plastic_depth
 from .depth_path import Ramps, TimedIndentation, check_times, follow

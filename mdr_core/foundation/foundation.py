@@ -8,7 +8,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .. import _check
-from ..medium import Medium, check_pair, check_reached, refuse_adhesion
+from ..applicability import check_pair, check_reached, refuse_adhesion
+from ..medium import Medium
 from ..numerics.gauss import gauss_legendre
 from ..numerics.results import above
 from ..profiles.profile import Profile

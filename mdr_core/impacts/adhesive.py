@@ -12,6 +12,7 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
+from ..applicability import check_pair
 from ..contact.adhesion import (
     AT_DEPTH,
     contact_interval,
@@ -27,7 +28,7 @@ from ..contact.integrals import tabulated_for
 from ..contact.live_interval import LiveInterval
 from ..contact.rule_of_yield import ConstantCap
 from ..contact.yielding import yield_rule
-from ..medium import Medium, check_pair
+from ..medium import Medium
 from ..numerics.blocks import LONG, chunks
 from ..numerics.gauss import gauss_legendre
 from ..numerics.roots import crossing

@@ -8,7 +8,8 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..medium import Medium, check_pair, check_reached, refuse_adhesion, shape_with
+from ..applicability import check_pair, check_reached, refuse_adhesion, shape_with
+from ..medium import Medium
 from ..profiles.profile import Profile
 from .adhesive import adhesive_impact
 from .energy_balance import dry_impact

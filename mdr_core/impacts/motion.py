@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from ..applicability import refuse_adhesion
 from ..contact.indentation import Indentation
 from ..contact.yielding import yield_rule
-from ..medium import refuse_adhesion
 from ..numerics.motions import Motion, instants
 
 

@@ -8,10 +8,11 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
+from ..applicability import check_pair, refuse_adhesion, shape_with
 from ..contact.yielding import yield_rule
 from ..impacts.impact import impact
 from ..impacts.result import Impact
-from ..medium import Medium, check_pair, refuse_adhesion, shape_with
+from ..medium import Medium
 from ..numerics.results import Entries, Model, Result
 from ..profiles.profile import Profile
 from ..show.limits import Limit, friction_limits, stick_limits
