@@ -69,8 +69,14 @@ def test_arrays_stay_what_they_are():
             r"E1 \(2,\), nu1 \(3,\) do not broadcast",
         ),
         (lambda: mdr.hardness_class([], [], 1.0), "at least two different energies"),
-        (lambda: mdr.Foundation(mdr.Cone([0.1, 0.2]), MEDIUM, 10, 1e-6), "one indenter on one"),
-        (lambda: mdr.chain_impact(mdr.Cone(0.1), mdr.Medium([1e9, 2e9]), 1.0, 1.0), "one indenter on one"),
+        (
+            lambda: mdr.Foundation(mdr.Cone([0.1, 0.2]), MEDIUM, 10, 1e-6),
+            "a single indenter and a single medium",
+        ),
+        (
+            lambda: mdr.chain_impact(mdr.Cone(0.1), mdr.Medium([1e9, 2e9]), 1.0, 1.0),
+            "a single indenter and a single medium",
+        ),
         (lambda: mdr.chain_impact(3, MEDIUM, 1.0, 1.0), "profile must be an mdr_core shape"),
         (lambda: mdr.Foundation(mdr.Cone(0.1), MEDIUM, 10**9, 1e-6), "even whole number up to 1e.07"),
         (lambda: mdr.Medium(nested(40)), r"E_star must be real numbers, got \[\[\[\[\[\[\[\.\.\."),

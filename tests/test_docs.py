@@ -29,7 +29,13 @@ BLOCKS = [
 ]
 ROWS = [row for row in (DOCS / "equations.md").read_text("utf-8").splitlines() if re.match(r"\| \(\d", row)]
 #: Optional packages that a block needs besides those that it imports.
-NEEDED = {"to_pandas": "pandas", "to_xarray": "xarray", "import app": "panel", "from app": "panel"}
+NEEDED = {
+    "to_pandas": "pandas",
+    "to_xarray": "xarray",
+    "import app": "panel",
+    "from app": "panel",
+    "from ..": "panel",
+}
 
 
 def run(code, name="example"):
@@ -37,7 +43,9 @@ def run(code, name="example"):
     packages = re.findall(r"^(?:import|from) (\w+)", code, re.MULTILINE)
     for package in [*packages, *(package for text, package in NEEDED.items() if text in code)]:
         pytest.importorskip(package)
-    exec(compile(code, name, "exec"), {"__name__": "__main__"})
+    # An extra of the page imports what is beside it.
+    place = {"__name__": "app.extras.example", "__package__": "app.extras"} if "from .." in code else {}
+    exec(compile(code, name, "exec"), {"__name__": "__main__"} | place)
 
 
 @pytest.mark.parametrize("module", [m.name for m in pkgutil.walk_packages(mdr.__path__, "mdr_core.")])

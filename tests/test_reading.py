@@ -186,7 +186,10 @@ def test_what_is_left_out_is_said_with_its_line(read):
         (" \n", "run.csv is empty"),
         ("h (nm), F (nN)\n1, 2\n", "one row of numbers"),
         ("h (nm), F (nN)\n1, 2\nx, 3\ny, 4\nz\n", "one column of numbers"),
-        ("h (nm), F (nN)\n1, 2\n3, 4\nx, y\n5, z\nend\n", "most lines of run.csv are no rows .* 4, 5, 6"),
+        (
+            "h (nm), F (nN)\n1, 2\n3, 4\nx, y\n5, z\nend\n",
+            "most lines of run.csv are not rows of numbers.* 4, 5, 6",
+        ),
         (
             "h (nm), A (nm)\n1, 2\n3, 4\n",
             r"no column of force with a unit .*\{0: 'h \(nm\)', 1: 'A \(nm\)'\}",

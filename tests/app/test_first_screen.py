@@ -46,7 +46,11 @@ def test_plots_of_a_projector_are_at_least_150_pixels_high(projector):
     for tab in ("Sweep", "Energy", "Hardness", "Section"):
         name = tab.lower()
         projector.page.get_by_label("Fourth plot").select_option(label=tab)
-        projector.wait("(name) => explorer.model(name)?.inner_height > 0", name)
+        # Before it is laid out it has no height, and Bokeh raises.
+        laid_out = (
+            "(name) => { try { return explorer.model(name)?.inner_height > 0 } catch { return false } }"
+        )
+        projector.wait(laid_out, name)
         projector.wait("(name) => location.search.includes(`tiles=${name}`) && explorer.idle()", name)
         assert cards.count() == 4
         assert min(heights(projector, "springs", "pressure", "force", name)) >= LEAST, tab

@@ -95,6 +95,8 @@ def test_the_page_is_in_use_without_an_end_in_the_browser(end, without, browser)
         explorer.drag("pressure", (0.2, 0.15))
         page.keyboard.up("Shift")
         page.locator(".card.springs canvas").first.hover(force=True)
+        page.get_by_label("State along the path").press("End")
+        explorer.wait("explorer.played()")
         page.get_by_label("State along the path").press("Home")
         explorer.wait("explorer.row('force', 'now')[0][0] === 0")
         with page.expect_download():

@@ -251,5 +251,5 @@ class TestSamples:
         (band,) = [e for e in residual if isinstance(e, hv.Polygons)]
         largest = np.hypot(1e-8, 1e-10 * fit.path.stiffness.max())
         assert 1e-6 * band.dimension_values(1).max() == approx(largest)
-        with pytest.raises(ValueError, match="of one curve"):
+        with pytest.raises(ValueError, match="needs a single curve"):
             mdr.fit_indentation(self.PROFILE, [z, z], [force, force]).plot()

@@ -154,7 +154,7 @@ class TestConstants:
         ("given", "message"),
         [
             ({"q_c": 0.0}, "leaves no hardness"),
-            ({"q_c": np.inf, "hardness": None}, "nothing yields, beside a hardness"),
+            ({"q_c": np.inf, "hardness": None}, "nothing yields, which contradicts a hardness"),
             ({"hardness": np.inf}, "hardness.*finite"),
             ({"f_c": -1.0}, "f_c"),
             ({"hardness": None, "eta": None, "time": OUT}, "eta is not fitted together with hardness"),

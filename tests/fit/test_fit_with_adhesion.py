@@ -138,7 +138,10 @@ def test_nothing_is_determined_without_tension():
         ({"work_of_adhesion": "free"}, "must be a number"),
         ({"eta": None, "time": np.arange(OUT.size)}, "together with eta"),
         ({"depth_noise": 1e-9}, "together with depth_noise"),
-        ({"q_c": None}, "q_c free: .* elastic medium, q_c = inf; give q_c=np.inf, or work_of_adhesion=0"),
+        (
+            {"q_c": None},
+            "q_c free: .* elastic medium only, q_c = inf; give q_c=np.inf, or work_of_adhesion=0",
+        ),
         ({"q_c": 8.0, "work_of_adhesion": 0.05}, "q_c 8 N/m: .* elastic medium"),
         ({"q_c": [np.inf, 8.0], "rows": 2}, "q_c .*elastic medium"),
     ],
