@@ -17,7 +17,7 @@ import mdr_core as mdr
 from mdr_core.fit.classes import HardnessVerdict
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.noise import jitter
-from mdr_core.fit.oliver_pharr import OliverPharr
+from mdr_core.fit.oliver_pharr_result import OliverPharr
 from mdr_core.fit.quoted import unloading
 from mdr_core.measured_curve import MeasuredCurve, MeasuredCurves
 from mdr_core.reading import UnknownColumns

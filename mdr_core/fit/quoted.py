@@ -7,7 +7,8 @@ import numpy as np
 
 from .creep import COUNTS
 from .errors import SIGNIFICANT, roughness
-from .oliver_pharr import OliverPharr, oliver_pharr
+from .oliver_pharr import oliver_pharr
+from .oliver_pharr_result import OliverPharr
 from .remarks import DOUBTS
 from .report import with_error
 

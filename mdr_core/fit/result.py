@@ -17,7 +17,7 @@ from ..show.report import dimensions, imported
 from .classes import ClassFit, HardnessVerdict, class_of_hardness, fit_again, fits_of_classes, verdict
 from .figures import plot_fit
 from .measurement import Measurement
-from .oliver_pharr import OLIVER_PHARR
+from .oliver_pharr_result import OLIVER_PHARR
 from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
 from .quoted import Quoted, quoted, unloading
 from .remarks import by_importance, missing, remarks_of

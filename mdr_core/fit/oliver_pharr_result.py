@@ -1,0 +1,133 @@
+"""Results of the method of Oliver and Pharr: for unloadings, and over the depth of a measured stiffness."""
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..numerics.results import Record
+from ..profiles.profile import Profile
+from ..show.quantities import QUANTITIES, Quantity, described, engineering
+from ..show.report import rows
+from .report import with_error
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+#: Quantities of the results, and others.
+OLIVER_PHARR = QUANTITIES | {
+    "contact_depth": Quantity("h_c", "m", "contact depth"),
+    "hardness": Quantity("H", "Pa", "hardness"),
+    "exponent": Quantity("m", "", "exponent"),
+    "contact_point": Quantity("z₀", "m", "first contact"),
+}
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class OliverPharr(Record):
+    """Results for one unloading, or for each of a curve, returned by `oliver_pharr`.
+
+    The standard errors, by name, are those of the scatter about the power law, and not less than half the
+    range of the results for six parts of the unloading: from 99 or 95 % of the largest force down to 50, 40
+    or 30 %; with those of first contact and of the rate of creep where these were found. With
+    ``cycles=True`` all are arrays (U,), and `result[i]` is one unloading, i from 0 on. Its number in the
+    record, from 1 on, is `unloading`; remarks, print and tables have the same number.
+    """
+
+    profile: Profile
+    #: Stiffness S (N/m), contact depth h_c (m), modulus E* (Pa), hardness H (Pa) and exponent m.
+    stiffness: Any
+    contact_depth: Any
+    E_star: Any
+    hardness: Any
+    exponent: Any
+    #: First contact z₀ (m) that was subtracted from the depth, 0 where depths are as given.
+    contact_point: Any
+    standard_errors: dict[str, Any]
+    #: How first contact was found, creep, which unloading was taken of several, and which were left out.
+    remarks: tuple[str, ...] = ()
+    #: Results without the correction for creep, where times were given; NaN where these are no power law.
+    uncorrected: "OliverPharr | None" = None
+    #: Number of the unloading in the record, from 1 on; those that are left out are counted.
+    unloading: Any = None
+
+    _dimensions = ("unloading",)
+    _quantities = ("stiffness", "contact_depth", "E_star", "hardness", "exponent", "contact_point")
+    _shown = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
+
+    def __getitem__(self, index: Any) -> "OliverPharr":
+        if not self.shape:
+            return super().__getitem__(index)
+        errors = {name: error[index] for name, error in self.standard_errors.items()}
+        values = {name: getattr(self, name)[index] for name in self._quantities}
+        if self.unloading is not None:
+            values["unloading"] = self.unloading[index]
+        uncorrected = None if self.uncorrected is None else self.uncorrected[index]
+        return replace(self, **values, standard_errors=errors, uncorrected=uncorrected)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Values by name, in SI units, and their standard errors, whose names end in `_error`."""
+        return super().to_dict() | {f"{name}_error": error for name, error in self.standard_errors.items()}
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A table in SI units, one row for each unloading by its number in the record, or each sample."""
+        table = super().to_pandas()
+        if self.shape and self.unloading is not None:
+            table = table.set_index(np.asarray(self.unloading)).rename_axis("unloading")
+        return table
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """A dataset, with the numbers of the unloadings in the record as coordinate."""
+        dataset = super().to_xarray()
+        return dataset if self.unloading is None else dataset.assign_coords(unloading=self.unloading)
+
+    def _rows(self):
+        yield "indenter", described(self.profile)
+        for i in range(len(self) if self.shape else 0):
+            texts = [f"{OLIVER_PHARR[name].symbol} {text}" for name, text in self[i]._texts()]
+            yield f"unloading {self.unloading[i]}", ", ".join(texts)
+        for name, text in () if self.shape else self._texts():
+            yield f"{OLIVER_PHARR[name].long_name} {OLIVER_PHARR[name].symbol}", text
+        if self.uncorrected is not None and not self.shape:
+            texts = dict(self.uncorrected._texts())
+            text = f"E* {texts['E_star']}, H {texts['hardness']}"
+            yield "uncorrected for creep", text
+        yield from (("remark", remark) for remark in self.remarks)
+
+    def _texts(self):
+        """Names of the quantities of one unloading, and their values with errors."""
+        for name, error in self.standard_errors.items():
+            yield name, with_error(getattr(self, name), error, OLIVER_PHARR[name].unit)
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class OverDepth(OliverPharr):
+    """Results at each sample of a curve with a measured stiffness, arrays (N,), NaN without contact.
+
+    Standard errors are the scatter of neighbouring samples, with that of first contact where it was found.
+    """
+
+    exponent: Any = None
+    #: Depth (m) from first contact on.
+    depth: Any = None
+
+    _dimensions = ("sample",)
+    _quantities = ("depth", "stiffness", "contact_depth", "E_star", "hardness", "contact_point")
+    _shown = ("stiffness", "contact_depth", "E_star", "hardness")
+
+    def _rows(self):
+        if not self.shape:
+            yield from super()._rows()
+            return
+        yield "indenter", described(self.profile)
+        for name in ("depth", *self._shown):
+            quantity, values = OLIVER_PHARR[name], getattr(self, name)
+            text = engineering(values[np.isfinite(values)], quantity.unit)
+            yield f"{quantity.long_name} {quantity.symbol}", text
+        yield from (("remark", remark) for remark in self.remarks)
+
+
+@rows.register
+def _rows_of_unloading(result: OliverPharr):
+    return result._rows()
