@@ -35,8 +35,8 @@ class Messages(DataModel):
 
 
 def indexed(text):
-    """HTML with subscripts in symbols such as d_c."""
-    return re.sub(r"(\b[a-zA-Z]|[α-ω])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
+    """HTML with subscripts in symbols such as d_c, and in their differentials such as dd_c."""
+    return re.sub(r"(\b[a-zA-Z]|(?<=\bd)[a-zA-Z]|[α-ω])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
 
 
 def marked(text):

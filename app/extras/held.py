@@ -218,7 +218,7 @@ class Table:
         found = [[name, *(each.get(name, "–") for each in columns)] for name in columns[0]]
         # Numbers that differ; what is the same need not be read twice.
         rows += [[symbol(name), *texts] for name, *texts in found if len({*texts}) > 1]
-        same = "All numbers are the same." * (len(rows) == 1)
+        same = "All numbers are the same: change the shape, the medium or a number." * (len(rows) == 1)
         cells = "".join(f"<tr><th>{head}</th><td>{'</td><td>'.join(row)}</td></tr>" for head, *row in rows)
         show(self._numbers, object=same or f"<table>{cells}</table>")
 
