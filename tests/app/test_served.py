@@ -83,6 +83,7 @@ def test_a_link_is_opened_as_far_as_it_is_known_or_refused_in_words(explorer):
         return explorer.readout("depth")
 
     assert opened("max_depth=5e-9&utm_source=teams&fbclid=I&foo=²") == "5.000 nm"
+    told.first.wait_for()
     assert told.all_inner_texts() == ["Unknown names in this link are ignored: foo"]
     assert explorer.link("max_depth=5e-09") == {"max_depth": "5e-09"}
     refused = {f"q_c={5000 * '1'}": "is not a finite number", "preset=none": "preset = “none”"}
