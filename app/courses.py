@@ -114,7 +114,7 @@ class Course:
 
     # Numbers that are read.
 
-    @property
+    @cached_property
     def largest_terms(self) -> dict[str, Any]:
         """Of readouts that are sums, by name: the largest term of the sum, in every state."""
         states, ledger = self.states, self.ledger

@@ -78,8 +78,8 @@ class Extra:
     #: Files to download, each with its label, its name, and its text of a view.
     files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
     #: Notes (HTML) by their places: in the form the "first" line, "drive", "shape", "medium", the "more" of
-    #: it and "sources", and "below" the player, where they change when the input rests.
-    notes: Callable[[View], dict[str, str]] = lambda view: {}
+    #: it and "sources"; "below" the player a function that returns it, called when the input rests.
+    notes: Callable[[View], dict[str, str | Callable[[], str]]] = lambda view: {}
     #: Titles and texts (HTML) that a saved scene has of it.
     told: Callable[[View], list[tuple[str, str]]] = lambda view: []
 

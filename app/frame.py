@@ -103,4 +103,5 @@ class Frame:
 
     def rest(self, view: View) -> None:
         """Show texts that wait while a slider moves, because a changed one causes a new layout."""
-        show(self.below, object="".join(extra.notes(view).get("below", "") for extra in EXTRAS.values()))
+        found = (extra.notes(view).get("below") for extra in EXTRAS.values())
+        show(self.below, object="".join(made() for made in found if made))

@@ -1,6 +1,7 @@
 """Assumptions of the model, notes on the course, and what the numbers are, below the player."""
 
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 from mdr_core.show.units import written
@@ -69,4 +70,4 @@ def told(view: View) -> list[tuple[str, str]]:
     return [("Assumptions and notes", "".join(html)), ("What the numbers are", numbers)]
 
 
-EXTRA = Extra("notes", order=30, notes=lambda view: {"below": below(view)}, told=told)
+EXTRA = Extra("notes", order=30, notes=lambda view: {"below": partial(below, view)}, told=told)

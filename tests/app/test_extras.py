@@ -54,7 +54,7 @@ def words(name):
     buttons = extra.on_plots(page, PLOTS["force"], page.shown), extra.header(page, page.shown)
     found += [each.look.get("label") for each in buttons if each is not None]
     notes = extra.notes(page.shown)
-    found += re.findall("<summary>(.*?)</summary>", notes.pop("below", ""))
+    found += re.findall("<summary>(.*?)</summary>", notes.pop("below", str)())
     found += notes.values()
     return {each for each in found if each}
 
