@@ -2,11 +2,11 @@
 
 import gc
 
-# Here, so that the first visitor does not wait for it, and that the server does not start if it fails.
-from . import extras as extras
-from . import page as page
-from . import private
-from .fit import page as measurement  # noqa: F401
+from . import extras, page, private
+from .fit import page as measurement
+
+#: Loaded here, so that the first visitor does not wait, and that the server does not start if one fails.
+LOADED = (extras, page, measurement)
 
 private.prompt_messages()
 

@@ -5,7 +5,7 @@ import pytest
 
 import mdr_core as mdr
 
-from .test_texts import DEPTH, FORCE, TIME, assert_curve, rows, write  # noqa: F401
+from .test_texts import DEPTH, FORCE, TIME, assert_curve, rows
 
 #: Sheets as of a workbook of a nanoindenter.
 TEST = [
@@ -82,14 +82,14 @@ NUMBERED = "".join(f"{k + 1};{10 + 0.01 * (k * 7 % 5)};{200 + k % 3};9.1;70\n" f
         + "".join(f"{k + 1};{10 + k * 7 % 5};{200 + k * 3 % 7}\n" for k in range(8)),
     ],
 )
-def test_texts_of_results_are_refused_as_such(write, content):  # noqa: F811
+def test_texts_of_results_are_refused_as_such(write, content):
     path = write(content)
     with pytest.raises(ValueError, match=r"run\.txt is a table of results, not a curve"):
         mdr.read_curve(path)
 
 
 @pytest.mark.parametrize("head", ["Time (s)", "Point", ""])
-def test_moduli_over_depth_are_those_of_a_curve(write, head):  # noqa: F811
+def test_moduli_over_depth_are_those_of_a_curve(write, head):
     """As by an oscillation on top of the loading; rows that are counted, too."""
     first = TIME if head == "Time (s)" else np.arange(1, TIME.size + 1)
     names = f"{head},Displacement (nm),Load (mN),Modulus (GPa),Hardness (GPa)\n"

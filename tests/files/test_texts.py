@@ -19,16 +19,6 @@ def rows(*columns, between=","):
     return "\n".join(between.join(f"{x:.9g}" for x in row) for row in zip(*columns, strict=True)) + "\n"
 
 
-@pytest.fixture
-def write(tmp_path):
-    def write(content, name="run.txt", encoding="utf-8"):
-        path = tmp_path / name
-        path.write_bytes(content if isinstance(content, bytes) else content.encode(encoding))
-        return path
-
-    return write
-
-
 def assert_curve(curve, depth=DEPTH, force=FORCE, digits=1e-7):
     np.testing.assert_allclose(curve.depth, depth, rtol=0, atol=digits * np.ptp(depth))
     np.testing.assert_allclose(curve.force, force, rtol=0, atol=digits * np.ptp(force))
