@@ -10,6 +10,7 @@ from html import unescape
 
 import numpy as np
 import pytest
+from bokeh.core.has_props import HasProps, _default_resolver
 
 from app import changes
 from app.extra import EXTRAS
@@ -115,8 +116,12 @@ def folder(tmp_path_factory):
     """A folder of copies that can be imported."""
     folder = tmp_path_factory.mktemp("copies")
     sys.path.insert(0, str(folder))
+    known = set(HasProps.model_class_reverse_map.values())
     yield folder
     sys.path.remove(str(folder))
+    # Bokeh imports the package of each model that it knows when it writes a page, in later tests too.
+    for model in set(HasProps.model_class_reverse_map.values()) - known:
+        _default_resolver.remove(model)
 
 
 @pytest.fixture(scope="module")
