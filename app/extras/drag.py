@@ -1,9 +1,11 @@
 """The indenter is dragged to another depth, or it and the mark on the curve to another state."""
 
+import json
 from typing import Any
 
 import numpy as np
 from bokeh.core.properties import Any as AnyValue
+from bokeh.core.properties import String
 from bokeh.events import DocumentReady
 from bokeh.model import DataModel
 from bokeh.models import CustomJS
@@ -24,7 +26,9 @@ from ..state import State, checked, medium
 class Hand(DataModel):
     """Depth and force of each state, and the depth that the indenter is dragged to (unit of the plot)."""
 
-    path, depth = AnyValue(default={}), AnyValue(default=None)
+    #: As text: Bokeh would look at each number.
+    path = String(default="{}")
+    depth = AnyValue(default=None)
 
 
 class Dragging(Service):
@@ -48,7 +52,7 @@ class Dragging(Service):
             self.hand.depth = None
 
     def show(self, view: View) -> None:
-        self.hand.path = path(view)
+        self.hand.path = json.dumps(path(view))
 
 
 def press_to(state: State, depth: float) -> State:

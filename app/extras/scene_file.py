@@ -104,7 +104,7 @@ def _connect(document: Document, view: View, pictures: list[Picture], messages: 
         "sources": sources,
         "layers": [source for source, _ in columns],
         "looks": looks,
-        "dragging": {"path": path(view) | {"pressing": False}},
+        "dragging": {"path": json.dumps(path(view) | {"pressing": False})},
         "look": {"last": len(view.course) - 1, "now": view.course.now},
         # A tenth of its size.
         "packed": b64encode(compress(json.dumps(sent).encode(), 9)).decode(),

@@ -1,6 +1,6 @@
 // A drag takes the indenter along, or the mark on the curve: to another depth when pressing, else to the nearest state.
 const figure = cb_obj.origin, { name, x_range: x, y_range: y, inner_height } = figure
-const { d, F, unit, pressing } = dragging.path, wide = (range) => range.end - range.start
+const { d, F, unit, pressing } = JSON.parse(dragging.path), wide = (range) => range.end - range.start
 const [begin, depth, pixel] = cb_obj.event_name === "panstart" ? [cb_obj.sy, d[player.value] * unit, wide(y) / inner_height] : figure.tags
 figure.setv({ tags: [begin, depth, pixel] }, { sync: false })
 const wish = Math.max(depth + (cb_obj.sy - begin) * pixel, 1e-3 * wide(y))
