@@ -8,7 +8,7 @@ import mdr_core as mdr
 from .drives import DRIVES, follow, turning_point
 from .plots import PLOTS
 from .quantities import CHOICES, QUANTITIES
-from .state import PRESETS, State, checked, medium, preset_state, yield_constant
+from .state import PRESETS, VIEW, State, checked, medium, preset_state, yield_constant
 
 #: Constants of the hardness, by the power of the contact radius in them.
 CONSTANTS = ("volume_hardness", "q_c", "f_c")
@@ -38,7 +38,9 @@ def choose(state: State, name: str, wanted: str) -> State:
         return preset_state(wanted, tiles=state.tiles, dark=state.dark, **state.extras)
     if wanted == option(state, name):
         return state
-    changed = state.replace(**{name: wanted})
+    # Another drive is shown at its largest depth, as it opens: a place after unloading has no contact.
+    view = {"at": VIEW["at"]} if name == "drive" else {}
+    changed = state.replace(**{name: wanted}, **view)
     convert = _CONVERT.get(name)
     numbers = convert(state, wanted) if convert else DRIVES[state.drive].converted(state, name)
     for number, value in numbers.items():

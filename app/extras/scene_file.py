@@ -23,7 +23,7 @@ from mdr_core.show.units import written
 from .. import link, readouts
 from ..draw import PLACES, Picture, drawn, legend, picture_of
 from ..extra import EXTRAS, Extra
-from ..player import frames
+from ..player import frames, look
 from ..plot import Plot, View
 from ..plots import NAMED, PLOTS
 from ..quantities import CHOICES, QUANTITIES
@@ -105,7 +105,7 @@ def _connect(document: Document, view: View, pictures: list[Picture], messages: 
         "layers": [source for source, _ in columns],
         "looks": looks,
         "dragging": {"path": json.dumps(path(view) | {"pressing": False})},
-        "look": {"last": len(view.course) - 1, "now": view.course.now},
+        "look": look(view.course),
         # A tenth of its size.
         "packed": b64encode(compress(json.dumps(sent).encode(), 9)).decode(),
     }

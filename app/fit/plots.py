@@ -24,9 +24,9 @@ class Plots:
     def __init__(self) -> None:
         tools = {"tools": "pan,box_zoom,wheel_zoom,reset,save", "toolbar_location": "right"}
         look = {"sizing_mode": "stretch_both", "output_backend": "canvas", "y_range": (0, 1)}
-        self.force = figure(name="curve", css_classes=["of-force"], x_range=(0, 1), **look | tools)
+        self.force = figure(name="force plot", css_classes=["of-force"], x_range=(0, 1), **look | tools)
         self.residual = figure(
-            name="residuals", css_classes=["of-residual"], x_range=self.force.x_range, tools="", **look
+            name="residual plot", css_classes=["of-residual"], x_range=self.force.x_range, tools="", **look
         )
         self.residual.toolbar_location = None
         # The same width inside the axes, so that depths stand below each other.

@@ -2,8 +2,8 @@
 // when a move begins, and the state in which it ends. Other scripts find it as `player`.
 export function make_player({ messages, figures, ask }) {
   const el = Object.assign(document.createElement("div"), { className: "player" })
-  el.innerHTML = `<button class="act"></button><input type="range" aria-label="State along the path">`
-  const [button, range] = el.children
+  el.innerHTML = `<button class="act"></button><div class="along"><input type="range" aria-label="State along the path"><div class="marks"></div></div>`
+  const [button, range, marked] = ["button", "input", ".marks"].map((each) => el.querySelector(each))
   // The state that is seen, and the one that the server has drawn last.
   let [value, drawn, moving, wait] = [0, 0, false, null]
   let [sources, places, words, times] = []
@@ -22,6 +22,13 @@ export function make_player({ messages, figures, ask }) {
     moving = true
     if (k !== value) stand(k)
   }
+  // Places of some states along the slider, whose thumb is 14 px wide.
+  const mark = (last, marks) => {
+    const names = Object.keys(marks), places = Object.values(marks).map((k) => `left: calc(7px + (100% - 14px) * ${k / last})`)
+    range.title = `Marked: ${names.join(", ")}`
+    const found = places.map((place) => `<i style="${place}"></i>`).join("")
+    if (marked.innerHTML !== found) marked.innerHTML = found
+  }
   const turn = (on) => Object.assign(button, { ariaPressed: on, textContent: on ? "❚❚ Pause" : "▶ Play" })
   const playing = () => button.ariaPressed === "true"
   const go = (k) => {
@@ -35,8 +42,9 @@ export function make_player({ messages, figures, ask }) {
   }
   // The number of the last state, and that of the state which the server has drawn: it is seen unless the player moves,
   // which it does not while a playing one waits for frames. An answer to an `earlier` move does not undo the last one.
-  const show = ({ last, now }, earlier = false) => {
+  const show = ({ last, now, marks }, earlier = false) => {
     drawn = now
+    mark(last, marks)
     if (earlier) return
     range.max = last
     stand(moving && (times || !playing()) ? value : now)

@@ -321,7 +321,7 @@ def pressure(state, half, top):
         "below": curve,
         "−σzz(r)": curve,
         "mean F/(πa²)": (np.array([-a, a]), np.array([mean, mean])) if a else NOTHING,
-        "exceeds": (-0.97 * half, 0.98 * top, exceeds(r, p, top)),
+        "exceeds": (-0.97 * half, 0.98 * top, exceeds(r, p, top) if a else "no contact"),
     }
 
 

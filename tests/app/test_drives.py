@@ -48,6 +48,16 @@ def test_every_drive_gives_the_same_interface(drive, damping):
     assert set(DRIVES) == set(CHOICES["drive"].options)
 
 
+@pytest.mark.parametrize("drive", [each for each in DRIVES if each != "depth"])
+def test_another_drive_is_shown_at_its_largest_depth(drive):
+    """Also where the indenter had been lifted: else the page shows no contact and F = 0."""
+    lifted = preset_state().replace(at=2.1)
+    assert float(follow(lifted).state.force) == 0
+    course = follow(changes.choose(lifted, "drive", drive))
+    assert course.now == course.peak
+    assert float(course.state.force) > 0
+
+
 @pytest.mark.parametrize("pattern", CHOICES["path.pattern"].options)
 def test_a_pattern_goes_as_deep_as_what_was_there_before_and_is_in_link_and_csv(pattern):
     state = path(pattern)

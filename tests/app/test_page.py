@@ -95,6 +95,14 @@ def test_it_plays_by_the_space_bar_also_while_the_scene_changes(explorer):
     """From the end of the path it begins anew; where it pauses is the state of the page and its link."""
     page = explorer.page
     slider, play = page.get_by_label("State along the path"), page.locator(".player button")
+    # The state of the largest depth is marked, below the middle of the thumb, which is 14 px wide.
+    box = slider.bounding_box()
+    thumb = (
+        box["x"] + 7 + (box["width"] - 14) * int(slider.input_value()) / int(slider.get_attribute("max"))
+    )
+    mark = page.locator(".player .marks i").first.bounding_box()
+    assert abs(mark["x"] + mark["width"] / 2 - thumb) < 1
+    assert slider.get_attribute("title") == "Marked: largest depth, loss of contact"
     plot = "Bokeh.index.find_one(explorer.model('force')).el"
     explorer.wait(f"{plot}.ariaDescription?.includes('depth 8.978 nm')")
     assert slider.get_attribute("aria-valuetext") == "force 4.514 µN, depth 8.978 nm"

@@ -19,7 +19,7 @@ from app.extras.oblique import leaning
 from app.extras.section import section
 from app.extras.surface import Z as FAR_Z
 from app.extras.surface import surface
-from app.player import frames
+from app.player import frames, marked_states
 from app.plot import Plot, View, rows_of
 from app.plots import NAMED, PLOTS, D, F, P, R, X, force, pressure
 from app.quantities import CHOICES, lowered
@@ -87,7 +87,7 @@ def test_every_plot_of_every_state_can_be_drawn(damping):
 def test_a_peak_that_the_axis_does_not_reach_is_named():
     view = view_of(preset_state())
     states, half = view.course.states, view.end(R)
-    tops = {i: states[i].pressure(radii(states[i], half)) for i in range(view.course.peak)}
+    tops = {i: states[i].pressure(radii(states[i], half)) for i in range(1, view.course.peak)}
     said = {i: pressure(view, i)["exceeds"][2] for i in tops}
     cut = [i for i, p in tops.items() if np.max(p) > view.end(P)]
     assert [i for i in tops if said[i]] == cut
@@ -95,6 +95,27 @@ def test_a_peak_that_the_axis_does_not_reach_is_named():
     value, unit = re.search(r"= ([\d.]+) (\wPa)", said[first]).groups()
     assert float(value) * {"GPa": 1e9, "TPa": 1e12}[unit] == approx(np.max(tops[first]), rel=0.01)
     assert "∞ at the rim" in pressure(view_of(preset_state(PUNCH)), 50)["exceeds"][2]
+
+
+def test_a_plot_without_contact_says_so():
+    """Before first contact and after its loss, where the pressure is zero everywhere."""
+    course = view_of(preset_state()).course
+    said = [pressure(view_of(preset_state()), i)["exceeds"][2] == "no contact" for i in range(len(course))]
+    assert said == (course.states.contact_radius == 0).tolist()
+    assert said[0]
+    assert said[-1]
+
+
+def test_the_player_marks_the_largest_depth_and_the_loss_of_contact():
+    for state in (preset_state(), preset_state(DROP)):
+        course = view_of(state).course
+        marks = marked_states(course)
+        assert course.progress[marks["largest depth"]] == 1
+        lost = marks["loss of contact"]
+        assert course.states.contact_radius[lost - 1] > 0
+        assert course.states.contact_radius[lost] == 0
+    # A prescribed path may lose contact many times.
+    assert set(marked_states(view_of(state_with(GOLD, "path")).course)) == {"largest depth"}
 
 
 def test_after_another_hit_depth_and_force_of_yield_belong_together():
