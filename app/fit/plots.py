@@ -29,6 +29,8 @@ class Plots:
             name="residual plot", css_classes=["of-residual"], x_range=self.force.x_range, tools="", **look
         )
         self.residual.toolbar_location = None
+        # The plot is low: labels of more values would touch each other.
+        self.residual.yaxis.ticker.desired_num_ticks = 3
         # The same width inside the axes, so that depths stand below each other.
         for each in (self.force, self.residual):
             each.min_border_left = 76
@@ -36,6 +38,7 @@ class Plots:
             each.min_border_right = 34
             for axis in each.axis:
                 axis.axis_label_text_font_style = "normal"
+                axis.minor_tick_line_color = None
                 axis.axis_label_text_font_size = axis.major_label_text_font_size = "12px"
             each.grid.grid_line_color = "#e8eaed"
             each.outline_line_color = None

@@ -178,9 +178,12 @@ class Results:
         elif page.curve is not None and page.setting.missing:
             text = f'<p class="big none">Give {page.setting.missing}</p>'
             text += '<p class="of">Then the fit runs at once.</p>'
-        elif page.refused:
+        elif page.refused and page.wants:
             text = '<p class="big none">The curve is not read yet</p>'
             text += '<p class="of">Give the missing information on the left.</p>'
+        elif page.refused:
+            text = '<p class="big none">This file cannot be read</p>'
+            text += '<p class="of">The reason is on the left. Drop another file, or mend this one.</p>'
         elif page.not_fitted:
             text = '<p class="big none">No fit</p>'
         show(self.headline, object=text)

@@ -39,13 +39,17 @@ def in_page_words(text: str) -> str:
     """A report, remark or refusal of the core with symbols and words for its names of parameters."""
     for code, words in _WORDS.items():
         text = re.sub(code, words, text)
-    return text
+    return _true_minus(text)
+
+
+def _true_minus(text: str) -> str:
+    return re.sub(r"(?<![\w/])-(?=[\d.])", "−", text)
 
 
 def amount(value: float, error: float | None, unit: str) -> str:
     """A number with its error, one unit and a true minus."""
     text = written(value, KINDS.get(unit, "number")) if error is None else with_error(value, error, unit)
-    return re.sub(r"(?<![\w/])-(?=[\d.])", "−", text)
+    return _true_minus(text)
 
 
 def value_of(fit: IndentationFit, name: str) -> str:
@@ -82,10 +86,12 @@ def why(fit: IndentationFit) -> str:
     """One sentence on the E* of the model where another one is quoted (HTML)."""
     if fit.quoted.source != "unloading":
         return ""
-    model = value_of(fit, "E_star")
+    numbers = f"E*, {escape(value_of(fit, 'E_star'))}, is"
+    if "hardness" in fit.standard_errors:
+        numbers = f"E*, {escape(value_of(fit, 'E_star'))}, and H, {escape(value_of(fit, 'hardness'))}, are"
     return (
-        f"<p>The model’s own E* is {escape(model)}: its contact radius on loading is that of an "
-        "elastic contact, smaller than with plastic flow, so that its modulus is larger.</p>"
+        f"<p>The model’s own {numbers} too large to quote: its contact radius is that of an elastic "
+        "contact.</p>"
     )
 
 
