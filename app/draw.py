@@ -135,6 +135,11 @@ class Picture:
             if layer.hover:
                 layer.hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[layer.axis])
 
+    @property
+    def zoomed(self) -> bool:
+        """Whether less than the whole plot is shown."""
+        return bool(self._zoom)
+
     def zoom_to(self, box: list[list[float]] | None) -> None:
         """Show what is within ranges, in the units of the axes, or all."""
         if not self.axes or box == self._zoom:

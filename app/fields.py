@@ -11,7 +11,7 @@ from .extra import EXTRAS
 from .parts import Part, Parts, button, text, upload
 from .plot import View
 from .quantities import QUANTITIES, Quantity
-from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, regions
+from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, regions, used_by
 from .tip import Uploaded, read_tip
 from .ui import LAYOUT, linked, marked, symbol
 from .units import entry, read
@@ -139,7 +139,8 @@ class Form:
         in_use = not {*FOLDED_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
         opened = in_use or self._open["more"]
         modulus, *constant = numbers["medium"]
-        more = [*map(page.choice, FOLDED_CHOICES), *numbers["more"], note("more"), note("sources")]
+        more = [part for name in FOLDED_CHOICES for part in self._with_numbers(name, state, depth)]
+        more += [note("more"), note("sources")]
         with_tip = self._open["tip"] or state.shape == "sampled" or self._tip_refused
         parts = [
             note("first", _FIRST),
@@ -149,10 +150,16 @@ class Form:
             *numbers["shape"],
             title("Medium"), modulus, page.choice("plasticity"), *constant, *numbers["hardness"],
             note("medium"),
-            button("More about the medium", self._fold, pressed=opened, disabled=in_use),
+            button("More about the medium", self._fold, pressed=opened, disabled=in_use, key="fold"),
             *(more if opened else []),
         ]  # fmt: skip
         self.view.show(parts)
+
+    def _with_numbers(self, choice: str, state: State, depth: float) -> list[Part]:
+        """A choice that folds, and below it the numbers of its option."""
+        known = regions(state)["more"]
+        names = [name for name in used_by(state, choice) if name in known]
+        return [self._page.choice(choice), *(self._page.number(name, depth) for name in names)]
 
     def _shape(self, state: State) -> Part:
         """The list of shapes, of which one asks for the file of a measured tip while there is none."""

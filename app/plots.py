@@ -42,7 +42,9 @@ def _of_states(name: str) -> Callable[[Course], tuple[float, float]]:
         # Adhesion reaches below zero; there may be tension alone.
         largest, lowest = np.max(values), np.min(values)
         largest = max(largest, -0.25 * lowest)
-        if onset is not None and depth < onset.depth <= 2.5 * depth:
+        # With dashpots it is not marked: it is that of slow loading.
+        marked = onset is not None and not course.dashpots
+        if marked and depth < onset.depth <= 2.5 * depth:
             largest = max(largest, getattr(onset, name))
         return float(lowest) if course.adhesive else 0.0, 1.02 * float(largest)
 

@@ -8,7 +8,7 @@ import numpy as np
 import panel as pn
 
 from mdr_core.show import figures
-from mdr_core.show.figures import NOTHING, both, line
+from mdr_core.show.figures import NOTHING, Axis, both, line
 
 from .. import link
 from ..courses import Course
@@ -149,16 +149,27 @@ def _over_time(plot: str, row: str) -> Callable[[View, Course], dict]:
     return columns
 
 
+def _hardness(view: View, course: Course) -> dict:
+    """Mean pressure over the contact radius, and the hardness at that radius."""
+    states, made = course.states, course.scene.medium
+    a = np.where(states.contact_radius > 0, states.contact_radius, np.nan)
+    found = {"": (a, states.mean_pressure), " hardness": NOTHING}
+    if made.q_c < np.inf:
+        r = np.nanmax(a) * np.geomspace(0.01, 1.0, 81)
+        found[" hardness"] = r, made.hardness_at(r)
+    return found
+
+
 def _rows(symbol: str, what: str = "", width: float = 1.6, axis: int = 1, legend: bool = True) -> list:
     looks = enumerate(zip(ROLES, DASHES, strict=True), 1)
     return [line(f"held {k}{what}", role, width, dash, symbol, axis, legend) for k, (role, dash) in looks]
 
 
-def _beyond(view: View, axes: list[Along], rows: list[tuple]) -> str:
+def _beyond(axes: list[Axis], rows: list[tuple]) -> str:
     """What of a scene is not seen on the axes, in brackets: they stay while something is dragged."""
     small = True
-    for k, along in enumerate(axes):
-        axis, columns = view.axis(along), np.concatenate([row[k] for row in rows])
+    for k, axis in enumerate(axes):
+        columns = np.concatenate([row[k] for row in rows])
         some = columns[np.isfinite(columns)]
         near = 1e-9 * axis.end
         if (some < axis.start - near).any() or (some > axis.end + near).any():
@@ -170,11 +181,11 @@ def _beyond(view: View, axes: list[Along], rows: list[tuple]) -> str:
 def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> Overlay:
     @once
     def places(view: View) -> dict:
-        axes = [PLOTS[plot].axes[k] for k in (0, rows[0].axis)]
-        found = {}
+        known, found = PLOTS[plot].axes_of(view), {}
+        axes = [known[k] for k in (0, rows[0].axis)] if known else []
         for k, held in enumerate(scenes(view), 1):
             parts = columns(view, held.course)
-            name = held.name + _beyond(view, axes, list(parts.values()))
+            name = held.name + _beyond(axes, list(parts.values()))
             found |= {f"held {k}{what}": (*part, name) for what, part in parts.items()}
         return found
 
@@ -185,6 +196,7 @@ OVERLAYS = (
     _overlay("springs", _rows("z", width=2.2), _springs),
     _overlay("force", _rows("F"), _force),
     _overlay("pressure", _rows("−σzz"), _pressure),
+    _overlay("hardness", [*_rows("pₘ"), *_rows("σ", " hardness", width=1.0, legend=False)], _hardness),
     _overlay("motion", _rows("F", axis=2), _over_time("motion", "force F")),
     _overlay("forces", _rows("F"), _over_time("forces", "tangential force Fₓ")),
 )

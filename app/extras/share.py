@@ -13,7 +13,7 @@ from ..plot import View
 from ..readouts import readings
 from ..shared.summary import summary
 from ..shared.widgets import field, tools
-from ..ui import WIDE, html, show
+from ..ui import JS, WIDE, html, show
 
 
 def csv(view: View) -> str:
@@ -65,7 +65,9 @@ class Share:
             for extra in EXTRAS.values()
             for label, name, write in extra.files
         ]  # fmt: skip
-        parts = self.link, self._note, tools(*buttons), self.python
+        copy = pn.widgets.Button(label="Copy link", css_classes=["button"], margin=0)
+        copy.js_on_click(args={"field": self.link}, code=JS["copy"])
+        parts = self.link, self._note, tools(copy, *buttons), self.python
         self.view = pn.Column(*parts, css_classes=["share"], **WIDE)
 
     def address(self) -> tuple[str, str]:

@@ -1,5 +1,6 @@
 """Zoom: a box with Shift on any plot; a double click, another drive or preset shows the whole plot."""
 
+from functools import partial
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,8 @@ from bokeh.model import DataModel
 from bokeh.models import CustomJS
 
 from ..extra import Extra, Service
-from ..plot import View
+from ..parts import Part, button, text
+from ..plot import Plot, View
 
 _SCRIPT = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 
@@ -35,7 +37,7 @@ class Zoom(Service):
     def _asked(self, attr, old, new):
         match new:
             case [str(name), box, _] if name in self.page.board.cards and (box is None or _is_box(box)):
-                self.page.board.cards[name].picture.zoom_to(box)
+                zoom_to(self.page, name, box)
 
     def show(self, view: View) -> None:
         scene = view.state.preset, view.state.drive
@@ -43,6 +45,19 @@ class Zoom(Service):
             for card in self.page.board.cards.values():
                 card.picture.zoom_to(None)
         self._scene = scene
+
+
+def zoom_to(page: Any, name: str, box: Any) -> None:
+    """Show what is within a box of a plot, or all of it, and the button that goes back."""
+    page.board.cards[name].picture.zoom_to(box)
+    page.refresh()
+
+
+def whole(page: Any, plot: Plot, view: View) -> Part:
+    """The button that shows all of a plot, while less is shown; else how to zoom, where it is large."""
+    if page.board.cards[plot.name].picture.zoomed:
+        return button("Whole plot", partial(zoom_to, page, plot.name, None))
+    return text("how to zoom", "Shift and drag to zoom", "note when-large")
 
 
 def _is_box(box: Any) -> bool:
@@ -55,4 +70,4 @@ def _is_box(box: Any) -> bool:
     return len(pairs) == len(box) and finite and all(low < high for low, high in pairs)
 
 
-EXTRA = Extra("zoom", service=Zoom)
+EXTRA = Extra("zoom", order=34, on_plots=whole, service=Zoom)

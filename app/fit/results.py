@@ -10,7 +10,7 @@ import panel as pn
 
 from mdr_core.show.units import written
 
-from ..ui import WIDE, html, marked, show
+from ..ui import JS, WIDE, html, marked, show
 from . import words
 from .explorer import explorer_query
 from .files import map_csv
@@ -18,14 +18,6 @@ from .form import field
 from .plots import Plots
 from .setting import OF_CLASS
 
-#: Script of the button that copies the report.
-_COPY = """
-const area = Object.assign(document.createElement("textarea"), { value: report.value })
-document.body.append(area)
-area.select()
-document.execCommand("copy")
-area.remove()
-"""
 _SLIDER = Path(__file__).with_name("slider.css").read_text(encoding="utf-8")
 _BOTH = {"sizing_mode": "stretch_both", "margin": 0}
 #: Most curves of a file that are listed.
@@ -77,7 +69,7 @@ class Results:
         look = {"css_classes": ["button"], "margin": 0}
         self._report = pn.widgets.TextInput(visible=False)
         self.copy = pn.widgets.Button(label="Copy", **look)
-        self.copy.js_on_click(args={"report": self._report}, code=_COPY)
+        self.copy.js_on_click(args={"field": self._report}, code=JS["copy"])
         self.files = [
             pn.widgets.FileDownload(
                 label=name.upper(), filename=f"fit.{name}", callback=partial(self._page.written, name),

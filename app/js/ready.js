@@ -17,8 +17,9 @@ messages.properties.address.change.connect(() => {
 })
 document.addEventListener("keydown", (event) => {
   const on = event.composedPath()[0]
-  // In a field they are those of what is typed.
-  if (event.altKey || on.matches?.("input[type=text], textarea")) return
+  // In a field they are those of what is typed; Escape takes back what was typed in a number, and closes what a field is in.
+  const typing = on.matches?.("input[type=text], textarea") && (event.key !== "Escape" || on.closest(".number"))
+  if (event.altKey || typing) return
   const key = event.key.toLowerCase(), act = (name) => all(document).find((each) => each.matches(`.act[name=${name}]:not([hidden])`))?.click()
   if (event.ctrlKey || event.metaKey) {
     const back = key === "z" && !event.shiftKey, forth = key === "y" || (key === "z" && event.shiftKey)
@@ -29,8 +30,8 @@ document.addEventListener("keydown", (event) => {
   if (on.matches?.("select")) return
   if (event.key === "Escape") {
     const open = all(document).filter((each) => each.matches("[popover='']:popover-open, [data-key=escape][aria-pressed=true], .help[aria-expanded=true]"))
-    // The browser closes popovers.
-    return void (open.some(({ popover }) => popover) || open.at(-1)?.click())
+    // The browser closes popovers. What lies over the plots stands first, and is closed before a large plot below it.
+    return void (open.some(({ popover }) => popover) || open[0]?.click())
   }
   if (key === "z") act("Undo")
 })

@@ -19,7 +19,11 @@ const KINDS = {
   button({ key }, send) {
     const el = made("button", "act")
     Object.assign(el, { onclick: () => send(null) }).dataset.key = key
-    return [el, ({ label, pressed, disabled }) => Object.assign(el, { textContent: label, name: label, disabled, ariaPressed: pressed })]
+    return [el, ({ label, pressed, disabled }) => {
+      // What is unfolded below it may be below the window.
+      if (key === "fold" && pressed && el.matches(":focus")) requestAnimationFrame(() => el.scrollIntoView())
+      Object.assign(el, { textContent: label, name: label, disabled, ariaPressed: pressed })
+    }]
   },
   // A picture of plots, saved in the browser: each with its figure and its place.
   save({ file, plots, size }, send, named) {
@@ -142,11 +146,25 @@ const KINDS = {
     }]
   },
 }
+const ACTED = new WeakMap()
 export function render({ model, el, view }) {
   el.classList.add("parts")
   const parts = new Map(), named = (name) => view.model.document.get_model_by_name(name)
   let [asked] = JSON.parse(model.shown)
+  // What was acted on last: its name, and its place among the parts that are seen. Where its answer takes the focus away, as a
+  // button that is gone or a plot that is laid out anew, that part gets it, or the one that has its place: else the focus
+  // begins at the top of the page. It is kept by the model, because a new layout renders all anew.
+  const focus = (names, seen) => {
+    const { name, place } = ACTED.get(view.model)
+    ACTED.delete(view.model)
+    if (document.activeElement !== document.body && names.includes(name)) return
+    const part = seen[names.indexOf(name)] ?? seen[Math.min(place, seen.length - 1)]
+    const found = part?.matches("button") ? part : part?.querySelector("button, select, input")
+    found?.focus()
+  }
   const sender = (name) => (what) => {
+    const seen = [...el.children].filter((part) => !part.hidden)
+    ACTED.set(view.model, { name, place: seen.indexOf(parts.get(name)[0]) })
     model.send_msg([name, what])
     return asked += 1
   }
@@ -160,6 +178,7 @@ export function render({ model, el, view }) {
       return part
     })
     for (const part of el.children) part.hidden = !seen.includes(part)
+    if (ACTED.has(view.model) && answered >= asked) focus(looks.map(({ name }) => name), seen)
   }
   model.on("change:shown", show)
   show()

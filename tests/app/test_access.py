@@ -169,3 +169,31 @@ def test_undo_and_redo_have_their_keys(explorer):
     field.press("Control+z")
     assert field.input_value() == "100 N/m"
     assert page.evaluate(depth) == 5
+
+
+HAS_FOCUS = "(name) => explorer.all().some((each) => each.name === name && each.matches(':focus'))"
+
+
+def test_a_button_that_changes_the_page_leaves_the_focus_where_it_was(explorer):
+    """A plot that becomes large is laid out anew, and the button to undo is gone after the last step."""
+    page = explorer.page
+    page.locator(".card.force .act[name=Large]").press("Enter")
+    for label in ("Small", "Large"):
+        explorer.wait(HAS_FOCUS, label)
+        page.keyboard.press("Escape")
+    explorer.change(explorer.slider("q_c").press, "PageUp")
+    page.locator(".act[name=Undo]").press("Enter")
+    explorer.wait(HAS_FOCUS, "Redo")
+
+
+def test_escape_in_the_link_closes_what_it_is_in(explorer):
+    """Before a large plot that lies below."""
+    page = explorer.page
+    page.locator(".card.force .act[name=Large]").click()
+    explorer.press("Share")
+    page.get_by_label("Link to this page").click()
+    page.keyboard.press("Escape")
+    page.get_by_label("Link to this page").wait_for(state="hidden")
+    assert page.locator(".card.force .act[name=Small]").is_visible()
+    page.keyboard.press("Escape")
+    page.locator(".card.force .act[name=Large]").wait_for()

@@ -86,6 +86,13 @@ def test_a_box_with_shift_is_zoomed_to_until_a_double_click_or_another_drive(pro
     box = page.locator(".card.pressure canvas").first.bounding_box()
     page.mouse.dblclick(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     projector.wait("(x) => explorer.axis('pressure').x.join() === x.join()", before["x"])
+    # There is a button that goes back, as long as there is something to go back to.
+    back = page.locator(".card.pressure .act[name='Whole plot']")
+    back.wait_for(state="hidden")
+    zoom()
+    back.click()
+    projector.wait("(x) => explorer.axis('pressure').x.join() === x.join()", before["x"])
+    back.wait_for(state="hidden")
     zoom()
     projector.pick("force")
     assert projector.axis("pressure")["x"][1] - projector.axis("pressure")["x"][0] > 30

@@ -5,13 +5,14 @@ import re
 import numpy as np
 import pytest
 
-from app import link
+from app import changes, link
 from app.draw import Picture, drawn, legend
 from app.drives import follow
 from app.extras.held import DASHES, computed, difference, held_scene, is_held, numbers, toggle_hold
 from app.page import Page
 from app.plot import rows_of
 from app.plots import PLOTS, D, F, X, Z
+from app.state import medium
 from app.state import preset_state as preset
 from mdr_core.show.units import written
 
@@ -90,6 +91,26 @@ def test_each_has_its_own_row_and_colour_in_every_plot_on_common_axes():
     layer = next(each for each in Picture(PLOTS["force"]).layers if each.name == "lines")
     told = layer.columns(rows, PLOTS["force"].axes_of(view), False)["row"]
     assert [text.replace("dₘₐₓ", "d_max") for text in told if "dₘₐₓ" in text] == expected
+
+
+def test_the_classes_of_hardness_are_compared_over_the_contact_radius():
+    """Mean pressure and hardness of each: σ_c = H, q_c/a, f_c/a², equal at the largest contact radius."""
+    b = preset().replace(tiles=("hardness",))
+    a, c = (changes.choose(b, "plasticity", name) for name in ("constant", "line"))
+    view = view_of(b, 1.0, a, c)
+    rows = view.places(PLOTS["hardness"], view.course.now)
+    for k, state, power in ((1, a, 0), (2, c, -2)):
+        states = follow(state).states
+        radius, pressure, *_ = rows[f"held {k}"]
+        in_contact = states.contact_radius > 0
+        np.testing.assert_array_equal(radius[in_contact], states.contact_radius[in_contact])
+        expected = states.force[in_contact] / (np.pi * states.contact_radius[in_contact] ** 2)
+        np.testing.assert_allclose(pressure[in_contact], expected, rtol=1e-12)
+        r, hardness, *_ = rows[f"held {k} hardness"]
+        np.testing.assert_allclose(hardness, hardness[-1] * (r / r[-1]) ** power, rtol=1e-12)
+        present = float(medium(b).hardness_at(r[-1]))
+        # The constants that are found have the five digits of their fields.
+        assert float(hardness[-1]) == approx(present, rel=1e-4)
 
 
 def test_a_held_scene_is_named_by_what_differs_from_the_present_one():
