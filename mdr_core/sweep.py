@@ -52,7 +52,7 @@ from .impacts.impact import impact
 from .impacts.result import Impact
 from .medium import Medium
 from .oblique.oblique_impact import ObliqueImpact, oblique_impact
-from .profiles.profile import Profile
+from .profiles.profile import Profile, check_known
 from .profiles.sampled import Sampled
 from .profiles.smooth import Smooth
 from .show.progress import tracked_chunks
@@ -339,7 +339,7 @@ def _press(profile, E_star, work_of_adhesion, depth, **hardness):
     medium = Medium(E_star, work_of_adhesion=work_of_adhesion, **hardness)
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST)
     shape = np.broadcast_shapes(profile.shape, medium.shape, depth.shape)
-    depth = profile._known(np.broadcast_to(depth, shape))
+    depth = check_known(profile, np.broadcast_to(depth, shape))
     check_reached(profile, medium, depth)
     if np.any(np.asarray(work_of_adhesion) > 0):
         return Indentation(profile, medium, depth, *first_contacts(profile, medium, depth))

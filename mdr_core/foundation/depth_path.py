@@ -12,14 +12,14 @@ from .._check import Array, ArrayLike
 from ..applicability import check_pair, check_reached, refuse_adhesion
 from ..medium import Medium
 from ..numerics.results import CHAIN, Limit, Model, Result, above
-from ..profiles.profile import Profile
+from ..profiles.profile import Profile, check_known
 from . import element
 from .cap import elastic_limit, plastic_depth
 from .element import Elements, Ramp
-from .foundation import Foundation
 from .fronts import force_and_radius
 from .grid import cell_edges
 from .refinement import refine
+from .row import Row
 
 #: Elements of the coarsest run; largest number of elements times depths of the finest.
 _ELEMENTS, _MAX_ELEMENT_STEPS = 256, 10**8
@@ -82,7 +82,7 @@ def indent_in_time(
     """
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
-    depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
+    depth = check_known(profile, _check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
     time = check_times(time, depth, "depth")
     tolerance = _check.positive_number("tolerance", tolerance)
     check_reached(profile, medium, np.max(depth))
@@ -92,7 +92,7 @@ def indent_in_time(
 
     def run(level):
         n = _ELEMENTS * 2**level + 4 * len(nodes)
-        return follow(Foundation(profile, medium, n + n % 2, half_width, nodes), depth, time)
+        return follow(Row.virgin(profile, medium, n + n % 2, half_width, nodes), depth, time)
 
     levels = 1 + max(0, int(np.log2(_MAX_ELEMENT_STEPS / (_ELEMENTS * depth.size))))
     # The contact radius, the last quantity, is not smooth in the step: it ends between elements.
@@ -106,16 +106,16 @@ def indent_in_time(
     )  # fmt: skip
 
 
-def follow(foundation, depth, time, advance=Foundation.advance, first=np.inf):
-    """The `_RECORD` of a foundation at each time of a path, shape (N, 5).
+def follow(row, depth, time, advance=Row.advance, first=np.inf):
+    """The `_RECORD` of a row at each time of a path, shape (N, 5).
 
     `first` is the time (s) in which the first depth is reached.
     """
     record = []
     for new_depth, dt in zip(depth, np.append(first, np.diff(time)), strict=True):
-        foundation = advance(foundation, new_depth, dt)
-        force, radius = force_and_radius(foundation)
-        works = foundation.energy_of_elements, foundation.plastic_work, foundation.viscous_work
+        row = advance(row, new_depth, dt)
+        force, radius = force_and_radius(row)
+        works = row.stored_energy, row.plastic_work, row.viscous_work
         record.append((force, *works, radius))
     return np.array(record)
 

@@ -150,7 +150,7 @@ class Profile(_check.Parameters, ABC):
         """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
         depth = self._places("depth", depth, most=_check.LONGEST)
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
-        depth = self._known(depth)
+        depth = check_known(self, depth)
         radius = self.radius_at(depth)
         _check.refuse("depth", depth, np.isinf(radius), "has a contact beyond double precision", unit="m")
         remedy = f"mend radius_at of {type(self).__name__}"
@@ -181,14 +181,6 @@ class Profile(_check.Parameters, ABC):
         given = {quantity: values, "indenters": np.empty(self.shape)}
         return np.broadcast_to(values, _check.common_shape(type(self).__name__, **given))
 
-    def _known(self, depth):
-        """`depth` (m), if the profile is known to it."""
-        if np.all(self.known_depth == np.inf):
-            return depth
-        too_deep = depth > self.known_depth
-        bound = f"is {self.too_deep()}"
-        return _check.refuse("depth", depth, too_deep, bound, unit="m", remedy="press less deep")
-
     def too_deep(self):
         """Text for a refusal of depths below `known_depth`."""
         if is_own(self) and not self.shape and self.sound.fault and self.known_depth == self.sound.depth:
@@ -198,3 +190,12 @@ class Profile(_check.Parameters, ABC):
                 "where the shape ends"
             )
         return f"deeper than {self._last}, {np.min(self.known_depth, initial=_check.LONGEST):g} m"
+
+
+def check_known(profile: Profile, depth: np.ndarray) -> np.ndarray:
+    """`depth` (m), if none of it exceeds the known depth of the profile; else a refusal in its words."""
+    if np.all(profile.known_depth == np.inf):
+        return depth
+    too_deep = depth > profile.known_depth
+    bound = f"is {profile.too_deep()}"
+    return _check.refuse("depth", depth, too_deep, bound, unit="m", remedy="press less deep")
