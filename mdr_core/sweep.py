@@ -51,6 +51,7 @@ from .hardness import HardnessLaw
 from .impacts.impact import impact
 from .impacts.result import Impact
 from .medium import Medium
+from .numerics.results import quantities_of
 from .oblique.oblique_impact import ObliqueImpact, oblique_impact
 from .profiles.profile import Profile, check_known
 from .profiles.sampled import Sampled
@@ -232,7 +233,7 @@ def _sweep(kind, solve, law, shape, parameters, shape_parameters, quantities, in
     xarray = imported("xarray", "mdr_core.sweep")
     names = [quantities] if isinstance(quantities, str) else list(quantities)
     # The plastic depth is one before the impact as a parameter, one after it as a quantity.
-    known = [name for name in kind._quantities if name not in parameters or name == "plastic_depth"]
+    known = [name for name in quantities_of(kind) if name not in parameters or name == "plastic_depth"]
     for name in names or [""]:
         _check.one_of("quantity", name, known)
     _check.one_of("invalid", invalid, ("raise", "nan"))

@@ -11,13 +11,14 @@ from .._check import Array, ArrayLike
 from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..medium import Medium
+from ..numerics.results import check_single
 from ..show.quantities import described, engineering
 from ..show.report import attributes as attributes_of
 from ..show.report import dimensions, imported
 from .classes import ClassFit, HardnessVerdict, class_of_hardness, fit_again, fits_of_classes, verdict
 from .figures import plot_fit
 from .measurement import Measurement
-from .oliver_pharr_result import OLIVER_PHARR
+from .oliver_pharr_result import OLIVER_PHARR, OliverPharr
 from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
 from .quoted import Quoted, quoted, unloading
 from .remarks import by_importance, missing, remarks_of
@@ -157,7 +158,7 @@ class IndentationFit(Fit):
     @property
     def class_of_hardness(self) -> HardnessVerdict | None:
         """The class of hardness that one curve shows, None where there are no `classes`."""
-        self._one("class_of_hardness")
+        check_single(self, "class_of_hardness")
         if not self.classes:
             return None
         return class_of_hardness(self.classes, np.count_nonzero(np.isfinite(self.residuals)))
@@ -165,8 +166,8 @@ class IndentationFit(Fit):
     @cached_property
     def quoted(self) -> Quoted:
         """The modulus of one curve that is to be quoted, and of what it is; found when first read."""
-        self._one("quoted")
-        return quoted(self)
+        check_single(self, "quoted")
+        return quoted(self, self._remarks[0])
 
     def plot(self) -> Any:
         """Measured and fitted force over depth, and the residuals, of one curve as HoloViews elements.
@@ -174,7 +175,7 @@ class IndentationFit(Fit):
         The band of the residuals is one standard deviation of their noise, √(σ_F² + (S σ_d)²), S the
         stiffness. Drawn are measured depths and forces, with offset and background.
         """
-        self._one("plot")
+        check_single(self, "plot")
         self._refuse_invalid("plot")
         return plot_fit(self)
 
@@ -258,7 +259,7 @@ class IndentationFit(Fit):
 
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
-        result, _ = unloading(self)
+        result, _ = unloading_of(self)
         if result is None or {"misfit", "jitter", "noisy"} & set(self._remarks[0]):
             return
         errors = result.standard_errors
@@ -293,6 +294,11 @@ class _MediumOrNone(Medium):
 
     def __post_init__(self):
         """Takes any numbers."""
+
+
+def unloading_of(fit: IndentationFit) -> tuple[OliverPharr | None, str]:
+    """Results of Oliver and Pharr for one fitted curve, and what first contact is; or None, and why."""
+    return unloading(fit, fit._remarks[0])
 
 
 def _medium(medium):

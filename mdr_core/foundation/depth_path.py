@@ -11,7 +11,7 @@ from .. import _check, abel
 from .._check import Array, ArrayLike
 from ..applicability import check_pair, check_reached, refuse_adhesion
 from ..medium import Medium
-from ..numerics.results import CHAIN, Limit, Model, Result, above
+from ..numerics.results import CHAIN, Limit, Model, Result, above, check_single
 from ..profiles.profile import Profile, check_known
 from . import element
 from .cap import elastic_limit, plastic_depth
@@ -180,6 +180,24 @@ class Ramps:
         return load, elastic
 
 
+@dataclass(frozen=True, eq=False)
+class _Joined:
+    """A path of `count` states, the last one of which is the first one of another path."""
+
+    first: History
+    later: History
+    count: int
+
+    model = property(lambda self: self.later.model)
+
+    def elements(self, x, count):
+        """Line load (N/m) and elastic compression (m) at x (m) in the first states, shape (count, M)."""
+        parts = [self.first.elements(x, min(count, self.count))]
+        if count > self.count:
+            parts.append([values[1:] for values in self.later.elements(x, count - self.count + 1)])
+        return tuple(np.concatenate(values) for values in zip(*parts, strict=True))
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class TimedIndentation(Result):
     """States of a viscous indentation at the times of its path, returned by `indent_in_time` or `creep`.
@@ -249,7 +267,7 @@ class TimedIndentation(Result):
 
     def line_load(self, x: ArrayLike) -> Array:
         """Line load q = E* u_e + 4ηḋ (N/m) of one state at x (m); Popov (2015), Eqs. (1), (17), (18)."""
-        self._one("line_load")
+        check_single(self, "line_load")
         return self.elements(x)[0]
 
     def elements(self, x: ArrayLike) -> tuple[Array, Array]:
@@ -269,7 +287,7 @@ class TimedIndentation(Result):
 
         Infinite at the contact radius while the dashpots carry load there.
         """
-        self._one("pressure")
+        check_single(self, "pressure")
         r, radius = _check.finite_array("radius r", r, unit="m"), float(self.contact_radius)
         if radius == 0:
             return np.zeros(r.shape)[()]
@@ -279,3 +297,24 @@ class TimedIndentation(Result):
         load = self.line_load(np.minimum(x, radius * (1 - 1e-12)))
         load[-1] = load[-1] if load[-1] > 1e-9 * load.max() else 0.0
         return 0.0 - abel.stress_from_line_load(x, load, r)
+
+
+def states_along(history: History, index: np.ndarray, **quantities: Any) -> TimedIndentation:
+    """The `TimedIndentation` of quantities by name, in states with these numbers along a history."""
+    return TimedIndentation(**quantities, _index=index, _history=history)
+
+
+def joined(first: TimedIndentation, later: TimedIndentation, force, time) -> TimedIndentation:
+    """One path of two, under forces (N) at times (s) of both; the last state of one begins the other.
+
+    The first one has all states of its history.
+    """
+    count = len(first.time)
+    names = ("depth", "contact_radius", "stored_energy", "plastic_work", "viscous_work", "plastic_depth")
+    values = {name: np.append(getattr(first, name), getattr(later, name)[1:]) for name in names}
+    return states_along(
+        _Joined(first._history, later._history, count),
+        np.append(np.arange(count), count - 1 + later._index[1:]),
+        profile=first.profile, medium=first.medium, time=time, force=force, **values,
+        error=first.error + later.error,
+    )  # fmt: skip

@@ -15,7 +15,7 @@ from .. import _check
 from ..applicability import check_pair, refuse_adhesion, refuse_own_law
 from ..numerics.roots import root_in_bracket
 from .cap import flat_face_load, plastic_depth
-from .depth_path import Ramps, TimedIndentation, check_times, follow
+from .depth_path import Ramps, check_times, follow, states_along
 from .fronts import force_and_radius
 from .grid import depth_bound
 from .refinement import extrapolate, refine
@@ -119,12 +119,12 @@ def chain_creep(profile, medium, force, time, *, tolerance=1e-4, start=None):
     largest = np.maximum(np.maximum.accumulate(path_depth)[index], depth)
     largest = np.maximum.accumulate(np.maximum(largest, before))
     elements = start and start.elements
-    return TimedIndentation(
-        profile, medium, time, depth, force, radius,
+    return states_along(
+        Ramps(profile, medium, path_time, path_depth, elements, before), index,
+        profile=profile, medium=medium, time=time, depth=depth, force=force, contact_radius=radius,
         **dict(zip(("stored_energy", "plastic_work", "viscous_work"), energies, strict=True)),
         plastic_depth=plastic_depth(profile, medium, largest),
-        error=float(errors[0]), _index=index,
-        _history=Ramps(profile, medium, path_time, path_depth, elements, before),
+        error=float(errors[0]),
     )  # fmt: skip
 
 
