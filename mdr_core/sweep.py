@@ -354,6 +354,6 @@ def _attributes(kind, shape, given):
     varied = {name: "over " + " × ".join(value.dims) for name, value in given.items() if np.ndim(value)}
     fixed = {name: float(value) for name, value in given.items() if name not in varied}
     about = {"result": kind.__name__, "model": "MDR, V. L. Popov 2015", "indenter": profile}
-    # The package imports this module first.
+    # The package stands above its modules, so that none of these imports it.
     about["version"] = f"mdr_core {import_module(__package__).__version__}"
     return about | fixed | varied

@@ -277,7 +277,7 @@ def how_fast(hit):
         known = np.min(hit.profile.known_depth)
         text = (
             f"{equations} do not hold: in this limit the largest depth exceeds the known depth of the "
-            f"profile, {known:g} m."
+            f"profile, {engineering(known, 'm')}."
         )
         return (Limit("fast limit", np.inf, MAX_ERROR, True, text, equations),)
     limit = hit.fast_limit

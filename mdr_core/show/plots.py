@@ -6,7 +6,7 @@ from ..contact.indentation import Indentation
 from ..numerics.results import check_single, quantities_of
 from . import figures
 from .figures import FORCE_ROWS, NOTHING, PRESSURE_ROWS, REST, SPRING_ROWS, Axis, line, parts
-from .quantities import QUANTITIES
+from .quantities import QUANTITIES, engineering
 from .report import imported, title
 
 
@@ -100,7 +100,6 @@ def _drawn_radius(state, what):
     check_single(state, what)
     largest = max(float(state.contact_radius), float(state.plastic_radius))
     if not largest:
-        raise ValueError(
-            f"{what} needs a contact or an imprint, and there is none at d = {state.depth:g} m"
-        )
+        depth = engineering(state.depth, "m")
+        raise ValueError(f"{what} needs a contact or an imprint, and there is none at d = {depth}")
     return 1.25 * largest
