@@ -12,10 +12,9 @@ from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..medium import Medium
 from ..numerics.results import check_single
-from ..show.quantities import described, engineering
-from ..show.report import attributes as attributes_of
-from ..show.report import dimensions, imported
+from ..show.quantities import engineering
 from .classes import ClassFit, HardnessVerdict, class_of_hardness, fit_again, fits_of_classes, verdict
+from .dataset import SAMPLES, dataset_of
 from .figures import plot_fit
 from .measurement import Measurement
 from .oliver_pharr_result import OLIVER_PHARR, OliverPharr
@@ -27,9 +26,8 @@ from .report import Fit, with_error
 if TYPE_CHECKING:
     import xarray
 
-#: Fields with one entry per curve, and with one per sample.
+#: Fields with one entry per curve; those with one per sample are `SAMPLES`.
 _OF_CURVES = ("contact_point", *BACKGROUND, "covariance", "reduced_chi_square", "block_length")
-_OF_SAMPLES = ("depth", "force", "time", "residuals")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -94,7 +92,7 @@ class IndentationFit(Fit):
         index = index if isinstance(index, slice) else curves
         longest = np.max(self._lengths[index], initial=0)
         noise = self.force_noise[index]
-        samples = {name: getattr(self, name) for name in _OF_SAMPLES}
+        samples = {name: getattr(self, name) for name in SAMPLES}
         return replace(
             self,
             medium=_medium(self.medium.entries(index)),
@@ -188,36 +186,7 @@ class IndentationFit(Fit):
         position : array_like, optional
             Positions (m) of the curves of a map on the surface, (R, 2): the coordinates x and y.
         """
-        xarray = imported("xarray", "to_xarray()")
-        # Zarr has no specification of texts of fixed length.
-        dims, parameters = dimensions(self), np.array(list(self.standard_errors), object)
-        variables = {}
-        for name, value in self.to_dict().items():
-            variables[name] = dims, value, PARAMETERS[name.removesuffix("_error")].quantity.attributes
-        for name in ("reduced_chi_square", "block_length"):
-            variables[name] = dims, getattr(self, name)
-        noise = (*dims, "sample") if self.force_noise.ndim > len(dims) else dims
-        variables["force_noise"] = noise, self.force_noise, {"units": "N"}
-        samples = {name: getattr(self, name) for name in _OF_SAMPLES}
-        samples = {name: values for name, values in samples.items() if values is not None}
-        for name, values in (samples | {"model": self.force - self.residuals}).items():
-            units = {"depth": "m", "time": "s"}.get(name, "N")
-            variables[name] = (*dims, "sample"), values, {"units": units}
-        variables["covariance"] = (*dims, "parameter", "other_parameter"), self.covariance
-        attributes = attributes_of(self) | {"indenter": described(self.profile), "model": str(self.model)}
-        attributes["remarks"] = "\n".join(self.remarks)
-        attributes["depth_noise"] = self.depth_noise
-        if self.invalid:
-            attributes["invalid_count"] = len(self.invalid)
-            attributes["invalid"] = "\n".join(f"curve {i}: {text}" for i, text in self.invalid.items())
-        coordinates = {"parameter": parameters, "other_parameter": parameters}
-        if position is not None:
-            position = _check.finite_array("position", position, unit="m", most=_check.LONGEST)
-            if position.shape != (*self.shape, 2):
-                raise ValueError(f"position {position.shape} must have x and y of each curve, (R, 2)")
-            for name, values in zip("xy", np.moveaxis(position, -1, 0), strict=True):
-                coordinates[name] = dims, values, {"units": "m", "long_name": f"position {name}"}
-        return xarray.Dataset(variables, coordinates, attributes)
+        return dataset_of(self, position)
 
     def _text(self, name, value, unit):
         # Whichever constant was fitted, an elastic medium has q_c = ∞, and 0 of the others.
@@ -289,16 +258,16 @@ class IndentationFit(Fit):
             yield "standard errors", f"block-wise (Newey–West), blocks of {lengths} samples"
 
 
+def unloading_of(fit: IndentationFit) -> tuple[OliverPharr | None, str]:
+    """Results of Oliver and Pharr for one fitted curve, and what first contact is; or None, and why."""
+    return unloading(fit, fit._remarks[0])
+
+
 class _MediumOrNone(Medium):
     """A medium whose parameters are NaN where a curve was not fitted."""
 
     def __post_init__(self):
         """Takes any numbers."""
-
-
-def unloading_of(fit: IndentationFit) -> tuple[OliverPharr | None, str]:
-    """Results of Oliver and Pharr for one fitted curve, and what first contact is; or None, and why."""
-    return unloading(fit, fit._remarks[0])
 
 
 def _medium(medium):
