@@ -16,11 +16,6 @@ from ..profiles.profile import Profile
 from .row import Row
 
 
-def foundation_of(row: Row) -> "Foundation":
-    """The `Foundation` in the state of a row, as a solver has left it."""
-    return Foundation(row.profile, row.medium, row.n, row.half_width, row.nodes, _row=row)
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class Foundation:
     """The 1D foundation of Popov (2015), Fig. 1, as a row of independent elements.
@@ -210,6 +205,11 @@ class Foundation:
     def plastic_work(self) -> float:
         """Energy Σ ∫ E* u_c du_p Δx (J) dissipated by yielding so far."""
         return self._row.plastic_work
+
+
+def foundation_of(row: Row) -> Foundation:
+    """The `Foundation` in the state of a row, as a solver has left it."""
+    return Foundation(row.profile, row.medium, row.n, row.half_width, row.nodes, _row=row)
 
 
 def _mirrored(values):

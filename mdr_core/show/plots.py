@@ -5,9 +5,10 @@ import numpy as np
 from ..contact.indentation import Indentation
 from ..numerics.results import check_single, quantities_of
 from . import figures
-from .figures import FORCE_ROWS, NOTHING, PRESSURE_ROWS, REST, SPRING_ROWS, Axis, line, parts
+from .figures import FORCE_ROWS, NOTHING, PRESSURE_ROWS, Axis, line, parts
 from .quantities import QUANTITIES, engineering
 from .report import imported, title
+from .springs import REST, SPRING_ROWS, springs
 
 
 def overlay(heading, rows, columns, axes):
@@ -92,7 +93,7 @@ def plot_springs(state):
         Axis.fitting("x", "x, coordinate of the springs", "m", half, start=-half, end=half),
         Axis.fitting("z", "z, height", "m", height, start=base, end=height),
     ]
-    return overlay("1D foundation", SPRING_ROWS, figures.springs(state, half, base, height), axes)
+    return overlay("1D foundation", SPRING_ROWS, springs(state, half, base, height), axes)
 
 
 def _drawn_radius(state, what):
