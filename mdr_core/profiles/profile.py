@@ -150,7 +150,7 @@ class Profile(_check.Parameters, ABC):
         """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
         depth = self._places("depth", depth, most=_check.LONGEST)
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
-        depth = check_known(self, depth)
+        depth = self._known(depth)
         radius = self.radius_at(depth)
         _check.refuse("depth", depth, np.isinf(radius), "has a contact beyond double precision", unit="m")
         remedy = f"mend radius_at of {type(self).__name__}"
@@ -181,6 +181,14 @@ class Profile(_check.Parameters, ABC):
         given = {quantity: values, "indenters": np.empty(self.shape)}
         return np.broadcast_to(values, _check.common_shape(type(self).__name__, **given))
 
+    def _known(self, depth):
+        """`depth` (m), if the profile is known to it; a shape without an end may have another bound."""
+        if np.all(self.known_depth == np.inf):
+            return depth
+        too_deep = depth > self.known_depth
+        bound = f"is {self.too_deep()}"
+        return _check.refuse("depth", depth, too_deep, bound, unit="m", remedy="press less deep")
+
     def too_deep(self):
         """Text for a refusal of depths below `known_depth`."""
         if is_own(self) and not self.shape and self.sound.fault and self.known_depth == self.sound.depth:
@@ -193,9 +201,5 @@ class Profile(_check.Parameters, ABC):
 
 
 def check_known(profile: Profile, depth: np.ndarray) -> np.ndarray:
-    """`depth` (m), if none of it exceeds the known depth of the profile; else a refusal in its words."""
-    if np.all(profile.known_depth == np.inf):
-        return depth
-    too_deep = depth > profile.known_depth
-    bound = f"is {profile.too_deep()}"
-    return _check.refuse("depth", depth, too_deep, bound, unit="m", remedy="press less deep")
+    """`depth` (m), if none of it exceeds what is known of the profile; else a refusal in its words."""
+    return profile._known(depth)

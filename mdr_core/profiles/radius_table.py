@@ -169,7 +169,7 @@ class OneLength(Profile):
         return self._length * u
 
     @classmethod
-    def unit_radius(cls, depth):
+    def _unit_radius(cls, depth):
         """u with G(u) = `depth`, elementwise."""
         # The largest depth over the smallest unit of depth, s²R.
         limit = _check.LONGEST**4
@@ -195,7 +195,7 @@ def _unit_table(kind):
     """The `RadiusTable` of the unit profile of a class; the kinks of these are at the unit of depth."""
     edges = np.ldexp(1.0, np.arange(-100, 101))
     end = min(_unit(kind).known_depth, edges[-1])
-    return RadiusTable(kind.unit_radius, np.append(edges[edges < end], end))
+    return RadiusTable(kind._unit_radius, np.append(edges[edges < end], end))
 
 
 @dataclass(frozen=True, eq=False)
