@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from mdr_core.show import figures
+from mdr_core.show import springs as drawn
 from mdr_core.show.figures import label, line, mark, split
 from mdr_core.show.quantities import QUANTITIES
 from mdr_core.show.units import written
@@ -59,7 +60,7 @@ def _pressures(course: Course) -> tuple[float, float]:
 
 X = Along("x, coordinate of the springs", "length", across)
 R = Along("r, radius", "length", across)
-Z = Along("z, height", "length", lambda course: (-figures.REST * deepest(course), deepest(course)))
+Z = Along("z, height", "length", lambda course: (-drawn.REST * deepest(course), deepest(course)))
 D = Along(QUANTITIES["depth"].title, "length", _of_states("depth"))
 F = Along(QUANTITIES["force"].title, "force", _of_states("force"))
 P = Along("−σzz, pressure", "pressure", _pressures)
@@ -99,7 +100,7 @@ def _beyond(view: View, states: Any, axes: dict[Along, tuple[str, str]]) -> Iter
 def springs(view: View, i: int) -> dict:
     """Springs by their state."""
     course, z, state = view.course, view.axis(Z), view.course.states[i]
-    rows = figures.springs(state, view.end(X), z.start, z.end, lambda g: course.relaxing(i, g))
+    rows = drawn.springs(state, view.end(X), z.start, z.end, lambda g: course.relaxing(i, g))
     return rows | _cut_off(view, state, {X: ("contact_radius", "a"), Z: ("depth", "d")}, Z, 0.97)
 
 
@@ -125,7 +126,7 @@ def _cap(course: Course) -> str:
 
 
 SPRINGS = Plot(
-    "springs", "1D foundation", _spring_formula, (X, Z), (*figures.SPRING_ROWS, CUT_OFF), springs,
+    "springs", "1D foundation", _spring_formula, (X, Z), (*drawn.SPRING_ROWS, CUT_OFF), springs,
 )  # fmt: skip
 
 

@@ -34,7 +34,6 @@ An example:
 """
 
 from collections.abc import Iterable
-from dataclasses import MISSING, fields
 from functools import partial
 from importlib import import_module
 from inspect import isclass
@@ -51,14 +50,20 @@ from .hardness import HardnessLaw
 from .impacts.impact import impact
 from .impacts.result import Impact
 from .medium import Medium
+from .numerics.results import quantities_of
 from .oblique.oblique_impact import ObliqueImpact, oblique_impact
-from .profiles.profile import Profile
-from .profiles.sampled import Sampled
-from .profiles.smooth import Smooth
+from .profiles.profile import Profile, check_known
 from .show.progress import tracked_chunks
 from .show.quantities import QUANTITIES, described
 from .show.report import imported
-from .sweep_arguments import InvalidParticles, check_alignment, indices, labelled
+from .sweep_arguments import (
+    InvalidParticles,
+    check_alignment,
+    check_shape_parameters,
+    hardness_parameters,
+    indices,
+    labelled,
+)
 
 if TYPE_CHECKING:
     import xarray
@@ -141,7 +146,7 @@ def impacts(
     ({'radius': 2, 'speed': 3}, [1.0, 0.5426, 0.1184])
     """
     parameters = {"E_star": E_star, "eta": eta, "work_of_adhesion": work_of_adhesion}
-    constants, law = _hardness(q_c, hardness, f_c)
+    constants, law = hardness_parameters(q_c, hardness, f_c)
     parameters |= constants | {"mass": mass, "speed": speed, "plastic_depth": plastic_depth}
     return _sweep(Impact, _hit, law, shape, parameters, shape_parameters, quantities, invalid)
 
@@ -184,7 +189,7 @@ def oblique_impacts(
     array([8.16, 7.16, 0.  ])
     """
     parameters = {"E_star": E_star, "eta": eta, "poisson": poisson, "mass": mass}
-    constants, law = _hardness(q_c, hardness, f_c)
+    constants, law = hardness_parameters(q_c, hardness, f_c)
     parameters |= constants | {"speed": speed, "tangential_speed": tangential_speed, "friction": friction}
     parameters["tangential_mass"] = mass if tangential_mass is None else tangential_mass
     hit = partial(_hit_at_angle, tolerance=tolerance)
@@ -219,7 +224,7 @@ def indentations(
     [0.006366 0.003183]
     """
     parameters = {"E_star": E_star, "work_of_adhesion": work_of_adhesion, "depth": depth}
-    constants, law = _hardness(q_c, hardness, f_c)
+    constants, law = hardness_parameters(q_c, hardness, f_c)
     parameters |= constants
     return _sweep(Indentation, _press, law, shape, parameters, shape_parameters, quantities, invalid)
 
@@ -232,11 +237,11 @@ def _sweep(kind, solve, law, shape, parameters, shape_parameters, quantities, in
     xarray = imported("xarray", "mdr_core.sweep")
     names = [quantities] if isinstance(quantities, str) else list(quantities)
     # The plastic depth is one before the impact as a parameter, one after it as a quantity.
-    known = [name for name in kind._quantities if name not in parameters or name == "plastic_depth"]
+    known = [name for name in quantities_of(kind) if name not in parameters or name == "plastic_depth"]
     for name in names or [""]:
         _check.one_of("quantity", name, known)
     _check.one_of("invalid", invalid, ("raise", "nan"))
-    _check_shape(shape, shape_parameters)
+    check_shape_parameters(shape, shape_parameters)
     parameters = shape_parameters | parameters
     given = {name: labelled(xarray, name, value) for name, value in parameters.items()}
     check_alignment(xarray, given)
@@ -259,24 +264,6 @@ def _sweep(kind, solve, law, shape, parameters, shape_parameters, quantities, in
     for name in names:
         dataset[name].attrs = QUANTITIES[name].attributes
     return dataset
-
-
-def _check_shape(shape, given):
-    """Refuse other types than profiles, and missing or unknown parameters of the class."""
-    if not (isinstance(shape, Profile) or (isclass(shape) and issubclass(shape, Profile))):
-        raise TypeError(f"shape must be a class of indenters or an indenter, got {_check.shown(shape)}")
-    if not isclass(shape) and shape.shape:
-        raise ValueError("parameters of the shape are arrays without names of dimensions: give its class")
-    if isclass(shape) and issubclass(shape, Sampled | Smooth):
-        raise ValueError(f"parameters of {shape.__name__} cannot be swept: give an indenter, not the class")
-    own = {field.name: field for field in fields(shape)} if isclass(shape) else {}
-    name = shape.__name__ if isclass(shape) else f"the {type(shape).__name__} given"
-    for unknown in given.keys() - own.keys():
-        names = ", ".join(own) or "no free parameters"
-        raise ValueError(f"{unknown} is not a parameter of the sweep or of {name}, which has {names}")
-    for missing in own.keys() - given.keys():
-        if own[missing].default is MISSING:
-            raise ValueError(f"{name} needs its {missing}")
 
 
 def _in_blocks(solve, shape, values, own, names, refused):
@@ -309,22 +296,6 @@ def _in_blocks(solve, shape, values, own, names, refused):
     return tuple(results) if len(names) > 1 else results[0]
 
 
-def _hardness(q_c, hardness, f_c):
-    """The constants of the hardness that are given, q_c = ∞ without any; and a law, which does not vary."""
-    if isinstance(hardness, HardnessLaw):
-        if hardness.shape:
-            name, size = _check.shown(hardness), hardness.shape
-            raise ValueError(
-                f"hardness {name} has arrays of shape {size}, without names of dimensions: a sweep has "
-                "one law for all entries; give a law of single numbers"
-            )
-        constants, law = {"q_c": q_c, "f_c": f_c}, {"hardness": hardness}
-        return {name: value for name, value in constants.items() if value is not None}, law
-    constants = {"q_c": q_c, "hardness": hardness, "f_c": f_c}
-    given = {name: value for name, value in constants.items() if value is not None}
-    return given or {"q_c": np.inf}, {}
-
-
 def _hit(profile, E_star, eta, work_of_adhesion, mass, speed, plastic_depth, **hardness):
     medium = Medium(E_star, eta=eta, work_of_adhesion=work_of_adhesion, **hardness)
     return impact(profile, medium, mass, speed, plastic_depth=plastic_depth)
@@ -339,7 +310,7 @@ def _press(profile, E_star, work_of_adhesion, depth, **hardness):
     medium = Medium(E_star, work_of_adhesion=work_of_adhesion, **hardness)
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST)
     shape = np.broadcast_shapes(profile.shape, medium.shape, depth.shape)
-    depth = profile._known(np.broadcast_to(depth, shape))
+    depth = check_known(profile, np.broadcast_to(depth, shape))
     check_reached(profile, medium, depth)
     if np.any(np.asarray(work_of_adhesion) > 0):
         return Indentation(profile, medium, depth, *first_contacts(profile, medium, depth))
@@ -353,6 +324,6 @@ def _attributes(kind, shape, given):
     varied = {name: "over " + " × ".join(value.dims) for name, value in given.items() if np.ndim(value)}
     fixed = {name: float(value) for name, value in given.items() if name not in varied}
     about = {"result": kind.__name__, "model": "MDR, V. L. Popov 2015", "indenter": profile}
-    # The package imports this module first.
+    # The package stands above its modules, so that none of these imports it.
     about["version"] = f"mdr_core {import_module(__package__).__version__}"
     return about | fixed | varied

@@ -1,11 +1,17 @@
-"""Parameters of ensembles as labelled arrays: their units and alignment, and particles that are invalid."""
+"""Arguments of sweeps: parameters as labelled arrays, shapes, hardness; and particles that are invalid."""
 
 import re
+from dataclasses import MISSING, fields
+from inspect import isclass
 from itertools import combinations
 
 import numpy as np
 
 from . import _check
+from .hardness import HardnessLaw
+from .profiles.profile import Profile
+from .profiles.sampled import Sampled
+from .profiles.smooth import Smooth
 from .show.quantities import QUANTITIES
 
 #: Invalid particles that are listed.
@@ -56,6 +62,40 @@ def indices(xarray, given):
 
                 places[dim] = dask.array.arange(size, chunks=value.chunksizes[dim])
     return [xarray.DataArray(place, dims=dim) for dim, place in places.items()]
+
+
+def check_shape_parameters(shape, given):
+    """Refuse other types than profiles, and missing or unknown parameters of the class."""
+    if not (isinstance(shape, Profile) or (isclass(shape) and issubclass(shape, Profile))):
+        raise TypeError(f"shape must be a class of indenters or an indenter, got {_check.shown(shape)}")
+    if not isclass(shape) and shape.shape:
+        raise ValueError("parameters of the shape are arrays without names of dimensions: give its class")
+    if isclass(shape) and issubclass(shape, Sampled | Smooth):
+        raise ValueError(f"parameters of {shape.__name__} cannot be swept: give an indenter, not the class")
+    own = {field.name: field for field in fields(shape)} if isclass(shape) else {}
+    name = shape.__name__ if isclass(shape) else f"the {type(shape).__name__} given"
+    for unknown in given.keys() - own.keys():
+        names = ", ".join(own) or "no free parameters"
+        raise ValueError(f"{unknown} is not a parameter of the sweep or of {name}, which has {names}")
+    for missing in own.keys() - given.keys():
+        if own[missing].default is MISSING:
+            raise ValueError(f"{name} needs its {missing}")
+
+
+def hardness_parameters(q_c, hardness, f_c):
+    """The constants of the hardness that are given, q_c = ∞ without any; and a law, which does not vary."""
+    if isinstance(hardness, HardnessLaw):
+        if hardness.shape:
+            name, size = _check.shown(hardness), hardness.shape
+            raise ValueError(
+                f"hardness {name} has arrays of shape {size}, without names of dimensions: a sweep has "
+                "one law for all entries; give a law of single numbers"
+            )
+        constants, law = {"q_c": q_c, "f_c": f_c}, {"hardness": hardness}
+        return {name: value for name, value in constants.items() if value is not None}, law
+    constants = {"q_c": q_c, "hardness": hardness, "f_c": f_c}
+    given = {name: value for name, value in constants.items() if value is not None}
+    return given or {"q_c": np.inf}, {}
 
 
 class InvalidParticles:

@@ -104,6 +104,39 @@ def test_modules_are_imported_at_the_top(name):
         assert name in {"numerics.results", "show.report", "sweep", "__init__"}
 
 
+def private(name):
+    return name.startswith("_") and not name.startswith("__")
+
+
+def names_given(tree):
+    """Names that a file gives to functions, classes, variables, and attributes."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            yield node.name
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+            yield node.attr
+
+
+def private_names_of_others(tree):
+    """Private names that are read from other objects than `self`, or given to calls."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and private(node.attr):
+            if ast.unparse(node.value) not in ("self", "cls", "super()"):
+                yield node.attr
+        elif isinstance(node, ast.keyword) and node.arg and private(node.arg):
+            yield node.arg
+
+
+@pytest.mark.parametrize("name", sorted(KNOWN))
+def test_a_private_name_of_another_object_is_used_in_its_own_file_only(name):
+    """What other files call has a public name, and says what it is."""
+    foreign = {*private_names_of_others(TREES[name])} - {*names_given(TREES[name])}
+    # The functions of a named tuple have an underscore, so that fields may have any name.
+    assert not foreign - {"_replace", "_fields"}
+
+
 def test_the_chain_imports_nothing_that_it_checks():
     reached, new = set(), {name for name in KNOWN if name.startswith("foundation.")}
     while new:

@@ -9,6 +9,7 @@ import panel as pn
 
 from mdr_core.show import figures
 from mdr_core.show.figures import NOTHING, Axis, both, line
+from mdr_core.show.springs import spring_line
 
 from .. import link
 from ..courses import Course
@@ -126,7 +127,7 @@ def _reach(view: View, along: Along) -> tuple[float, float]:
 
 
 def _springs(view: View, course: Course) -> dict:
-    return {"": figures.spring_line(course.state, view.end(X), lambda g: course.relaxing(course.now, g))}
+    return {"": spring_line(course.state, view.end(X), lambda g: course.relaxing(course.now, g))}
 
 
 def _force(view: View, course: Course) -> dict:

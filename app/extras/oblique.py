@@ -11,7 +11,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.impacts.motion import motion as motion_of
 from mdr_core.oblique.oblique_motion import along_surface, oblique_motion
-from mdr_core.show import figures
+from mdr_core.show import springs as drawn
 from mdr_core.show.figures import label, line, mark
 from mdr_core.show.limits import friction_limits
 from mdr_core.show.units import written
@@ -120,9 +120,9 @@ def leaning(course: ObliqueCourse, i: int, r):
 
 def _feet(state, rows: dict, half: float, base: float) -> dict:
     """Leaning springs, and lines below those that stick or slip."""
-    found, width = {}, 0.8 * half / figures.SPRINGS
+    found, width = {}, 0.8 * half / drawn.SPRINGS
     paths = [np.reshape(part, (-1, 9)) for part in (np.hstack([rows["sticks"], rows["slips"]]))]
-    yielded = figures.reduced(state.profile, np.abs(paths[0][:, 0])) < state.live_interval.lower
+    yielded = drawn.reduced(state.profile, np.abs(paths[0][:, 0])) < state.live_interval.lower
     for name, subset in (("elastic", ~yielded), ("yielded", yielded)):
         leaning = [part[subset].ravel() for part in paths]
         found[name] = tuple(np.append(part, more) for part, more in zip(rows[name], leaning, strict=True))
@@ -142,7 +142,7 @@ def springs(view: View, i: int) -> dict:
     if not isinstance(course, ObliqueCourse):
         return {}
     state, half, z = course.states[i], view.end(X), view.axis(Z)
-    rows = figures.springs(
+    rows = drawn.springs(
         state, half, z.start, z.end, lambda g: course.relaxing(i, g), lambda r: leaning(course, i, r)
     )
     return {name: rows[name] for name in ("elastic", "yielded")} | _feet(state, rows, half, z.start)

@@ -18,7 +18,7 @@ from mdr_core.fit.classes import HardnessVerdict
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.noise import jitter
 from mdr_core.fit.oliver_pharr_result import OliverPharr
-from mdr_core.fit.quoted import unloading
+from mdr_core.fit.result import unloading_of
 from mdr_core.measured_curve import MeasuredCurve, MeasuredCurves
 from mdr_core.reading import UnknownColumns
 from mdr_core.show.units import written
@@ -133,7 +133,7 @@ def fit(
     # Classes and what to quote are kept in the object that is sent.
     told = {"remarks": remarks, "unloading": None, "of_class": found.class_of_hardness}
     if found.quoted.source == "unloading":
-        told["unloading"], _ = unloading(found)
+        told["unloading"], _ = unloading_of(found)
     return found, told
 
 

@@ -6,14 +6,14 @@ afterwards. At the first time at which the force rises again `chain_creep` takes
 element from the state that the scalar laws have reached.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import scipy
 
 from .. import _check
 from .._check import ArrayLike
-from ..foundation.depth_path import Ramps, TimedIndentation
+from ..foundation.depth_path import TimedIndentation, joined
 from ..foundation.force_path import chain_creep, check_creep
 from ..medium import Medium
 from ..profiles.profile import Profile
@@ -99,37 +99,7 @@ def creep(
         profile, medium, force[count - 1 :], time[count - 1 :], tolerance=tolerance, start=path.last
     )
     check_shape(profile, later.depth)
-    return _joined(first, later, force, time)
-
-
-@dataclass(frozen=True, eq=False)
-class _Joined:
-    """A path by the scalar laws up to the first state of one on the chain."""
-
-    first: ScalarPath
-    later: Ramps
-
-    model = property(lambda self: self.later.model)
-
-    def elements(self, x, count):
-        """Line load (N/m) and elastic compression (m) at x (m) in the first states, shape (count, M)."""
-        before = len(self.first.lead)
-        parts = [self.first.elements(x, min(count, before))]
-        if count > before:
-            parts.append([values[1:] for values in self.later.elements(x, count - before + 1)])
-        return tuple(np.concatenate(values) for values in zip(*parts, strict=True))
-
-
-def _joined(first, later, force, time):
-    """`TimedIndentation` of a part by the scalar laws and one by the chain, from its last state on."""
-    count = len(first.time)
-    names = ("depth", "contact_radius", "stored_energy", "plastic_work", "viscous_work", "plastic_depth")
-    values = {name: np.append(getattr(first, name), getattr(later, name)[1:]) for name in names}
-    return TimedIndentation(
-        first.profile, first.medium, time=time, force=force, **values, error=first.error + later.error,
-        _index=np.append(np.arange(count), count - 1 + later._index[1:]),
-        _history=_Joined(first._history, later._history),
-    )  # fmt: skip
+    return joined(first, later, force, time)
 
 
 def _without_viscosity(profile, medium, force, time):

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..foundation.depth_path import TimedIndentation
+from ..foundation.depth_path import states_along
 from ..foundation.force_path import Start
 from ..medium import Medium
 from ..numerics.results import CLOSED_FORM, CREEP_LAW, Model
@@ -69,11 +69,11 @@ class ScalarPath:
         """The `TimedIndentation` of this path."""
         edge = np.asarray(self.interval.upper)
         radius = np.where(force > 0, self.profile.radius_at(edge), 0.0)
-        return TimedIndentation(
-            self.profile, self.medium, time, self.depth, force, radius,
-            stored_energy=self.stored_energy, plastic_work=self.plastic_work,
-            viscous_work=self.viscous_work, plastic_depth=self.interval.lower, error=error,
-            _index=np.arange(len(time)), _history=self,
+        return states_along(
+            self, np.arange(len(time)), profile=self.profile, medium=self.medium, time=time,
+            depth=self.depth, force=force, contact_radius=radius, stored_energy=self.stored_energy,
+            plastic_work=self.plastic_work, viscous_work=self.viscous_work,
+            plastic_depth=self.interval.lower, error=error,
         )  # fmt: skip
 
     @property

@@ -9,7 +9,7 @@ import numpy as np
 from .. import _check
 from .._check import Array, ArrayLike
 from ..medium import Medium
-from ..numerics.results import CLOSED_FORM, Limit, Result, above
+from ..numerics.results import CLOSED_FORM, Limit, Result, above, check_single
 from ..numerics.stable import root
 from ..profiles.profile import Profile
 from . import adhesion, stress
@@ -212,7 +212,7 @@ class Indentation(Result):
         >>> print(round(state.pressure(0.0), 12))  # Hertz: (2/π) E* √(d/R)
         0.063661977237
         """
-        self._one("pressure")
+        check_single(self, "pressure")
         interval, r = self.live_interval, self._radii(r)
         pressure = self.medium.E_star / np.pi * pressure_integral(self.profile, interval, r.ravel())
         if self.uniform_load != 0:
@@ -227,7 +227,7 @@ class Indentation(Result):
 
     def line_load(self, x: ArrayLike) -> Array:
         """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (1), (17), (18)."""
-        self._one("line_load")
+        check_single(self, "line_load")
         interval, x = self.live_interval, self._radii(x, "coordinate x")
         ring = interval.upper - self.profile.reduced_at(np.minimum(x, self.contact_radius))
         # For x < c the compression is the length of the interval, which has no rounding of a difference.
@@ -241,7 +241,7 @@ class Indentation(Result):
         Its sum with `imprint` is d − z(r) under the indenter. Displacements of released elements that relax
         in a viscous medium are not included.
         """
-        self._one("surface")
+        check_single(self, "surface")
         r, radius = self._radii(r), self.contact_radius
         surface = self._displacement(self.live_interval, r)
         if self._ahead != 0:
@@ -251,7 +251,7 @@ class Indentation(Result):
 
     def imprint(self, r: ArrayLike) -> Array:
         """Depth (m) of the residual imprint at radii r (m), after the load is removed."""
-        self._one("imprint")
+        check_single(self, "imprint")
         return self._displacement(LiveInterval.elastic(self.live_interval.lower), r)
 
     def _displacement(self, interval, r):
@@ -273,7 +273,7 @@ class Indentation(Result):
         >>> print(round(state.stress(0.0, state.contact_radius).zz / state.pressure(0.0), 9))  # Huber: −1/2
         -0.5
         """
-        self._one("stress")
+        check_single(self, "stress")
         r, z = self._radii(r), stress.depths(z)
         _check.common_shape("stress", r=r, z=z)
         return stress.stress(self, *np.broadcast_arrays(r, z))
@@ -293,7 +293,7 @@ class Indentation(Result):
         >>> print(f"{peak.value / state.pressure(0.0):.3f} p0 at {peak.z / state.contact_radius:.3f} a")
         0.310 p0 at 0.481 a
         """
-        self._one("stress_peak")
+        check_single(self, "stress_peak")
         return stress.stress_peak(self, _check.one_of("quantity", quantity, stress.SIZES))
 
     def largest_stress(self, z: ArrayLike, quantity: str = "max_shear") -> Array:

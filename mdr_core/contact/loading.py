@@ -9,7 +9,7 @@ from .._check import ArrayLike
 from ..applicability import check_hardness, check_pair, check_reached, paths_on
 from ..medium import Medium
 from ..numerics.roots import increasing_root
-from ..profiles.profile import Profile
+from ..profiles.profile import Profile, check_known
 from ..profiles.shape_check import check_shape
 from . import adhesion
 from .indentation import Indentation
@@ -62,7 +62,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     """
     check_pair(profile, medium)
     depth = _check.finite_array("depth", depth, unit="m", most=_check.LONGEST)
-    depth = profile._known(paths_on(profile, medium, depth))
+    depth = check_known(profile, paths_on(profile, medium, depth))
     check_reached(profile, medium, depth)
     if np.any(medium.work_of_adhesion):
         return Indentation(profile, medium, depth, *adhesion.depth_path(profile, medium, depth))

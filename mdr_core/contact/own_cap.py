@@ -104,9 +104,9 @@ class OwnCap(RadiusCap):
         return work, np.concatenate(halved_row), np.concatenate(halved_at)
 
     def _pieces(self, row, start, stop, imprint, increase):
-        """`_piece` of loadings `row` of the ensemble, one piece a row of the penetrations (M, 1)."""
+        """`piece` of loadings `row` of the ensemble, one piece a row of the penetrations (M, 1)."""
         own = self.entries(row) if self.shape else self
-        return own._piece(start, stop, imprint[row], increase[row])
+        return own.piece(start, stop, imprint[row], increase[row])
 
     def wall_integral(self):
         # Without a wall its limit for a → ∞ is not known: a force that is too large has no depth.

@@ -99,7 +99,7 @@ class RadiusCap(YieldRule):
         cuts, total = self._cuts(imprint, increase), np.zeros(len(imprint))
         for start, stop in zip(cuts.T[:, :, None], cuts.T[1:, :, None], strict=False):
             if np.any(stop > start):
-                total += self._piece(start, stop, imprint, increase)
+                total += self.piece(start, stop, imprint, increase)
         return total
 
     def _cuts(self, imprint, increase):
@@ -112,7 +112,7 @@ class RadiusCap(YieldRule):
         cuts = np.hstack([first, *kinks, *passed_by_lower, first * (1 + self.scales), last])
         return np.sort(np.clip(cuts, first, last), axis=1)
 
-    def _piece(self, start, stop, imprint, increase):
+    def piece(self, start, stop, imprint, increase):
         """∫ u_c a(p) dp between two penetrations (m), one piece a row of (N, 1); 0 where stop is start."""
         node, weight = gauss_legendre(_NODES)
         # Past a kink and past the onset a(p) is a power of the distance, of a fourth at least.

@@ -10,10 +10,11 @@ from .. import _check
 from ..measured_curve import MeasuredCurve, named_segments, segments_of
 from . import words
 from .columns import SIZES, NoCurve, UnknownColumns, columns_of, size_of, stiffness_of
+from .headers import unit_of
 from .results import as_results, of_tests
 from .several import below_each_other, jumps, retract_of, side_by_side
 from .text import Table
-from .units import COLUMN_UNITS, cleaned, unit_of
+from .units import COLUMN_UNITS, cleaned
 
 #: Largest force (N) below which an instrument may be one with a cantilever, whose deflection counts.
 _SMALL = 1e-5

@@ -11,8 +11,9 @@ import numpy as np
 
 from .._check import Array
 from . import words
+from .headers import unit_of
 from .numbers import number_reader, numeric, with_comma
-from .units import Unit, cleaned, unit_of
+from .units import Unit, cleaned
 
 #: Largest number of characters of a line.
 _LONGEST_LINE = 10_000

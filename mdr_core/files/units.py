@@ -1,4 +1,7 @@
-"""Units in the headers of tables: symbols and words, prefixes, and powers of ten beside them."""
+"""Texts that are a unit and nothing else: symbols and words, prefixes, and powers of ten beside them.
+
+Where in the header of a column its unit stands is in `headers.py`.
+"""
 
 import re
 import unicodedata
@@ -48,46 +51,13 @@ _OTHERS = {
     "minuti": ("time", 60.0), "mins": ("time", 60.0),
     "hr": ("time", 3600.0), "hours": ("time", 3600.0), "msec": ("time", 1e-3), "µsec": ("time", 1e-6),
 }  # fmt: skip
-#: Units that are known and not read: their sizes are no powers of ten of SI units, or are several.
-_FOREIGN = re.compile(
-    r"[kmµ]?gf|[kmµ]?g|kgs|tf|lbf?s?|pounds?|ozf?|kp|p(on)?d|dyne?s?|kips?|grams?|gramm|gram+force|in|inch(es)?"
-    r"|mils?|thou|ft|[µu]in|a\.?u\.?|arb\.?( units?)?|%|counts?|lsb|bits?|px|pixels?|digits?", re.I
-)  # fmt: skip
 #: A power of ten: 10^-3, 10-3, 10**-3, 1e-6.
-_POWER = r"(?:10\s*(?:\^\s*\(?\s*([-+]?\d+)\s*\)?|([-+]\s?\d+))|1(?:[.,]0*)?[eE]([-+]?\d+))"
-_TIMES = r"\s*(?:[*·]|[xX](?=\s*1)|times)\s*"
-_BEFORE = re.compile(rf"(?:{_TIMES})?{_POWER}(?:{_TIMES}|\s*)(?=\S)")
-_AFTER = re.compile(rf"({_TIMES}|\s*/\s*|\s*){_POWER}")
-#: Words that scale a unit or a quantity, or stand for a function of it.
-_SCALES = (
-    "tens?|tenths?|hundreds?|hundredths?|thousands?|thousandths?|millions?|millionths?|billions?|trillions?|dozens?"
-    "|half|halves|double|zehner|zehntel|hunderte?|hundertstel|tausende?|tausendstel|million(?:en)?|dizaines?"
-    "|dixièmes?|centaines?|centièmes?|milliers?|millièmes?|decenas|décimas|cientos|centésimas|miles|milésimas"
-    "|decine|decimi|centinaia|centesimi|migliaia|millesimi"
-    "|atto|femto|pico|piko|nano|micro|mikro|milli|centi|zenti|deci|dezi|deca|deka|hecto|hekto|kilo|mega|giga|tera"
-    "|log(?:10|2|_?e)?|ln|sqrt|squared?|inverse|reciprocal|normali[sz]ed|norm|normiert|normalis[eé]e?s?"
-    "|dimensionless|relative|scaled?|skaliert|factor|faktor|facteur|multiplied|divided|x ?1[0 ]+"
-)
-#: What may not stand beside a unit: numbers that scale, prefixes on their own, functions.
-_SCALING = re.compile(
-    r"(?:[*·/÷]|(?<![^\W_])x)\s*\d[\d.,]*|\d+\s*[*·]|\d\s*x(?![^\W_])|^\s*10+\s|^\s*\d+[^\W\d_](?![^\W\d_])"
-    r"|\d+e[-+]?\d+|\d*\s*\^\S*|(?<![\d.])10\s?[-+]\s?\d+|e[-+]\d+"
-    rf"|(?<![^\W_])(?:{_SCALES})(?![^\W\d_])",
-    re.I,
-)
-_BRACKETS = re.compile(r"[(\[{<]([^()\[\]{}<>]*)[)\]}>]")
-#: What may stand behind the unit in a name, as in "Defl_pN_Rt".
-_LAST = re.compile(
-    r"[\s_-]+(ex|rt|ext|ret|extend|retract|approach|withdraw|trace|retrace|raw)$|[\s_]+\d+$", re.I
-)
-#: What stands before the slash of a compound unit, as of a rate.
-_A_UNIT = re.compile(r"[pnµumkMGcd]?[NmVgsJA]|[kMG]?Pa|1")
-#: A prefix that stands alone before a unit without one, or before a name: "Force m(N)", "kForce (N)".
-_LONE_PREFIX = re.compile(r"[^\W\d_][\s_]+[pnµumkM]\s*$|(?<![^\W\d_])[pnµumkM](?=[A-Z][a-z]{3})")
+POWER = r"(?:10\s*(?:\^\s*\(?\s*([-+]?\d+)\s*\)?|([-+]\s?\d+))|1(?:[.,]0*)?[eE]([-+]?\d+))"
+#: A sign or word of multiplication.
+TIMES = r"\s*(?:[*·]|[xX](?=\s*1)|times)\s*"
+_BEFORE = re.compile(rf"(?:{TIMES})?{POWER}(?:{TIMES}|\s*)(?=\S)")
 #: Smallest and largest sizes of units (SI) of a depth, force or time that anybody would write.
 _USUAL = {"length": (1e-12, 1.0), "force": (1e-12, 1e3), "time": (1e-6, 60.0), "voltage": (1e-6, 1.0)}
-#: Longest header of a column that is read.
-_LONGEST = 300
 
 
 @dataclass(frozen=True)
@@ -123,160 +93,28 @@ def cleaned(text):
 
 def unit_named(text):
     """Name of a known unit as in `COLUMN_UNITS`, or None."""
-    parsed = _parsed(cleaned(str(text)).strip(" ()[]"))
-    return parsed.name if parsed and not parsed.doubt and parsed.kind in COLUMN_UNITS else None
+    unit = unit_alone(cleaned(str(text)).strip(" ()[]"))
+    return unit.name if unit and not unit.doubt and unit.kind in COLUMN_UNITS else None
 
 
 @lru_cache(maxsize=4096)
-def unit_of(head, cell=""):
-    """`Unit` of a column with a name, and a cell in a line of units of its own where there is one."""
-    text, cell = cleaned(head)[:_LONGEST], cleaned(cell).strip()
-    if cell:
-        own = _parsed(cell.strip(" ()[]"))
-        if own is None:
-            return Unit(doubt=_doubt_of(cell.strip(" ()[]")))
-        return _with(own, text)
-    for find in (_in_brackets, _after_slash, _at_the_end):
-        parsed = find(text)
-        if parsed:
-            unit, remainder = parsed
-            return _with(unit, remainder)
-    return Unit(doubt=_foreign_in(text))
-
-
-def _with(unit, remainder):
-    """A unit with the doubt that is in the rest of the header."""
-    if unit.doubt or unit.kind not in COLUMN_UNITS:
-        return unit
-    beside = _SCALING.search(remainder) or (unit.size in (1.0, 60.0) and _LONE_PREFIX.search(remainder))
-    if beside:
-        return Unit(unit.kind, unit.name, unit.size, beside[0].strip())
-    for piece in _BRACKETS.findall(remainder):
-        other = _parsed(piece.strip())
-        if (other and (other.kind, other.size) != (unit.kind, unit.size)) or _FOREIGN.fullmatch(
-            piece.strip()
-        ):
-            return Unit(unit.kind, unit.name, unit.size, piece.strip())
-    return unit
-
-
-def _doubt_of(text):
-    """The text where it is a unit that is not read, or a number that scales; else nothing."""
-    return text if _FOREIGN.fullmatch(text) or _SCALING.search(text) or re.search(r"\d", text) else ""
-
-
-def _foreign_in(text):
-    """Text that looks like a unit and is none of this package, in a header that has no other."""
-    pieces = [
-        *_BRACKETS.findall(text),
-        *re.split(r"\s*/\s*|,\s*", text)[1:],
-        re.split(r"[\s_-]+", text.strip())[-1],
-    ]
-    for piece in map(str.strip, pieces):
-        if _FOREIGN.fullmatch(piece) or (
-            piece != text.strip() and re.fullmatch(r"[kmµunpM�?]\s?[Nm]", piece)
-        ):
-            return piece
-    beside = _SCALING.search(text)
-    return beside[0].strip() if beside else ""
-
-
-def _in_brackets(text):
-    """Unit of the last bracket that has one, and the header without it."""
-    for match in reversed(list(_BRACKETS.finditer(text))):
-        before, after = text[: match.start()], text[match.end() :]
-        pieces = [match[1], *(re.split("[,;:]", match[1]) if re.search("[,;:]", match[1]) else [])]
-        for piece in pieces:
-            unit = _parsed(
-                re.sub(r"^(in|en|units?|einheit)\b[:\s]*", "", piece.strip(), flags=re.I), _upper(text)
-            )
-            if unit is None:
-                continue
-            remainder = (
-                f"{before} {after}"
-                if piece is match[1]
-                else f"{before} {match[1].replace(piece, ' ')} {after}"
-            )
-            scale = _AFTER.match(after)
-            if scale:
-                remainder = f"{before} {after[scale.end() :]}"
-                unit = _scaled(unit, scale, inside=False)
-            else:
-                # "Depth x1e-6 (m)"
-                scale = re.search(rf"({_TIMES}){_POWER}\s*$", before)
-                if scale:
-                    remainder = f"{before[: scale.start()]} {after}"
-                    unit = _scaled(unit, scale, inside=False)
-            return unit, remainder
-        inner = _at_the_end(match[1])
-        if inner and (re.search(r"\d", match[1]) or re.search(r"(?<!\w)\w{1,2}(?!\w)", inner[1])):
-            # As in (0.1 mN), (10e-3 N), (m N).
-            return Unit(inner[0].kind, inner[0].name, inner[0].size, match[1].strip()), ""
-        if match[1].strip() == "h":
-            return Unit("time", "h", 3600.0), before
-        if re.search(r"[A-Za-zµ%].*[/^]|[/^-]\d", match[1]):
-            # A quantity of another kind, as (mN/s) or (nm^2).
-            return Unit(), before
-    return None
-
-
-def _after_slash(text):
-    """Unit after the slash of "h / nm", and what stands before it."""
-    before, slash, after = text.rpartition("/")
-    if not slash:
-        return None
-    before, after = before.strip(), after.strip()
-    tail = re.split(r"[\s,_(\[]+", before)[-1]
-    if _parsed(tail) or _parsed(f"{tail}/{after}") or _doubt_of(tail) or _A_UNIT.fullmatch(tail):
-        # "Load µN/s" is a rate, "Stiffness N/m" no length.
-        compound = _parsed(f"{tail}/{after}")
-        return (compound or Unit(), "")
-    unit = _parsed(after.strip("()[] "), _upper(text))
-    return None if unit is None else (unit, before)
-
-
-def _at_the_end(text):
-    """Unit at the end of a name, "Depth nm", "load_micro_N", "Defl_pN_Rt", and what stands before it."""
-    text = text.strip(" .:;,_-()[]")
-    for end in dict.fromkeys((text, _LAST.sub("", text))):
-        starts = [0, *(m.end() for m in re.finditer(r"[\s_,:;]+|(?<=[^\W\d_])-(?=[^\W\d_])", end))]
-        for start in starts:
-            unit = _parsed(end[start:].replace("_", " "), _upper(end))
-            if unit is not None:
-                before = end[:start]
-                number = re.search(r"(?:^|[\s_])(\d+(?:[.,]\d+)?)[\s_]*$", before)
-                if number and not re.fullmatch(r"[1-9]", number[1]):
-                    return Unit(unit.kind, unit.name, unit.size, f"{number[1]} {end[start:]}"), ""
-                scale = re.search(rf"({_TIMES}){_POWER}[\s_]*$", before)
-                if scale:
-                    return _scaled(unit, scale, inside=False), before[: scale.start()]
-                return unit, before
-    return None
-
-
-def _upper(text):
-    """Whether a header is all in capitals, in which a prefix is not told: MN, NM."""
-    return text.upper() == text and len(re.findall("[A-Z]", text)) > 3
-
-
-@lru_cache(maxsize=4096)
-def _parsed(text, capitals=False):
+def unit_alone(text, capitals=False):
     """`Unit` of a text that is a unit and nothing else, with powers of ten beside it, or None."""
     text = text.strip()
     if not text or len(text) > 60:
         return None
     before = _BEFORE.match(text)
     if before and not (remainder := text[before.end() :].strip()).startswith(("/", "^")):
-        unit = _parsed(remainder, capitals)
+        unit = unit_alone(remainder, capitals)
         if unit is None or unit.kind not in COLUMN_UNITS:
             return unit and Unit(unit.kind, unit.name, unit.size, before[0].strip())
-        return _scaled(unit, before, inside=True)
-    after = re.search(rf"({_TIMES}|\s*/\s*){_POWER}$", text)
+        return scaled(unit, before, inside=True)
+    after = re.search(rf"({TIMES}|\s*/\s*){POWER}$", text)
     if after and after.start():
-        unit = _parsed(text[: after.start()], capitals)
+        unit = unit_alone(text[: after.start()], capitals)
         if unit is None or unit.kind not in COLUMN_UNITS:
             return unit and Unit(unit.kind, unit.name, unit.size, after[0].strip())
-        return _scaled(unit, after, inside=True)
+        return scaled(unit, after, inside=True)
     return _plain(text, capitals)
 
 
@@ -371,7 +209,7 @@ def _capital(text):
     )
 
 
-def _scaled(unit, match, inside):
+def scaled(unit, match, inside):
     """A unit with a power of ten: it multiplies the unit, or the numbers, by what is usual of the two."""
     exponent = int(next(filter(None, match.groups()[-3:])).replace(" ", ""))
     divided = match.group(0).lstrip().startswith("/")

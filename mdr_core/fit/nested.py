@@ -148,7 +148,8 @@ def _in_a_hold(curves, state, i, contact, change):
             yield (
                 "rest",
                 f"no hold shows the drift of the depth: a drift of {engineering(_COMMON, 'm/s')} over the "
-                f"{duration:.3g} s after first contact would change E* by {100 * change * _COMMON:+.2g} %",
+                f"{engineering(duration, 's')} after first contact would change E* by "
+                f"{100 * change * _COMMON:+.2g} %",
             )
         return
     rate = np.polyfit(time[hold], depth[hold], 1)[0]

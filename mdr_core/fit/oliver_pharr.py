@@ -10,6 +10,7 @@ from ..applicability import check_pair
 from ..medium import Medium
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
+from ..show.quantities import engineering
 from . import creep as creeping
 from .errors import roughness
 from .first_contact import FirstContact, first_contact
@@ -263,9 +264,10 @@ def _values_and_errors(profile, depth, force, constants, contact):
     values, *noisy = results(*np.column_stack([solution, solution[:, None] + deviations]))
     # A contact radius of 0 or ∞ makes the modulus or the hardness so.
     if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
+        contact_depth = engineering(values[1], "m")
         raise ValueError(
-            f"the contact depth h − ε F/S = {values[1]:g} m must be positive and within the profile: "
-            "give depth from first contact, and force from the baseline"
+            f"the contact depth h − ε F/S = {contact_depth} must be positive and within the profile: give "
+            "depth from first contact, and force from the baseline"
         )
     parts = [values, *(results(*other) for other in others)]
     spread = np.ptp([part for part in parts if np.isfinite(part).all()], axis=0) / 2

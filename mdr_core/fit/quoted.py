@@ -56,13 +56,13 @@ class Quoted:
         return f"E* {value} {_SOURCES[self.source]}: {self.reason}"
 
 
-def quoted(fit):
-    """`Quoted` of one curve."""
+def quoted(fit, remarks):
+    """`Quoted` of one curve, with its remarks by their kinds."""
     if fit.invalid:
         return _none(fit.invalid[0])
     if fit.medium.q_c == np.inf:
-        return _of_the_fit(fit)
-    result, contact = unloading(fit)
+        return _of_the_fit(fit, remarks)
+    result, contact = unloading(fit, remarks)
     if result is None:
         return _none(contact)
     reason = f"the medium yields; first contact {contact}"
@@ -74,9 +74,9 @@ def _none(reason):
     return Quoted("E_star", None, None, None, reason)
 
 
-def _of_the_fit(fit):
+def _of_the_fit(fit, remarks):
     """`Quoted` of a medium that is elastic."""
-    if doubts := _doubts(fit, NOT_COMPARABLE):
+    if doubts := _doubts(remarks, NOT_COMPARABLE):
         return _none(f"the elastic model does not fit: {doubts[0]}")
     if "E_star" not in fit.standard_errors:
         return _none("E_star is held")
@@ -86,22 +86,22 @@ def _of_the_fit(fit):
     return Quoted("E_star", value, error, "fit", "the medium is elastic")
 
 
-def _doubts(fit, kinds):
-    """Remarks of some kinds on one curve."""
-    return [text for kind, text in fit._remarks[0].items() if kind.partition(":")[0] in kinds]
+def _doubts(remarks, kinds):
+    """Remarks of some kinds."""
+    return [text for kind, text in remarks.items() if kind.partition(":")[0] in kinds]
 
 
-def unloading(fit) -> tuple[OliverPharr | None, str]:
+def unloading(fit, remarks) -> tuple[OliverPharr | None, str]:
     """Results of Oliver and Pharr for one fitted curve, and what first contact is; or None, and why.
 
     First contact is that of the record where it begins in the air, or at its own zero; else that of the
-    fit, with its error, unless the model does not fit.
+    fit, with its error, unless the model does not fit, of which its remarks by their kinds tell.
     """
     for name, text in (("eta", "viscous"), ("work_of_adhesion", "adhesive")):
         if name in fit.standard_errors or getattr(fit.medium, name) > 0:
             return None, f"the medium is {text}: its unloading does not follow a power law"
     # Beside a law of hardness that does not fit, these are of the law, not of the force.
-    if not _doubts(fit, {"misfit"}) and (doubts := _doubts(fit, OF_THE_FORCE)):
+    if not _doubts(remarks, {"misfit"}) and (doubts := _doubts(remarks, OF_THE_FORCE)):
         return None, f"the force of the contact is not known: {doubts[0]}"
     # Without background the measured force is that of the contact plus the residual.
     force = fit.path.force + fit.residuals
@@ -113,7 +113,7 @@ def unloading(fit) -> tuple[OliverPharr | None, str]:
             return result, "is held"
         if _begins_at_contact(fit.depth, force):
             return _evaluated(fit, fit.depth, force), "is at depth 0"
-        if doubts := _doubts(fit, DOUBTS):
+        if doubts := _doubts(remarks, DOUBTS):
             return (
                 None,
                 f"the model does not fit, so that its contact point is not first contact: {doubts[0]}",

@@ -11,13 +11,13 @@ from .._check import Array, ArrayLike
 from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..medium import Medium
-from ..show.quantities import described, engineering
-from ..show.report import attributes as attributes_of
-from ..show.report import dimensions, imported
+from ..numerics.results import check_single
+from ..show.quantities import engineering
 from .classes import ClassFit, HardnessVerdict, class_of_hardness, fit_again, fits_of_classes, verdict
+from .dataset import SAMPLES, dataset_of
 from .figures import plot_fit
 from .measurement import Measurement
-from .oliver_pharr_result import OLIVER_PHARR
+from .oliver_pharr_result import OLIVER_PHARR, OliverPharr
 from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
 from .quoted import Quoted, quoted, unloading
 from .remarks import by_importance, missing, remarks_of
@@ -26,9 +26,8 @@ from .report import Fit, with_error
 if TYPE_CHECKING:
     import xarray
 
-#: Fields with one entry per curve, and with one per sample.
+#: Fields with one entry per curve; those with one per sample are `SAMPLES`.
 _OF_CURVES = ("contact_point", *BACKGROUND, "covariance", "reduced_chi_square", "block_length")
-_OF_SAMPLES = ("depth", "force", "time", "residuals")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -93,7 +92,7 @@ class IndentationFit(Fit):
         index = index if isinstance(index, slice) else curves
         longest = np.max(self._lengths[index], initial=0)
         noise = self.force_noise[index]
-        samples = {name: getattr(self, name) for name in _OF_SAMPLES}
+        samples = {name: getattr(self, name) for name in SAMPLES}
         return replace(
             self,
             medium=_medium(self.medium.entries(index)),
@@ -157,7 +156,7 @@ class IndentationFit(Fit):
     @property
     def class_of_hardness(self) -> HardnessVerdict | None:
         """The class of hardness that one curve shows, None where there are no `classes`."""
-        self._one("class_of_hardness")
+        check_single(self, "class_of_hardness")
         if not self.classes:
             return None
         return class_of_hardness(self.classes, np.count_nonzero(np.isfinite(self.residuals)))
@@ -165,8 +164,8 @@ class IndentationFit(Fit):
     @cached_property
     def quoted(self) -> Quoted:
         """The modulus of one curve that is to be quoted, and of what it is; found when first read."""
-        self._one("quoted")
-        return quoted(self)
+        check_single(self, "quoted")
+        return quoted(self, self._remarks[0])
 
     def plot(self) -> Any:
         """Measured and fitted force over depth, and the residuals, of one curve as HoloViews elements.
@@ -174,7 +173,7 @@ class IndentationFit(Fit):
         The band of the residuals is one standard deviation of their noise, √(σ_F² + (S σ_d)²), S the
         stiffness. Drawn are measured depths and forces, with offset and background.
         """
-        self._one("plot")
+        check_single(self, "plot")
         self._refuse_invalid("plot")
         return plot_fit(self)
 
@@ -187,36 +186,7 @@ class IndentationFit(Fit):
         position : array_like, optional
             Positions (m) of the curves of a map on the surface, (R, 2): the coordinates x and y.
         """
-        xarray = imported("xarray", "to_xarray()")
-        # Zarr has no specification of texts of fixed length.
-        dims, parameters = dimensions(self), np.array(list(self.standard_errors), object)
-        variables = {}
-        for name, value in self.to_dict().items():
-            variables[name] = dims, value, PARAMETERS[name.removesuffix("_error")].quantity.attributes
-        for name in ("reduced_chi_square", "block_length"):
-            variables[name] = dims, getattr(self, name)
-        noise = (*dims, "sample") if self.force_noise.ndim > len(dims) else dims
-        variables["force_noise"] = noise, self.force_noise, {"units": "N"}
-        samples = {name: getattr(self, name) for name in _OF_SAMPLES}
-        samples = {name: values for name, values in samples.items() if values is not None}
-        for name, values in (samples | {"model": self.force - self.residuals}).items():
-            units = {"depth": "m", "time": "s"}.get(name, "N")
-            variables[name] = (*dims, "sample"), values, {"units": units}
-        variables["covariance"] = (*dims, "parameter", "other_parameter"), self.covariance
-        attributes = attributes_of(self) | {"indenter": described(self.profile), "model": str(self.model)}
-        attributes["remarks"] = "\n".join(self.remarks)
-        attributes["depth_noise"] = self.depth_noise
-        if self.invalid:
-            attributes["invalid_count"] = len(self.invalid)
-            attributes["invalid"] = "\n".join(f"curve {i}: {text}" for i, text in self.invalid.items())
-        coordinates = {"parameter": parameters, "other_parameter": parameters}
-        if position is not None:
-            position = _check.finite_array("position", position, unit="m", most=_check.LONGEST)
-            if position.shape != (*self.shape, 2):
-                raise ValueError(f"position {position.shape} must have x and y of each curve, (R, 2)")
-            for name, values in zip("xy", np.moveaxis(position, -1, 0), strict=True):
-                coordinates[name] = dims, values, {"units": "m", "long_name": f"position {name}"}
-        return xarray.Dataset(variables, coordinates, attributes)
+        return dataset_of(self, position)
 
     def _text(self, name, value, unit):
         # Whichever constant was fitted, an elastic medium has q_c = ∞, and 0 of the others.
@@ -258,7 +228,7 @@ class IndentationFit(Fit):
 
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
-        result, _ = unloading(self)
+        result, _ = unloading_of(self)
         if result is None or {"misfit", "jitter", "noisy"} & set(self._remarks[0]):
             return
         errors = result.standard_errors
@@ -286,6 +256,11 @@ class IndentationFit(Fit):
         if np.any(self.block_length > 1):
             lengths = engineering(self.block_length[~np.isnan(self.block_length)], "")
             yield "standard errors", f"block-wise (Newey–West), blocks of {lengths} samples"
+
+
+def unloading_of(fit: IndentationFit) -> tuple[OliverPharr | None, str]:
+    """Results of Oliver and Pharr for one fitted curve, and what first contact is; or None, and why."""
+    return unloading(fit, fit._remarks[0])
 
 
 class _MediumOrNone(Medium):

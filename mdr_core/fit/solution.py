@@ -7,6 +7,7 @@ import numpy as np
 
 from ..contact.integrals import tabulated
 from ..medium import Medium
+from ..profiles.profile import check_known
 from .adhesion import AdhesiveCurves
 from .curves import NO_WEIGHT, Curves
 from .depth_noise import with_depth_noise
@@ -121,7 +122,7 @@ def table_depth(profile, depth, held):
     if "contact_point" in held:
         largest = top - held["contact_point"]
         limit = max(limit, 1.01 * float(largest.max()))
-        profile._known(largest)
+        check_known(profile, largest)
     return min(limit, profile.known_depth)
 
 

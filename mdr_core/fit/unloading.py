@@ -4,6 +4,7 @@ from contextlib import suppress
 
 import numpy as np
 
+from ..show.quantities import engineering
 from .errors import roughness
 from .least_squares import least_squares
 
@@ -63,9 +64,10 @@ def _part(depth, force, upper, lower):
     first = np.flatnonzero(share[:end] >= upper)
     h, F = (values[first[-1] if first.size else end : end] for values in (h, F))
     if h.size < 5 or h.min() == 0:
+        largest = engineering(depth[start], "m")
         raise ValueError(
             f"the upper half of an unloading has {h.size} samples, 5 or more are needed: after the largest "
-            f"depth, {depth[start]:g} m (sample {start + 1} of {depth.size}), depth and force must decrease"
+            f"depth, {largest} (sample {start + 1} of {depth.size}), depth and force must decrease"
         )
     return h, F
 

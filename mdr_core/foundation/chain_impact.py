@@ -16,9 +16,10 @@ from ..numerics.motions import ImpactResult, Motion, instants
 from ..numerics.results import CHAIN, Limit, above
 from ..profiles.profile import Profile
 from .cap import plastic_depth
-from .foundation import Foundation, element_count
-from .free_body import ImpactSolver, foundation_before, impact_depth_bound
+from .foundation import Foundation, foundation_of
+from .free_body import ImpactSolver, impact_depth_bound, row_before
 from .refinement import refine
+from .row import element_count
 
 #: Elements, and steps per time scale, of the coarsest run; number of runs.
 _ELEMENTS, _STEPS, _RUNS = 150, 12, 8
@@ -92,8 +93,8 @@ def chain_impact(
     bound = impact_depth_bound(profile, medium, mass, speed, history)
 
     def solve(elements, depth, steps):
-        foundation = foundation_before(profile, medium, history, count or elements, depth)
-        return ImpactSolver(foundation, mass, speed, steps, bound).solved()
+        row = row_before(profile, medium, history, count or elements, depth)
+        return ImpactSolver(row, mass, speed, steps, bound).solved()
 
     # A first run determines the largest depth, at whose radius the next one has an edge.
     runs = [solve(_ELEMENTS, bound, _STEPS / 2)]
@@ -116,7 +117,7 @@ def chain_impact(
     errors = ChainErrors(**{name: errors[name] for name in ChainErrors._fields})
     return ChainImpact(
         profile, medium, mass, speed, **quantities, error=error, errors=errors,
-        foundation=runs[-1].foundation, _motion=runs[-1].motion,
+        foundation=foundation_of(runs[-1].row), _motion=runs[-1].motion,
     )  # fmt: skip
 
 

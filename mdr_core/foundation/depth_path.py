@@ -11,15 +11,15 @@ from .. import _check, abel
 from .._check import Array, ArrayLike
 from ..applicability import check_pair, check_reached, refuse_adhesion
 from ..medium import Medium
-from ..numerics.results import CHAIN, Limit, Model, Result, above
-from ..profiles.profile import Profile
+from ..numerics.results import CHAIN, Limit, Model, Result, above, check_single
+from ..profiles.profile import Profile, check_known
 from . import element
 from .cap import elastic_limit, plastic_depth
 from .element import Elements, Ramp
-from .foundation import Foundation
 from .fronts import force_and_radius
 from .grid import cell_edges
 from .refinement import refine
+from .row import Row
 
 #: Elements of the coarsest run; largest number of elements times depths of the finest.
 _ELEMENTS, _MAX_ELEMENT_STEPS = 256, 10**8
@@ -82,7 +82,7 @@ def indent_in_time(
     """
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
-    depth = profile._known(_check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
+    depth = check_known(profile, _check.finite_array("depth", depth, unit="m", most=_check.LONGEST))
     time = check_times(time, depth, "depth")
     tolerance = _check.positive_number("tolerance", tolerance)
     check_reached(profile, medium, np.max(depth))
@@ -92,7 +92,7 @@ def indent_in_time(
 
     def run(level):
         n = _ELEMENTS * 2**level + 4 * len(nodes)
-        return follow(Foundation(profile, medium, n + n % 2, half_width, nodes), depth, time)
+        return follow(Row.virgin(profile, medium, n + n % 2, half_width, nodes), depth, time)
 
     levels = 1 + max(0, int(np.log2(_MAX_ELEMENT_STEPS / (_ELEMENTS * depth.size))))
     # The contact radius, the last quantity, is not smooth in the step: it ends between elements.
@@ -106,16 +106,16 @@ def indent_in_time(
     )  # fmt: skip
 
 
-def follow(foundation, depth, time, advance=Foundation.advance, first=np.inf):
-    """The `_RECORD` of a foundation at each time of a path, shape (N, 5).
+def follow(row, depth, time, advance=Row.advance, first=np.inf):
+    """The `_RECORD` of a row at each time of a path, shape (N, 5).
 
     `first` is the time (s) in which the first depth is reached.
     """
     record = []
     for new_depth, dt in zip(depth, np.append(first, np.diff(time)), strict=True):
-        foundation = advance(foundation, new_depth, dt)
-        force, radius = force_and_radius(foundation)
-        works = foundation.energy_of_elements, foundation.plastic_work, foundation.viscous_work
+        row = advance(row, new_depth, dt)
+        force, radius = force_and_radius(row)
+        works = row.stored_energy, row.plastic_work, row.viscous_work
         record.append((force, *works, radius))
     return np.array(record)
 
@@ -178,6 +178,24 @@ class Ramps:
             elastic[i] = elements.elastic
             load[i] = np.where(elements.contact, medium.E_star * (elastic[i] + ramp.lag), 0.0)
         return load, elastic
+
+
+@dataclass(frozen=True, eq=False)
+class _Joined:
+    """A path of `count` states, the last one of which is the first one of another path."""
+
+    first: History
+    later: History
+    count: int
+
+    model = property(lambda self: self.later.model)
+
+    def elements(self, x, count):
+        """Line load (N/m) and elastic compression (m) at x (m) in the first states, shape (count, M)."""
+        parts = [self.first.elements(x, min(count, self.count))]
+        if count > self.count:
+            parts.append([values[1:] for values in self.later.elements(x, count - self.count + 1)])
+        return tuple(np.concatenate(values) for values in zip(*parts, strict=True))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -249,7 +267,7 @@ class TimedIndentation(Result):
 
     def line_load(self, x: ArrayLike) -> Array:
         """Line load q = E* u_e + 4ηḋ (N/m) of one state at x (m); Popov (2015), Eqs. (1), (17), (18)."""
-        self._one("line_load")
+        check_single(self, "line_load")
         return self.elements(x)[0]
 
     def elements(self, x: ArrayLike) -> tuple[Array, Array]:
@@ -269,7 +287,7 @@ class TimedIndentation(Result):
 
         Infinite at the contact radius while the dashpots carry load there.
         """
-        self._one("pressure")
+        check_single(self, "pressure")
         r, radius = _check.finite_array("radius r", r, unit="m"), float(self.contact_radius)
         if radius == 0:
             return np.zeros(r.shape)[()]
@@ -279,3 +297,24 @@ class TimedIndentation(Result):
         load = self.line_load(np.minimum(x, radius * (1 - 1e-12)))
         load[-1] = load[-1] if load[-1] > 1e-9 * load.max() else 0.0
         return 0.0 - abel.stress_from_line_load(x, load, r)
+
+
+def states_along(history: History, index: np.ndarray, **quantities: Any) -> TimedIndentation:
+    """The `TimedIndentation` of quantities by name, in states with these numbers along a history."""
+    return TimedIndentation(**quantities, _index=index, _history=history)
+
+
+def joined(first: TimedIndentation, later: TimedIndentation, force, time) -> TimedIndentation:
+    """One path of two, under forces (N) at times (s) of both; the last state of one begins the other.
+
+    The first one has all states of its history.
+    """
+    count = len(first.time)
+    names = ("depth", "contact_radius", "stored_energy", "plastic_work", "viscous_work", "plastic_depth")
+    values = {name: np.append(getattr(first, name), getattr(later, name)[1:]) for name in names}
+    return states_along(
+        _Joined(first._history, later._history, count),
+        np.append(np.arange(count), count - 1 + later._index[1:]),
+        profile=first.profile, medium=first.medium, time=time, force=force, **values,
+        error=first.error + later.error,
+    )  # fmt: skip

@@ -15,11 +15,11 @@ from .. import _check
 from ..applicability import check_pair, refuse_adhesion, refuse_own_law
 from ..numerics.roots import root_in_bracket
 from .cap import flat_face_load, plastic_depth
-from .depth_path import Ramps, TimedIndentation, check_times, follow
-from .foundation import Foundation
+from .depth_path import Ramps, check_times, follow, states_along
 from .fronts import force_and_radius
 from .grid import depth_bound
 from .refinement import extrapolate, refine
+from .row import Row
 
 #: Steps per piece of the path and elements of the coarsest run; number of runs; orders of their errors.
 _STEPS, _ELEMENTS, _RUNS, _ORDERS = 8, 200, 6, (1, 2)
@@ -71,12 +71,11 @@ class Start:
         penetration = np.where(contact, elastic, self.depth - virgin.reduced - plastic)
         return replace(virgin, penetration=penetration, elastic=elastic, plastic=plastic, contact=contact)
 
-    def put_on(self, foundation):
-        """A new foundation in this state."""
-        current = foundation._current
-        state = replace(
-            current,
-            elements=self.elements(current.elements),
+    def put_on(self, row):
+        """A new row in this state."""
+        return replace(
+            row,
+            elements=self.elements(row.elements),
             depth=self.depth,
             largest=self.largest,
             # d + τḋ is the edge.
@@ -84,7 +83,6 @@ class Start:
             plastic_work=self.plastic_work,
             viscous_work=self.viscous_work,
         )
-        return replace(foundation, _current=state)
 
 
 def chain_creep(profile, medium, force, time, *, tolerance=1e-4, start=None):
@@ -121,22 +119,22 @@ def chain_creep(profile, medium, force, time, *, tolerance=1e-4, start=None):
     largest = np.maximum(np.maximum.accumulate(path_depth)[index], depth)
     largest = np.maximum.accumulate(np.maximum(largest, before))
     elements = start and start.elements
-    return TimedIndentation(
-        profile, medium, time, depth, force, radius,
+    return states_along(
+        Ramps(profile, medium, path_time, path_depth, elements, before), index,
+        profile=profile, medium=medium, time=time, depth=depth, force=force, contact_radius=radius,
         **dict(zip(("stored_energy", "plastic_work", "viscous_work"), energies, strict=True)),
         plastic_depth=plastic_depth(profile, medium, largest),
-        error=float(errors[0]), _index=index,
-        _history=Ramps(profile, medium, path_time, path_depth, elements, before),
+        error=float(errors[0]),
     )  # fmt: skip
 
 
 class CreepRun(NamedTuple):
-    """One run: its last foundation, times (s) and depths (m) of its path, index of the given times on it.
+    """One run: its last row, times (s) and depths (m) of its path, index of the given times on it.
 
     `record` holds depth (m), stored energy, plastic and viscous work (J) at the given times.
     """
 
-    foundation: Foundation
+    row: Row
     time: np.ndarray
     depth: np.ndarray
     index: np.ndarray
@@ -148,50 +146,50 @@ def _creep_run(profile, medium, bound, n, force, time, steps, precision, start):
     bound = min(bound, profile.known_depth)
     # A path without contact has no width of its own.
     half_width = float(profile.contact_radius(bound)) or min(1.0, profile.known_radius)
-    foundation = Foundation(profile, medium, n, half_width)
+    row = Row.virgin(profile, medium, n, half_width)
     # A small force maintains contact where none is prescribed.
     close, smallest, rate = precision * bound, 1e-10 * np.max(force), 0.0
     # Times after the start of a piece increase as the cube of the step.
     fraction = (np.arange(steps + 1) / steps) ** 3
     if start is not None:
-        foundation = start.put_on(foundation)
-        rate = foundation._current.lag / medium.relaxation_time
+        row = start.put_on(row)
+        rate = row.lag / medium.relaxation_time
     elif force[0] > 0:
-        foundation = _step(foundation, np.inf, force[0], 0.0, bound, close)
-    path_time, path_depth, record = [time[0]], [foundation.depth], [_recorded(foundation)]
+        row = _step(row, np.inf, force[0], 0.0, bound, close)
+    path_time, path_depth, record = [time[0]], [row.depth], [_recorded(row)]
     for (start, first), (stop, last) in pairwise(zip(time, force, strict=True)):
         for lower, upper in pairwise(fraction):
             dt, target = (stop - start) * (upper - lower), first + (last - first) * upper
-            foundation = _step(foundation, dt, max(target, smallest), rate * dt, bound, close)
-            rate = (foundation.depth - path_depth[-1]) / dt
+            row = _step(row, dt, max(target, smallest), rate * dt, bound, close)
+            rate = (row.depth - path_depth[-1]) / dt
             path_time.append(path_time[-1] + dt)
-            path_depth.append(foundation.depth)
-        record.append(_recorded(foundation))
+            path_depth.append(row.depth)
+        record.append(_recorded(row))
     index = steps * np.arange(len(time))
-    return CreepRun(foundation, np.array(path_time), np.array(path_depth), index, np.array(record))
+    return CreepRun(row, np.array(path_time), np.array(path_depth), index, np.array(record))
 
 
-def _recorded(foundation):
-    return foundation.depth, foundation.energy_of_elements, foundation.plastic_work, foundation.viscous_work
+def _recorded(row):
+    return row.depth, row.stored_energy, row.plastic_work, row.viscous_work
 
 
-def _step(foundation, dt, force, guess, bound, close):
-    """Foundation after a time dt (s) under a force (N) at its end, from a guess of the travel (m)."""
-    medium, room = foundation.medium, bound - foundation.depth
+def _step(row, dt, force, guess, bound, close):
+    """`Row` after a time dt (s) under a force (N) at its end, from a guess of the travel (m)."""
+    medium, room = row.medium, bound - row.depth
 
     def excess(travel):
-        moved = foundation.ramp_to(foundation.depth + travel, dt)
-        elements, lag = moved._elements, moved._current.lag
-        spring = (elements.elastic < moved._limit) + medium.relaxation_time / dt
+        moved = row.ramp_to(row.depth + travel, dt)
+        elements, lag = moved.elements, moved.lag
+        spring = (elements.elastic < moved.elastic_limit) + medium.relaxation_time / dt
         total, radius = force_and_radius(moved)
-        stiffness = max(moved._total(elements.contact * spring), 1e-300)
-        slope = foundation.profile.reduced_slope(radius)
+        stiffness = max(moved.total(elements.contact * spring), 1e-300)
+        slope = row.profile.reduced_slope(radius)
         if lag > 0 and slope > 0:
             # Dashpots that come into contact as the radius increases.
             stiffness += 2 * medium.E_star * lag / slope
         return total - force, stiffness, moved
 
-    return root_in_bracket(excess, min(guess, room), -foundation.depth, room, close)
+    return root_in_bracket(excess, min(guess, room), -row.depth, room, close)
 
 
 def _consistent_path(runs, force, start):
@@ -200,12 +198,12 @@ def _consistent_path(runs, force, start):
     It is the extrapolated path, or that of the finest run where unloading is so steep that the extrapolated
     one does not carry the force. The rate at the end of each piece is adjusted to carry it exactly.
     """
-    finest, time, index = runs[-1].foundation, runs[-1].time, runs[-1].index
+    finest, time, index = runs[-1].row, runs[-1].time, runs[-1].index
     profile, medium = finest.profile, finest.medium
     for depth in (_extrapolated_depth(runs), runs[-1].depth):
         half_width = max(finest.half_width, float(profile.contact_radius(max(np.max(depth), 0.0))))
-        foundation = Foundation(profile, medium, finest.n, half_width)
-        record = _followed(foundation, depth, time, start)[index]
+        row = Row.virgin(profile, medium, finest.n, half_width)
+        record = _followed(row, depth, time, start)[index]
         carried, radius = record[:, 0], record[:, -1]
         if np.all(np.abs(carried - force) <= np.max(force) / 16):
             break
@@ -218,12 +216,12 @@ def _consistent_path(runs, force, start):
     return time, depth, index + np.arange(len(index)), radius
 
 
-def _followed(foundation, depth, time, start):
+def _followed(row, depth, time, start):
     """`follow` in one ramp for each depth; with a `Start` the first depth is where it is."""
     if start is None:
-        return follow(foundation, depth, time, Foundation.ramp_to)
-    first = start.put_on(foundation)
-    later = follow(first, depth[1:], time[1:], Foundation.ramp_to, time[1] - time[0])
+        return follow(row, depth, time, Row.ramp_to)
+    first = start.put_on(row)
+    later = follow(first, depth[1:], time[1:], Row.ramp_to, time[1] - time[0])
     force, radius = force_and_radius(first)
     return np.vstack([(force, 0.0, 0.0, 0.0, radius), later])
 

@@ -17,9 +17,9 @@ from ..numerics.roots import root_in_bracket
 from . import element
 from .cap import elastic_limit, plastic_depth
 from .element import Elements, Exchange, Ramp
-from .foundation import Foundation
 from .fronts import force_and_radius
 from .grid import depth_bound
+from .row import Row
 
 #: Largest number of steps, and largest depth over critical depth.
 _MAX_STEPS, _MAX_DEPTH_RATIO = 20_000, 1e11
@@ -45,16 +45,16 @@ def impact_depth_bound(profile, medium, mass, speed, history):
     return bound
 
 
-def foundation_before(profile, medium, history, n, depth):
-    """Foundation after earlier moves, with edges at the radii of these and of a depth (m) to come."""
+def row_before(profile, medium, history, n, depth):
+    """`Row` after earlier moves, with edges at the radii of these and of a depth (m) to come."""
     level = np.array([earlier_depth(history), depth])
     level = np.append(level, plastic_depth(profile, medium, level))
     nodes = profile.contact_radius(level[level > 0]) if n >= 16 else ()
     outer = min((1.02 + 2 / n) * level.max(), profile.known_depth)
-    foundation = Foundation(profile, medium, n, profile.contact_radius(outer), nodes=tuple(nodes))
+    row = Row.virgin(profile, medium, n, profile.contact_radius(outer), nodes)
     for move, dt in history:
-        foundation = foundation.advance(move, dt)
-    return foundation
+        row = row.advance(move, dt)
+    return row
 
 
 class BodyStep(NamedTuple):
@@ -69,33 +69,33 @@ class BodyStep(NamedTuple):
 class ImpactSolver:
     """Time integration of one impact.
 
-    `solved()` has its `motion`, the `foundation` at the end of contact, and `quantities`.
+    `solved()` has its `motion`, the `row` at the end of contact, and `quantities`.
     """
 
-    def __init__(self, foundation, mass, speed, steps, bound):
-        self.foundation, self.steps, self.bound = foundation, steps, bound
+    def __init__(self, row, mass, speed, steps, bound):
+        self.row, self.steps, self.bound = row, steps, bound
         self.mass, self.speed, self.velocity, self.acceleration = mass, speed, speed, 0.0
-        self.time, self.records, medium = 0.0, [], foundation.medium
-        self.earlier_depth, self.tau = earlier_depth(foundation.history), medium.relaxation_time
-        self.yield_depth = max(self.earlier_depth, foundation._current.onset)
+        self.time, self.records, medium = 0.0, [], row.medium
+        self.earlier_depth, self.tau = earlier_depth(row.history), medium.relaxation_time
+        self.yield_depth = max(self.earlier_depth, row.onset)
         # Velocities are computed to twelve digits of the velocity that damping leaves.
         tau = max(self.tau, bound * 1e-9 / speed)
-        limit = elastic_limit(foundation.profile, medium, bound)
+        limit = elastic_limit(row.profile, medium, bound)
         self.precision = 1e-12 * min(speed, min(bound, limit) / tau)
         self._record()
 
     def solved(self):
         """The solver itself, after it has integrated from the start to the loss of contact."""
         self._approach()
-        first, untouched = len(self.records), self.foundation
+        first, untouched = len(self.records), self.row
         self._advance_until(lambda: self.velocity <= self.precision, self.bound / self.speed)
         turning_time, max_force = self.time, self._max_force(untouched, first)
         # Time scale of the rebound: of an oscillator of the stiffness 2E*a, or of its creep if overdamped.
-        rate = 2 * self.foundation.medium.E_star * force_and_radius(self.foundation)[1] / self.mass
+        rate = 2 * self.row.medium.E_star * force_and_radius(self.row)[1] / self.mass
         unit = 1 / (np.sqrt(rate) + self.tau * rate)
-        self._advance_until(lambda: self.velocity < 0 and not self.foundation._elements.contact.any(), unit)
+        self._advance_until(lambda: self.velocity < 0 and not self.row.elements.contact.any(), unit)
         # Contact ended in the last step where d + τḋ was the surface at the axis; no force acts afterwards.
-        penetration = self.foundation._elements.penetration[0]
+        penetration = self.row.elements.penetration[0]
         release_time = self.time - (penetration + self.tau * self.velocity) / self.velocity
         motion = self.motion = self._motion(max(release_time, turning_time))
         stored, viscous = motion.stored_energy, motion.viscous_work
@@ -114,9 +114,9 @@ class ImpactSolver:
     def _approach(self):
         """Move freely up to the surface at the axis, within 1e-9 of the depth bound."""
         for _ in range(1000):
-            elements = self.foundation._elements
+            elements = self.row.elements
             surface = float(elements.reduced[0] + elements.plastic[0] + elements.elastic[0])
-            gap = surface - self.foundation.depth
+            gap = surface - self.row.depth
             if gap <= 1e-9 * self.bound or elements.contact.any():
                 return
             step, _ = self._trial(self.velocity, (gap - 1e-10 * self.bound) / self.velocity, self.velocity)
@@ -140,9 +140,9 @@ class ImpactSolver:
 
     def _trial(self, rate, dt, velocity):
         """Step at a constant rate (m/s) that ends with a velocity, and its impulse (N·s)."""
-        ramp = self.foundation._ramp(rate * dt, dt)
-        elements, exchange = element.advance(self.foundation._elements, ramp)
-        return BodyStep(ramp, elements, exchange, velocity), self.foundation._total(exchange.impulse)
+        ramp = self.row.ramp(rate * dt, dt)
+        elements, exchange = element.advance(self.row.elements, ramp)
+        return BodyStep(ramp, elements, exchange, velocity), self.row.total(exchange.impulse)
 
     def _step(self, dt):
         """Step of duration dt (s) that satisfies Newton's equation."""
@@ -150,7 +150,7 @@ class ImpactSolver:
 
         def excess(rate):
             step, impulse = self._trial(rate, dt, v)
-            slope = 2 * m + self.foundation._total(step.exchange.impulse_slope)
+            slope = 2 * m + self.row.total(step.exchange.impulse_slope)
             return 2 * m * (rate - v) + impulse, slope, step._replace(velocity=v - impulse / m)
 
         close = max(self.precision, 1e-12 * abs(v))
@@ -158,7 +158,7 @@ class ImpactSolver:
 
     def _step_to_yield(self, step):
         """The step, shortened to end where yield begins if it crosses that depth."""
-        travel = self.yield_depth - self.foundation.depth
+        travel = self.yield_depth - self.row.depth
         for _ in range(4):
             if not 1e-9 * self.yield_depth < travel < step.ramp.travel:
                 break
@@ -172,7 +172,7 @@ class ImpactSolver:
         def excess(dt):
             step, impulse = self._trial(v / 2, dt, 0.0)
             load = np.where(step.elements.contact, step.elements.elastic + step.ramp.lag, 0.0)
-            return impulse - m * v, self.foundation._total(load) or m * v / max_dt, step
+            return impulse - m * v, self.row.total(load) or m * v / max_dt, step
 
         guess = v / (v - velocity) * max_dt
         close = max(self.precision / v * guess, 1e-12 * max_dt)
@@ -181,29 +181,29 @@ class ImpactSolver:
     def _accept(self, step):
         self.acceleration = (step.velocity - self.velocity) / step.ramp.duration
         # The dashpots carry load at the velocity at the end, not at the mean rate of the step.
-        self.foundation = self.foundation._after(step.ramp, step.elements, step.exchange, step.velocity)
+        self.row = self.row.after(step.ramp, step.elements, step.exchange, step.velocity)
         self.velocity, self.time = step.velocity, self.time + step.ramp.duration
         self._record()
 
     def _record(self):
-        foundation, v = self.foundation, self.velocity
-        force, radius = force_and_radius(foundation)
-        live_depth = max(foundation._elements.elastic[0] + min(self.tau * v, 0.0), 0.0)
+        row, v = self.row, self.velocity
+        force, radius = force_and_radius(row)
+        live_depth = max(row.elements.elastic[0] + min(self.tau * v, 0.0), 0.0)
         self.records.append({
-            "time": self.time, "depth": foundation.depth, "velocity": v,
+            "time": self.time, "depth": row.depth, "velocity": v,
             "force": force, "contact_radius": radius,
-            "live_depth": live_depth if foundation._elements.contact[0] else 0.0,
-            "kinetic_energy": self.mass * v**2 / 2, "stored_energy": foundation.energy_of_elements,
-            "plastic_work": foundation.plastic_work, "viscous_work": foundation.viscous_work,
+            "live_depth": live_depth if row.elements.contact[0] else 0.0,
+            "kinetic_energy": self.mass * v**2 / 2, "stored_energy": row.stored_energy,
+            "plastic_work": row.plastic_work, "viscous_work": row.viscous_work,
         })  # fmt: skip
 
     def _columns(self):
         return {name: np.array([record[name] for record in self.records]) for name in self.records[0]}
 
-    def _max_force(self, foundation, first):
+    def _max_force(self, row, first):
         """Largest force (N) up to the turning point: of the steps, and of a parabola through three of them.
 
-        Blunt indenters have most of the dashpots' force at once: the `first` step, from the `foundation`
+        Blunt indenters have most of the dashpots' force at once: the `first` step, from the `row`
         before it, is sampled at times of every order of magnitude.
         """
         columns = self._columns()
@@ -212,8 +212,8 @@ class ImpactSolver:
         early_time, early = dt * np.geomspace(1e-9, 1.0, 40)[:-1], []
         for t in early_time:
             velocity = v + (slower - v) * t / dt
-            ramp = foundation._ramp((v + velocity) / 2 * t, t)
-            moved = foundation._after(ramp, *element.advance(foundation._elements, ramp), velocity)
+            ramp = row.ramp((v + velocity) / 2 * t, t)
+            moved = row.after(ramp, *element.advance(row.elements, ramp), velocity)
             early.append((moved.depth, force_and_radius(moved)[0]))
         time = np.append(time[first - 1] + early_time, time[first:])
         depth, force = np.append(np.transpose(early), [depth[first:], force[first:]], axis=1)
@@ -228,11 +228,11 @@ class ImpactSolver:
 
     def _motion(self, end):
         """`Motion` of the recorded steps, with the last one moved to the time (s) at which contact ends."""
-        columns, foundation = self._columns(), self.foundation
+        columns, row = self._columns(), self.row
         time, depth = columns["time"], columns["depth"]
         end = max(end, time[-2])
         time[-1], depth[-1] = end, depth[-1] + columns["velocity"][-1] * (end - time[-1])
         largest_depth = np.maximum(np.maximum.accumulate(depth), self.earlier_depth)
-        d_p = plastic_depth(foundation.profile, foundation.medium, largest_depth)
-        radius = np.where(d_p > 0, foundation.profile.contact_radius(d_p), 0.0)
+        d_p = plastic_depth(row.profile, row.medium, largest_depth)
+        radius = np.where(d_p > 0, row.profile.contact_radius(d_p), 0.0)
         return Motion(**columns, plastic_depth=d_p, plastic_radius=radius)

@@ -14,7 +14,7 @@ import numpy as np
 
 
 class _Side(NamedTuple):
-    """One side of a foundation: arrays with an entry for each element, numbered from the axis outward.
+    """A `Row` as fronts see it: arrays with an entry for each element, numbered from the axis outward.
 
     Element 0 is the one without width on the axis itself.
     """
@@ -34,11 +34,11 @@ class _Side(NamedTuple):
     dashpot_load: float
 
     @classmethod
-    def of(cls, foundation):
-        """That of a `Foundation` at present."""
-        elements, load = foundation._elements, foundation._load
+    def of(cls, row):
+        """That of a `Row` at present."""
+        elements, load = row.elements, row.line_load
         parts = elements.elastic, elements.plastic, elements.penetration
-        dashpot_load = foundation.medium.E_star * foundation._current.lag
+        dashpot_load = row.medium.E_star * row.lag
         return cls(elements.x, elements.width, load, elements.contact, *parts, dashpot_load)
 
     def last_yielded(self):
@@ -80,23 +80,23 @@ class _Boundary(NamedTuple):
         return [cls(i, 1) if contact[i] else cls(i + 1, -1) for i in changes]
 
 
-def force_and_radius(foundation):
+def force_and_radius(row):
     """Force (N) including the fronts, and outer radius (m) of the contact, 0 without contact."""
-    side = _Side.of(foundation)
+    side = _Side.of(row)
     total = float(side.load @ side.width) + _yield_correction(side)
     radius = 0.0
     for boundary in _Boundary.all(side.contact):
-        radius = _contact_front(foundation, side, boundary)
-        ring = _narrow_ring(foundation, side, boundary, radius)
+        radius = _contact_front(row, side, boundary)
+        ring = _narrow_ring(row, side, boundary, radius)
         total += _contact_correction(side, boundary, radius) if ring is None else ring
     if side.contact[-1]:
-        radius = min(foundation.half_width, _virgin_radius(foundation, foundation.depth))
+        radius = min(row.half_width, _virgin_radius(row, row.depth))
     return 2 * total, radius
 
 
-def _virgin_radius(foundation, depth):
+def _virgin_radius(row, depth):
     """Contact radius (m) at a depth on a virgin surface."""
-    return float(foundation.profile.radius_at(np.asarray(max(depth, 0.0))))
+    return float(row.profile.radius_at(np.asarray(max(depth, 0.0))))
 
 
 def _yield_correction(side):
@@ -124,7 +124,7 @@ def _yield_correction(side):
     return -slope * length**2 / 2
 
 
-def _narrow_ring(foundation, side, boundary, front):
+def _narrow_ring(row, side, boundary, front):
     """Correction (N) where yield ends within three elements of a virgin contact front, else None.
 
     There are too few elements for the slope of the load. It is constant up to the `kink`, the radius at
@@ -134,11 +134,11 @@ def _narrow_ring(foundation, side, boundary, front):
     yielded, last = side.last_yielded(), boundary.last
     if boundary.step < 0 or not 0 < yielded <= last < yielded + 3 or not side.virgin(boundary.free):
         return None
-    limit = foundation._limit
+    limit = row.elastic_limit
     if side.dashpot_load < 0 or side.elastic[yielded] != limit:
         return None
     edge = float(side.x[yielded] - side.width[yielded] / 2)
-    kink = _virgin_radius(foundation, foundation.depth - limit)
+    kink = _virgin_radius(row, row.depth - limit)
     if not edge <= kink <= front:
         return None
     plateau = side.load[yielded]
@@ -165,7 +165,7 @@ def _contact_correction(side, boundary, front):
     return boundary.step * (front - edge) * middle
 
 
-def _contact_front(foundation, side, boundary):
+def _contact_front(row, side, boundary):
     """Radius (m) of the front between the last element in contact and its free neighbour.
 
     On a virgin surface the contact radius; at release where the line through the last two loads is zero;
@@ -175,7 +175,7 @@ def _contact_front(foundation, side, boundary):
     last, free = boundary.last, boundary.free
     lower, upper = sorted((float(side.x[last]), float(side.x[free])))
     if boundary.step > 0 and side.virgin(free):
-        return min(max(_virgin_radius(foundation, foundation.depth), lower), upper)
+        return min(max(_virgin_radius(row, row.depth), lower), upper)
     if side.dashpot_load < 0:
         front = _zero(side.x, side.load, last, boundary.second_last)
         if front is not None and lower <= front <= upper:

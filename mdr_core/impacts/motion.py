@@ -6,13 +6,15 @@ from ..applicability import refuse_adhesion
 from ..contact.indentation import Indentation
 from ..contact.yielding import yield_rule
 from ..numerics.motions import Motion, instants
+from ..numerics.results import check_single
+from .dense_motion import dense_motion
 
 
 def motion(hit, n, before_yield=0):
     """The `Motion` of one `Impact` at n instants, and so many more up to the onset of yield."""
     refuse_adhesion(hit.medium, "the motion of an impact")
-    hit._one("motion")
-    dense, medium, modulus = hit._dense_motion, hit.medium, 2 * hit.medium.E_star
+    check_single(hit, "motion")
+    dense, medium, modulus = dense_motion(hit), hit.medium, 2 * hit.medium.E_star
     rule, imprint = yield_rule(hit.profile, medium), hit.plastic_depth - hit.plastic_depth_increase
     time = instants(n, dense.turning_time, dense.end_time)
     if before_yield and hit.plastic_depth_increase > 0:

@@ -15,7 +15,6 @@ from ..medium import Medium
 from ..numerics.motions import ImpactResult, Motion
 from ..numerics.results import CLOSED_FORM, Entries, Limit, Model, above
 from ..profiles.profile import Profile
-from .dense_motion import dense_motion
 from .motion import motion
 from .scaling import FastLimit, fast_limit
 
@@ -59,11 +58,6 @@ class Impact(Entries, ImpactResult):
     def limits(self) -> tuple[Limit, ...]:
         """Where the model's assumptions end for these impacts, and the fast limit (23), (24), as data."""
         return above("show.limits").impact_limits(self)
-
-    # Kept, two motions of one impact are 1.4 times as fast.
-    @cached_property
-    def _dense_motion(self):
-        return dense_motion(self)
 
     @property
     def max_depth(self) -> Array:

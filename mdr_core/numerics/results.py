@@ -125,7 +125,11 @@ class Limit:
 
 
 class Record:
-    """Base class of results with quantities by name, which are arrays of one shape."""
+    """Base class of results with quantities by name, which are arrays of one shape.
+
+    A class of results gives the names below, and what a table says of its origin and limits. Others read
+    them by `Presentation` and `quantities_of`.
+    """
 
     #: Names of all quantities, of those in its `repr`, and of the dimensions.
     _quantities: ClassVar[tuple[str, ...]] = ()
@@ -196,20 +200,6 @@ class Record:
         """
         return above("show.report").dataset(self)
 
-    @property
-    def _noun(self):
-        """Noun for one entry."""
-        last = self._dimensions[-1]
-        return "instant" if last == "time" else last
-
-    def _one(self, what):
-        """Refuses a result of several entries where a single one is needed."""
-        if self.shape:
-            raise ValueError(
-                f"{what} needs a single {self._noun}, but this result has shape {self.shape}; select "
-                f"one first, as in result[-1].{what}(…)"
-            )
-
     def _source(self) -> Any:
         """The result with the profile, the medium and the model; None where there is none."""
         return None
@@ -226,6 +216,58 @@ class Record:
 
     def _repr_html_(self) -> str:
         return above("show.report").table_of_text(self)
+
+
+def quantities_of(kind: type[Record] | Record) -> tuple[str, ...]:
+    """Names of all quantities of a class of results, or of a result."""
+    return kind._quantities
+
+
+def check_single(result: Record, what: str) -> None:
+    """Refuses a result of several entries for something, `what`, that needs a single one."""
+    if result.shape:
+        raise ValueError(
+            f"{what} needs a single {Presentation(result).noun}, but this result has shape {result.shape}; "
+            f"select one first, as in result[-1].{what}(…)"
+        )
+
+
+@dataclass(frozen=True)
+class Presentation:
+    """What texts, tables and plots are told about a result beside its quantities."""
+
+    result: Record
+
+    @property
+    def name(self) -> str:
+        """The name under which it is shown, as "Impact"."""
+        return self.result._name
+
+    @property
+    def noun(self) -> str:
+        """Noun for one entry, as "state" or "instant"."""
+        last = self.dimensions[-1]
+        return "instant" if last == "time" else last
+
+    @property
+    def shown(self) -> tuple[str, ...]:
+        """Names of the quantities in its `repr`."""
+        return self.result._shown
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """Names of the dimensions that its class may have; the last one counts the states of a path."""
+        return self.result._dimensions
+
+    @property
+    def source(self) -> Any:
+        """The result with the profile, the medium and the model; None where there is none."""
+        return self.result._source()
+
+    @property
+    def limits(self) -> tuple[Limit, ...]:
+        """Limits of the model; found when they are asked for."""
+        return self.result._limits()
 
 
 class Result(Record):

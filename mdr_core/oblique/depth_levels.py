@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..contact.yielding import yield_rule
+from ..impacts.dense_motion import dense_motion
 
 #: Largest number of levels of a run.
 MOST_LEVELS = 6000
@@ -26,7 +27,7 @@ def levels(hit, inertia, halvings, instants=()):
 
     Steps of loading are halved in time; depths at `instants` (s) are levels as well.
     """
-    dense, max_depth, lower = hit._dense_motion, hit.max_depth, hit.plastic_depth
+    dense, max_depth, lower = dense_motion(hit), hit.max_depth, hit.plastic_depth
     loading, unloading, turn = dense.loading, dense.unloading, dense.turning_time
     instants = np.asarray(instants, dtype=float)
     early = np.append(_even_times(hit, loading, 0.0, inertia), instants[instants < turn])

@@ -13,7 +13,7 @@ from ..contact.yielding import yield_rule
 from ..impacts.impact import impact
 from ..impacts.result import Impact
 from ..medium import Medium
-from ..numerics.results import Entries, Model, Result
+from ..numerics.results import Entries, Model, Result, check_single
 from ..profiles.profile import Profile
 from ..show.limits import Limit, friction_limits, stick_limits
 from .oblique_motion import ObliqueMotion, oblique_motion
@@ -291,5 +291,5 @@ class ObliqueImpact(Entries, Result):
         >>> print(motion.stick_radius[0] == 0, (motion.stick_radius > 0).any())
         True True
         """
-        self._one("motion")
+        check_single(self, "motion")
         return oblique_motion(self, self.normal.motion(n), max(int(self._surface.halvings), 3))

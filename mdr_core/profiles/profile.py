@@ -182,7 +182,7 @@ class Profile(_check.Parameters, ABC):
         return np.broadcast_to(values, _check.common_shape(type(self).__name__, **given))
 
     def _known(self, depth):
-        """`depth` (m), if the profile is known to it."""
+        """`depth` (m), if the profile is known to it; a shape without an end may have another bound."""
         if np.all(self.known_depth == np.inf):
             return depth
         too_deep = depth > self.known_depth
@@ -198,3 +198,8 @@ class Profile(_check.Parameters, ABC):
                 "where the shape ends"
             )
         return f"deeper than {self._last}, {np.min(self.known_depth, initial=_check.LONGEST):g} m"
+
+
+def check_known(profile: Profile, depth: np.ndarray) -> np.ndarray:
+    """`depth` (m), if none of it exceeds what is known of the profile; else a refusal in its words."""
+    return profile._known(depth)

@@ -301,6 +301,17 @@ class Sampled(Profile):
         return self.reduced_slope_at(np.nextafter(self._r[1:], 0))
 
 
+def bent_vertices(profile: Sampled) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices between the facets of a polygon, from the tip outward; the samples without a bend are none.
+
+    Radii r and reduced heights g (m) of the N facets' ends, shape (N + 1,), and the changes of the slope at
+    their inner ends, shape (N,).
+    """
+    bent = profile._bend != 0
+    ends = np.append(bent, True)
+    return profile._r[ends], profile._g[ends], profile._bend[bent]
+
+
 def tip_through(r, z, most, averages):
     """Profile through measured radii r (m) and heights z (m), and the scatter (m) of these about it.
 

@@ -6,7 +6,7 @@ from .. import _check
 from ..impacts.scaling import MAX_ERROR, depth_in_fast_limit
 from ..numerics.results import Limit
 from ..profiles.power import Cone
-from ..profiles.sampled import Sampled
+from ..profiles.sampled import Sampled, bent_vertices
 from .quantities import engineering
 
 #: Slope up to which results are good, above which they are estimates, and above which the slope is
@@ -156,8 +156,7 @@ def _facet_limit(profile, medium):
     ratio = ratio[ratio > 0]
     if not isinstance(profile, Sampled) or not ratio.size:
         return
-    vertices = np.append(profile._bend != 0, True)
-    r, g, bend = profile._r[vertices], profile._g[vertices], profile._bend[vertices[:-1]]
+    r, g, bend = bent_vertices(profile)
     # A polygon with one bend or none is a shape of its own.
     if r.size < 4:
         return
@@ -278,7 +277,7 @@ def how_fast(hit):
         known = np.min(hit.profile.known_depth)
         text = (
             f"{equations} do not hold: in this limit the largest depth exceeds the known depth of the "
-            f"profile, {known:g} m."
+            f"profile, {engineering(known, 'm')}."
         )
         return (Limit("fast limit", np.inf, MAX_ERROR, True, text, equations),)
     limit = hit.fast_limit

@@ -3,10 +3,12 @@
 import numpy as np
 
 from ..contact.indentation import Indentation
+from ..numerics.results import check_single, quantities_of
 from . import figures
-from .figures import FORCE_ROWS, NOTHING, PRESSURE_ROWS, REST, SPRING_ROWS, Axis, line, parts
-from .quantities import QUANTITIES
+from .figures import FORCE_ROWS, NOTHING, PRESSURE_ROWS, Axis, line, parts
+from .quantities import QUANTITIES, engineering
 from .report import imported, title
+from .springs import REST, SPRING_ROWS, springs
 
 
 def overlay(heading, rows, columns, axes):
@@ -40,8 +42,9 @@ def overlay(heading, rows, columns, axes):
 
 def plot_curve(result, quantity, over):
     """A quantity of a result over another one: `Result.plot`."""
-    for name in {quantity, over} - set(result._quantities):
-        known = ", ".join(result._quantities)
+    quantities = quantities_of(result)
+    for name in {quantity, over} - set(quantities):
+        known = ", ".join(quantities)
         raise ValueError(f"{type(result).__name__} has no {name!r} to plot; it has {known}")
     if len(result.shape) != 1:
         raise ValueError(
@@ -49,7 +52,7 @@ def plot_curve(result, quantity, over):
         )
     x, y = (np.asarray(getattr(result, name)) for name in (over, quantity))
     axes = [_axis_of(name, values) for name, values in ((over, x), (quantity, y))]
-    if {"depth", "plastic_depth"} <= set(result._quantities):
+    if {"depth", "plastic_depth"} <= set(quantities):
         columns = figures.split(x, y, result.depth, result.plastic_depth)
         if (quantity, over) == ("force", "depth") and _stores(result):
             columns |= figures.work(result, len(x) - 1)
@@ -90,15 +93,14 @@ def plot_springs(state):
         Axis.fitting("x", "x, coordinate of the springs", "m", half, start=-half, end=half),
         Axis.fitting("z", "z, height", "m", height, start=base, end=height),
     ]
-    return overlay("1D foundation", SPRING_ROWS, figures.springs(state, half, base, height), axes)
+    return overlay("1D foundation", SPRING_ROWS, springs(state, half, base, height), axes)
 
 
 def _drawn_radius(state, what):
     """Half-width (m) of a plot: the radius of the contact or of the imprint, and a quarter more."""
-    state._one(what)
+    check_single(state, what)
     largest = max(float(state.contact_radius), float(state.plastic_radius))
     if not largest:
-        raise ValueError(
-            f"{what} needs a contact or an imprint, and there is none at d = {state.depth:g} m"
-        )
+        depth = engineering(state.depth, "m")
+        raise ValueError(f"{what} needs a contact or an imprint, and there is none at d = {depth}")
     return 1.25 * largest

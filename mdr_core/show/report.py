@@ -9,6 +9,7 @@ from importlib import import_module
 
 import numpy as np
 
+from ..numerics.results import Presentation
 from .quantities import QUANTITIES, described, engineering
 
 #: Quantities of results with more entries are not computed in order to be shown.
@@ -66,7 +67,7 @@ def dataset(result):
 
 def dimensions(result):
     """Names of the dimensions; the last one counts the states of a path."""
-    names, count = result._dimensions, len(result.shape)
+    names, count = Presentation(result).dimensions, len(result.shape)
     if count <= len(names):
         return names[len(names) - count :]
     return (*(f"{names[0]}_{i}" for i in range(count - len(names) + 1)), *names[1:])
@@ -74,7 +75,7 @@ def dimensions(result):
 
 def _parameters(result):
     """Array-valued parameters of profile and medium, by name."""
-    source, parameters = result._source(), {}
+    source, parameters = Presentation(result).source, {}
     for owner in (source.profile, source.medium) if source else ():
         values = {name: getattr(owner, name) for name in owner.__dataclass_fields__}
         parameters |= {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
@@ -83,30 +84,31 @@ def _parameters(result):
 
 def attributes(result):
     """Attributes of a table or a dataset, all of them texts."""
-    source, texts = result._source(), {"result": result._name}
+    about = Presentation(result)
+    source, texts = about.source, {"result": about.name}
     if source:
         texts |= {"model": str(source.model), "indenter": described(source.profile)}
         texts["medium"] = described(source.medium)
-    exceeded = [limit.sentence for limit in result._limits() if limit.exceeded]
+    exceeded = [limit.sentence for limit in about.limits if limit.exceeded]
     return texts | ({"limits": " ".join(exceeded)} if exceeded else {})
 
 
 def title(result):
     """First line of the `repr`: the name, the number of entries and the model."""
-    source = result._source()
-    noun = result._noun if np.prod(result.shape) == 1 else f"{result._noun}s"
+    about = Presentation(result)
+    noun = about.noun if np.prod(result.shape) == 1 else f"{about.noun}s"
     size = f"{' × '.join(map(str, result.shape)) or 'one'} {noun}"
-    return f"{result._name}: {size}{f', {source.model}' if source else ''}"
+    return f"{about.name}: {size}{f', {about.source.model}' if about.source else ''}"
 
 
 @singledispatch
 def rows(result):
     """Pairs of a label and a text, one for each line of the `repr`."""
-    source, many = result._source(), np.prod(result.shape) > _MANY
-    if source:
+    about, many = Presentation(result), np.prod(result.shape) > _MANY
+    if source := about.source:
         yield "indenter", described(source.profile)
         yield "medium", described(source.medium)
-    for name in result._shown:
+    for name in about.shown:
         quantity, label = QUANTITIES[name], name.replace("_", " ")
         # Quantities of a large ensemble are shown if they are there already.
         stored = name in _GIVEN or name in vars(result)
@@ -119,7 +121,7 @@ def limit_rows(result, most):
     """Rows on the limits that are exceeded, `most` at the most; none for a large ensemble."""
     if np.prod(result.shape) > _MANY:
         return
-    limits = [x for x in result._limits() if x.exceeded and x.concerns == "result"]
+    limits = [x for x in Presentation(result).limits if x.exceeded and x.concerns == "result"]
     first = limits if len(limits) <= most else limits[: max(most - 1, 0)]
     yield from (("limit", limit.sentence) for limit in first)
     if others := limits[len(first) :]:

@@ -67,6 +67,8 @@ def state(request, server, browser):
         of_page = query in ("?fit", "?theory")
         explorer = Explorer(context.new_page(), server.url + query, READY if of_page else "explorer.idle()")
         explorer.page.locator("[role=main]").wait_for(state="attached")
+        # Each component links the sheets itself, and shows before they are there.
+        explorer.wait("explorer.all().every((each) => !each.matches('link[rel=stylesheet]') || each.sheet)")
         if act:
             act(explorer)
         yield explorer

@@ -25,7 +25,8 @@ from app.plots import NAMED, PLOTS, D, F, P, R, X, force, pressure
 from app.quantities import CHOICES, lowered
 from app.shared.logarithmic import ticks
 from app.state import medium, preset_state, profile
-from mdr_core.show.figures import SPRINGS, line, mark, radii
+from mdr_core.show.figures import line, mark, radii
+from mdr_core.show.springs import SPRINGS
 from mdr_core.show.units import written
 
 from ..approx import approx

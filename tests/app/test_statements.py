@@ -12,7 +12,7 @@ from app.plots import PLOTS, D, F, P, X, force, springs, visible
 from app.quantities import CHOICES, QUANTITIES
 from app.shared.summary import summary
 from app.state import preset_state
-from mdr_core.show.figures import SPRINGS
+from mdr_core.show.springs import SPRINGS
 
 from ..approx import approx
 from .conftest import DROP

@@ -24,7 +24,7 @@ from coverage.numbits import numbits_to_nums
 
 ROOT = Path(__file__).parents[2]
 #: Files of texts and plots.
-LEFT_OUT = ("figures", "report", "progress", "quantities", "_errors", "__init__")
+LEFT_OUT = ("figures", "springs", "report", "progress", "quantities", "_errors", "__init__")
 #: Time (s) and number of tests for one change.
 _LONGEST, _MOST_TESTS = 240, 150
 OPERATORS = {

@@ -7,6 +7,7 @@ import pytest
 
 import mdr_core as mdr
 from mdr_core.foundation.fronts import force_and_radius
+from mdr_core.foundation.row import Row
 
 from ..approx import approx
 from ..shapes import POWER_LAWS, SHAPES, name
@@ -80,9 +81,9 @@ def test_a_thousand_elements_give_the_force_to_a_millionth(shape, history):
 def test_force_with_fronts_from_first_contact_on(medium, dt):
     """For a cone it is exact wherever contact ends: before the first element, and inside each one."""
     cone, d = mdr.Cone(0.3), 0.5 * D_C
-    foundation = mdr.Foundation(cone, medium, 40, cone.contact_radius(1.1 * d))
+    row = Row.virgin(cone, medium, 40, cone.contact_radius(1.1 * d))
     for depth in np.linspace(0.003, 1.0, 400) * d:
-        force, radius = force_and_radius(foundation.advance(depth, dt))
+        force, radius = force_and_radius(row.advance(depth, dt))
         rate = depth / dt
         expected = (medium.E_star * depth + 8 * medium.eta * rate) * cone.contact_radius(depth)
         # Straight line loads, summed over twenty elements.

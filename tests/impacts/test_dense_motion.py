@@ -13,7 +13,7 @@ from .test_equation_of_motion import E_STAR, MASS, SPEED, medium
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_times_and_depths_are_inverse(shape):
-    path = mdr.impact(shape, medium(0.3, shape, 10.0), MASS, SPEED)._dense_motion
+    path = dense_motion.dense_motion(mdr.impact(shape, medium(0.3, shape, 10.0), MASS, SPEED))
     for branch in (path.loading, path.unloading):
         time = np.linspace(branch.start.time, branch.end.time, 201)[1:-1]
         state = branch.at(time)
@@ -26,7 +26,7 @@ def test_times_and_depths_are_inverse(shape):
 def test_rates_are_those_of_the_equation_of_motion(shape):
     """The derivative of the depth is the velocity, to the square of the difference's step."""
     hit = mdr.impact(shape, medium(0.3, shape, 10.0), MASS, SPEED)
-    path = hit._dense_motion
+    path = dense_motion.dense_motion(hit)
     time = np.linspace(0.0, path.end_time, 50)[1:-1]
     step = 1e-5 * path.end_time
     early, late = path.at(time - step), path.at(time + step)
@@ -36,7 +36,7 @@ def test_rates_are_those_of_the_equation_of_motion(shape):
 
 def test_ends_are_exact():
     hit = mdr.impact(mdr.RoundedCone(1e-6, 0.3), mdr.Medium(E_STAR, 10.0, 20.0), MASS, SPEED)
-    path = hit._dense_motion
+    path = dense_motion.dense_motion(hit)
     start, turn, end = (path.at(np.array([t])) for t in (0.0, path.turning_time, path.end_time))
     assert (start.depth[0], start.velocity[0]) == (0.0, SPEED)
     assert turn.velocity[0] == 0.0
@@ -60,7 +60,7 @@ def test_an_oblique_impact_and_its_motion_solve_the_normal_motion_once(monkeypat
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_instants_within_rounding_of_the_ends_of_steps(shape):
     """The slope of the time by the share of a step may be zero there."""
-    path = mdr.impact(shape, medium(0.3, shape, 10.0), MASS, SPEED)._dense_motion
+    path = dense_motion.dense_motion(mdr.impact(shape, medium(0.3, shape, 10.0), MASS, SPEED))
     for branch in (path.loading, path.unloading):
         ends = branch.nodes(2)
         for shift in (-4e-16, -2e-16, 0.0, 2e-16, 4e-16):

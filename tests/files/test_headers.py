@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.files.units import unit_of
+from mdr_core.files.headers import unit_of
 
 from ..approx import approx
 
