@@ -3,7 +3,7 @@
 import re
 from math import isclose, isfinite, radians, tan
 
-from mdr_core.show.units import UNITS, Unit, digits, fitting
+from mdr_core.show.units import UNITS, Unit, digits, fitting, with_unit
 
 #: Units that are read, and shown where they were typed.
 _READ = {"length": (Unit("Å", 1e-10), Unit("um", 1e-6))}
@@ -20,7 +20,7 @@ def entry(value: float, unit: Unit) -> str:
         return digits(value)
     number = value / unit.factor
     exact = isclose(float(f"{number:.9g}"), number, rel_tol=1e-13)
-    return f"{number:{'.9g' if exact else '.5g'}} {unit.name}".strip()
+    return with_unit(f"{number:{'.9g' if exact else '.5g'}}", unit.name)
 
 
 def in_full(value: float, kind: str) -> str:

@@ -8,7 +8,7 @@ import panel as pn
 from mdr_core.reading import SIZES
 from mdr_core.show.units import UNITS, fitting
 
-from ..ui import WIDE, html, show
+from ..ui import WIDE, html, indexed, show
 from ..units import entry, read
 from . import words
 from .setting import CORRECTIONS, IN_TIME, MEDIA, NUMBERS, TIPS, Number, Setting, parameter
@@ -47,7 +47,7 @@ class Typed:
         self._text = ""
         self.field = field(pn.widgets.TextInput, "typed", label="", placeholder="type a value")
         self.said = html("", "note")
-        self.label = html(f"<label><i>{known.symbol}</i> {known.label}</label>", "name")
+        self.label = html(f"<label><i>{indexed(known.symbol)}</i> {known.label}</label>", "name")
         self.row = pn.Row(self.label, self.field, css_classes=["fields"], **WIDE)
         self.view = pn.Column(self.row, self.said, css_classes=["typed-number"], **WIDE)
         self.field.param.watch(self._typed, "value")

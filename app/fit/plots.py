@@ -99,7 +99,9 @@ class Plots:
             }
         for name, data in places.items():
             self.sources[name].data = data
-        self.force.legend.items[0].visible = bool(np.any(~used))
+        others, _, model = self.force.legend.items
+        others.visible = bool(np.any(~used))
+        model.visible = fit is not None
         parts = ("measured", "others")
         self._reach(self.force.x_range, [places[name]["x"] for name in parts], 0.03)
         self._reach(self.force.y_range, [places[name]["y"] for name in parts], 0.08)

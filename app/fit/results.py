@@ -165,6 +165,8 @@ class Results:
         text = _WELCOME
         if fit is not None:
             text = words.headline(fit, page.told, page.E)
+            if page.setting.poisson is None and fit.quoted.value is not None:
+                text += '<p class="of">Give ν on the left for Young’s modulus E of the sample.</p>'
         elif page.busy:
             text = f'<p class="waiting" role="status">{page.busy} …</p>'
         elif page.curve is not None and page.setting.missing:
@@ -209,6 +211,7 @@ class Results:
         page = self._page
         there = page.taken is not None
         show(self.curve, visible=there)
+        show(self.curve[1], visible=page.fit is not None)
         show(self.range, visible=there)
         if not there:
             return

@@ -90,7 +90,7 @@ def why(fit: IndentationFit) -> str:
     if "hardness" in fit.standard_errors:
         numbers = f"E*, {escape(value_of(fit, 'E_star'))}, and H, {escape(value_of(fit, 'hardness'))}, are"
     return (
-        f"<p>The model’s own {numbers} too large to quote: its contact radius is that of an elastic "
+        f"<p>The model’s own {numbers} not to be quoted: its contact radius is that of an elastic "
         "contact.</p>"
     )
 

@@ -24,6 +24,8 @@ class Map(Picture):
         glyph.name, glyph.level, self.bar = "image", "image", glyph.construct_color_bar(padding=2, width=12)
         self.bar.update(background_fill_color=None, bar_line_color=None)
         self.figure.add_layout(self.bar, "right")
+        # Behind lines of full strength the map is not seen.
+        self.figure.grid.grid_line_alpha = 0.25
 
     def columns(self, view: View, i: int) -> dict[Any, dict[str, list]]:
         found = super().columns(view, i)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _check
-from .units import KINDS, Unit, fitting
+from .units import KINDS, Unit, fitting, with_unit
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ def engineering(values, unit):
     fit = unit_of(float(f"{max(map(abs, ends)):.4g}"), unit)
     written = [_digits(end / fit.factor) for end in ends]
     text = written[0] if len(written) == 1 or written[0] == written[1] else " … ".join(written)
-    return f"{text} {fit.name}".rstrip()
+    return with_unit(text, fit.name)
 
 
 def unit_of(largest, unit):

@@ -104,4 +104,9 @@ def written(value: float, kind: str, count: int = 4) -> str:
     if value == 0 or not isfinite(value):
         return digits(value)
     unit = fitting(value, kind)
-    return f"{digits(value / unit.factor, count)} {unit.name}".strip()
+    return with_unit(digits(value / unit.factor, count), unit.name)
+
+
+def with_unit(number: str, unit: str) -> str:
+    """A number with its unit; a space stands between them, but before the sign of a degree."""
+    return f"{number}{'' if unit == '°' else ' '}{unit}".strip()

@@ -121,7 +121,7 @@ def test_a_slider_reaches_both_ends_and_returns_to_its_middle(server, context):
         explorer.change(press, key)
         # As it is typed: fifteen digits.
         assert float(explorer.link("attack=")["oblique.attack"]) == approx(bound, rel=1e-14)
-    shows(explorer, "α", "90 °")
+    shows(explorer, "α", "90°")
     assert explorer.problems == []
     explorer.page.close()
 

@@ -102,7 +102,7 @@ def test_repr_has_no_more_lines_however_many_limits_are_exceeded():
         (2.5e4, "", "25000"),
         (np.inf, "N/m", "inf N/m"),
         (1e-25, "J", "0.1 yJ"),
-        (0.7853981633974483, "rad", "45 °"),
+        (0.7853981633974483, "rad", "45°"),
         (5.0, "m^(1-n)", "5 m^(1-n)"),
         (4e-7, "m²", "0.4 mm²"),
         (3e-3, "kg", "3 g"),
