@@ -208,3 +208,16 @@ def test_the_speed_and_depth_of_onset_are_those_of_the_energy():
     viscous = state_with(DROP, damping="eta")
     for other in (state.replace(plastic_depth=2 * d_c), viscous, state_with(DROP, plasticity="none")):
         assert "yield_speed" not in numbers(follow(other))
+
+
+def test_a_drop_on_a_viscous_medium_says_what_the_dashpots_lose():
+    """With what is stored, plastic and kinetic it is the energy of the body, also at the end."""
+    course = solved(state_with(DROP, damping="eta"))
+    shown = {each.name: values for each, values in readouts.line(course).items()}
+    assert float(shown["viscous_work"][-1]) > 0
+    drive = course.scene.drive
+    kinetic = drive.mass * course.motion.velocity**2 / 2
+    balance = kinetic + course.motion.stored_energy + shown["plastic_work"] + shown["viscous_work"]
+    # The viscous solver keeps the balance to 10⁻⁶.
+    np.testing.assert_allclose(balance, drive.mass * drive.speed**2 / 2, rtol=2e-6)
+    assert "viscous_work" not in {each.name for each in readouts.line(solved(state_with(DROP)))}
