@@ -11,7 +11,7 @@ from bokeh.plotting import figure
 
 from mdr_core.show.figures import Axis
 
-from .plot import Plot, View, overlays, rows_of
+from .plot import OF_AXIS, Plot, View, overlays, rows_of
 from .quantities import lowered
 from .ui import JS, marked
 
@@ -58,7 +58,8 @@ class Layer:
         ys = _short([y for _, y, *_ in parts], axes[self.axis])
         if self.kind in ("areas", "lines"):
             rows = self.rows
-            found = {"xs": xs, "ys": ys, "symbol": [row.symbol for row in rows]}
+            symbol = {OF_AXIS: axes[self.axis].title.split(",")[0]}
+            found = {"xs": xs, "ys": ys, "symbol": [symbol.get(row.symbol, row.symbol) for row in rows]}
             found["row"] = [lowered(row.called(places[row.name])) for row in rows]
         else:
             rows = [row for row, x in zip(self.rows, xs, strict=True) for _ in x]

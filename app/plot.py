@@ -15,6 +15,8 @@ from .quantities import CHOICES
 from .registry import Registry
 from .state import State
 
+#: Symbol of a row that shows whatever is along its axis, which says its symbol first.
+OF_AXIS = "of its axis"
 _ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])
 
 

@@ -16,7 +16,7 @@ from ..changes import CONSTANTS, option, shown
 from ..extra import Extra
 from ..fields import slider_range
 from ..parts import Part, button
-from ..plot import Plot, View, axis
+from ..plot import OF_AXIS, Plot, View, axis
 from ..quantities import CHOICES, QUANTITIES, Option, in_words, lowered, quantity, read_data
 from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
@@ -285,8 +285,8 @@ class SweepPlot(Searched):
 SWEEP = SweepPlot(
     "sweep", "Sweep", "one parameter varied, all others fixed  § 10, § 20", (),
     (
-        *(line(name, "ink", 1.4, dash, "y") for name, dash in LINES.items()),
-        line("this scene", "elastic", 2.4, symbol="y"),
+        *(line(name, "ink", 1.4, dash, OF_AXIS) for name, dash in LINES.items()),
+        line("this scene", "elastic", 2.4, symbol=OF_AXIS),
         mark("present value"),
     ),
     find=found, asks=asked, quick=quick, tab="Sweep", order=90, picture=Logarithmic,

@@ -62,6 +62,10 @@ def test_restitution_over_speed_is_one_click(projector):
     projector.wait("explorer.model('sweep') && explorer.row('sweep', 'this scene')?.[0].length > 1")
     labels = projector.axis("sweep")["labels"]
     assert [label.split(",")[0] for label in labels] == ["v₀", "e"]
+    points, _ = projector.row("sweep", "this scene")
+    _, result, swept = projector.hover("sweep", "this scene", len(points) // 2)
+    assert re.fullmatch(r"e = 0\.\d+", result.strip())
+    assert swept.startswith("v₀ = ")
 
 
 def test_a_box_with_shift_is_zoomed_to_until_a_double_click_or_another_drive(projector):
