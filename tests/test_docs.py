@@ -155,6 +155,43 @@ def test_the_reference_has_all_public_names():
     assert set(mdr.__all__) <= documented
 
 
+#: What people search for first; a term of the glossary is the first answer of the site's search.
+SEARCHED = [
+    "spherical indenter",
+    "viscoelastic",
+    "DEM",
+    "Mindlin",
+    "friction",
+    "area function",
+    "restitution",
+    "hardness",
+    "JKR",
+    "Hertz",
+    "Sneddon",
+    "Berkovich",
+    "Oliver-Pharr",
+    "Oliver Pharr",
+    "creep",
+    "pile-up",
+    "PDMS",
+    "gold",
+    "AFM",
+    "Kelvin-Voigt",
+    "Kelvin Voigt",
+    "plastic zone",
+]
+
+
+@pytest.mark.parametrize("word", SEARCHED)
+def test_a_word_that_is_searched_for_is_a_term_with_an_answer(word):
+    entries = re.findall(
+        r"((?:^   \S.*\n)+)((?:^      \S.*\n)+)", (DOCS / "words.md").read_text("utf-8"), re.M
+    )
+    (answer,) = (answer for terms, answer in entries if f"   {word}\n" in terms)
+    # A name of the package, a page, or "No".
+    assert re.search(r"`|\*\*No\*\*", answer)
+
+
 class Links(HTMLParser):
     """Links, anchors, and addresses of what a page loads."""
 
