@@ -376,6 +376,13 @@ class TestWhatIsNoLaw:
         with pytest.raises(ValueError, match="grows with the contact radius"):
             mdr.impact(mdr.PowerLaw(coefficient=[0.3, 0.3], exponent=[2.0, 1.2]), rising, 1e-12, 1.0)
 
+    def test_each_of_several_punches_is_looked_at(self):
+        """A law that is negative below a radius is one for the wider punch alone."""
+        law = mdr.Medium(E, hardness=NixGao(1e9, -1.5e-6))
+        assert mdr.impact(mdr.FlatPunch(2e-6), law, 1e-12, 1.0).max_depth > 0
+        with pytest.raises(ValueError, match=r"σ_c = nan Pa at a = 1\S*e-06 m"):
+            mdr.impact(mdr.FlatPunch([1e-6, 2e-6]), law, 1e-12, 1.0)
+
     def test_its_functions_are_looked_at(self):
         with pytest.raises(ValueError, match="write it for arrays"):
             mdr.indent(BALL, mdr.Medium(E, hardness=Scalar(1e9)), 1e-8)
