@@ -149,6 +149,14 @@ def test_the_gallery_is_large_and_the_readme_short():
     assert len(PAGES[0].read_text(encoding="utf-8").splitlines()) <= 145
 
 
+def test_contributing_begins_with_the_environment_of_the_readme():
+    """Its first command is the README's, which `.ci/run` runs, with ruff besides."""
+    readme, contributing = (page.read_text(encoding="utf-8") for page in PAGES[:2])
+    command = re.search(r"python3 -m venv \.venv-test .*--group test", readme)[0]
+    first = re.search(r"```sh\n(.*)\n", contributing)[1]
+    assert first == f"{command} --group dev"
+
+
 def test_the_reference_has_all_public_names():
     text = "".join(page.read_text(encoding="utf-8") for page in (DOCS / "reference").glob("*.md"))
     documented = set(re.findall(r"^\.\. auto\w+:: (?:mdr_core\.)?(\w+)$", text, re.MULTILINE))
