@@ -376,6 +376,12 @@ class TestWhatIsNoLaw:
         with pytest.raises(ValueError, match="grows with the contact radius"):
             mdr.impact(mdr.PowerLaw(coefficient=[0.3, 0.3], exponent=[2.0, 1.2]), rising, 1e-12, 1.0)
 
+    def test_a_gap_between_the_radii_of_the_check_is_found_by_a_contact_in_it(self):
+        """It is 3 nm wide at 1 µm, where the check looks at every 70th nanometre."""
+        radius = np.linspace(0.5e-6, 2e-6, 2000)
+        with pytest.raises(ValueError, match=r"line_load\(a\) is nan at a = 1\.00[3-6]\d*e-06 m"):
+            mdr.indent(BALL, mdr.Medium(E, hardness=Gap(1e9)), radius**2 / BALL.radius)
+
     def test_each_of_several_punches_is_looked_at(self):
         """A law that is negative below a radius is one for the wider punch alone."""
         law = mdr.Medium(E, hardness=NixGao(1e9, -1.5e-6))
@@ -420,6 +426,11 @@ class Constant(HardnessLaw):
 
     def rate(self, a):
         return 0.0
+
+
+class Gap(Constant):
+    def at(self, a):
+        return np.where((a > 1.003e-6) & (a < 1.006e-6), np.nan, self.H)
 
 
 class Scalar(Constant):
