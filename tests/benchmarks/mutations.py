@@ -26,10 +26,11 @@ from coverage.numbits import numbits_to_nums
 ROOT = Path(__file__).parents[2]
 #: Files of texts and plots.
 LEFT_OUT = ("figures", "report", "progress", "quantities", "_errors", "__init__")
-#: Time (s) and number of tests for one change.
-_LONGEST, _MOST_TESTS = 240, 150
-#: Extents of the suite with options of pytest; the tests of each are among those of the next.
-EXTENTS = {"quick": ["--quick"], "default": [], "full": ["--full"]}
+#: Largest number of tests for one change.
+_MOST_TESTS = 150
+#: Extents of the suite: options of pytest, and the time (s) after which a change is taken to make it hang.
+#: The tests of each are among those of the next.
+EXTENTS = {"quick": (["--quick"], 240), "default": ([], 600), "full": (["--full"], 1800)}
 OPERATORS = {
     ast.Add: ast.Sub,
     ast.Sub: ast.Add,
@@ -107,11 +108,11 @@ def changes(path):
         yield Change(path, node.lineno, before, text, (code[:first] + text.encode() + code[last:]).decode())
 
 
-def run_tests(tree, *arguments):
-    """Whether the core's tests, or those named, pass in a copy of the tree."""
+def run_tests(tree, longest, *arguments):
+    """Whether the core's tests, or those named, pass in a copy of the tree within a time (s)."""
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments]
     try:
-        code = subprocess.run(command, cwd=tree, capture_output=True, timeout=_LONGEST).returncode
+        code = subprocess.run(command, cwd=tree, capture_output=True, timeout=longest).returncode
     except subprocess.TimeoutExpired:
         return False
     # 5 where --quick leaves all of them out.
@@ -157,8 +158,8 @@ def node_id(tree, context):
 
 def noticed_by(tree, tests):
     """The smallest extent of the suite in which one of the tests fails, None if none does."""
-    for extent, option in EXTENTS.items():
-        if not run_tests(tree, "-x", *option, *tests):
+    for extent, (option, longest) in EXTENTS.items():
+        if not run_tests(tree, longest, "-x", *option, *tests):
             return extent
     return None
 
