@@ -19,26 +19,36 @@ def pytest_configure(config):
     config.addinivalue_line(
         "markers", "full: is run with --full alone, because others notice nearly all it notices"
     )
+    config.addinivalue_line("markers", "few(n): so many cases of the test are run without --full")
 
 
 def pytest_collection_modifyitems(config, items):
     if config.option.full:
         return
-    most = 2 if config.option.quick else CASES
     tests = {}
     for item in items:
         tests.setdefault(item.nodeid.partition("[")[0], []).append(item)
     kept = set()
     for name, cases in tests.items():
         cases = [case for case in cases if not _left_out(case, config.option.quick)]
-        thinned = config.option.quick or any(map(_is_over_shapes, cases))
-        kept.update(_spread(name, cases, most) if thinned and len(cases) > most else cases)
+        most = _most(cases, config.option.quick)
+        kept.update(_spread(name, cases, most) if len(cases) > most else cases)
     config.hook.pytest_deselected(items=[item for item in items if item not in kept])
     items[:] = [item for item in items if item in kept]
 
 
 def _left_out(item, quick):
     return item.get_closest_marker("full") or (quick and item.get_closest_marker("slow"))
+
+
+def _most(cases, quick):
+    """The largest number of cases of one test that are run."""
+    if quick:
+        return 2
+    few = cases[0].get_closest_marker("few") if cases else None
+    if few:
+        return few.args[0]
+    return CASES if any(map(_is_over_shapes, cases)) else len(cases)
 
 
 def _parameters(item):

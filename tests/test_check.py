@@ -1,5 +1,6 @@
 """Whatever is handed in: a right answer, or an error that says what is wrong and what to do."""
 
+import itertools
 import re
 import threading
 
@@ -7,7 +8,6 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core import _hints
 
 from .approx import approx
 
@@ -286,14 +286,39 @@ def test_an_unknown_name_is_told_the_nearest_one(owner, name, says):
 )
 def test_cones_of_pyramids_have_their_area(name, degrees, area):
     """A = area h²: 4 tan²68° of Vickers, 3√3/2 of a corner of a cube; degrees with four digits."""
-    assert str(degrees) in _hints.model_hint(name)
+    with pytest.raises(AttributeError, match=rf"from_half_angle\({degrees}\)"):
+        getattr(mdr, name)
     assert np.pi / mdr.Cone.from_half_angle(degrees).slope ** 2 == approx(area, rel=1e-3)
+
+
+#: Names of models, shapes and materials that the package does not have, and words for its arguments.
+TRIED = (
+    "Berkovich Brinell Cattaneo Conical Conospherical COR Coulomb CubeCorner Cylinder DMT HalfSpace Hertz "
+    "JKR Johnson KelvinVoigt Material Maugis Maxwell Mindlin OliverPharr Punch Pyramid read_csv Sample "
+    "Sneddon SphericalIndenter Substrate Thornton Vickers Viscoelastic"
+)
+WORDS = (
+    "angle theta R diameter E modulus nu velocity energy gamma adhesion viscosity tau H poisson_ratio mu "
+    "force load displacement time critical_depth"
+)
+CALLED = (
+    mdr.Cone, mdr.Cone.from_half_angle, mdr.Cone.pyramid, mdr.Sphere, mdr.Medium, mdr.Medium.from_bodies,
+    mdr.impact, mdr.chain_impact, mdr.oblique_impact, mdr.indent, mdr.indent_to_force,
+)  # fmt: skip
 
 
 def test_what_a_hint_names_is_there():
     """Functions and classes of the package, and parameters and quantities of results."""
-    texts = [*_hints.MODELS.values(), *_hints.KEYWORDS.values()]
-    texts += [text for hints in _hints.KEYWORDS_OF.values() for text in hints.values()]
+    texts = []
+    for name in TRIED.split():
+        with pytest.raises(AttributeError, match=": take ") as unknown:
+            getattr(mdr, name)
+        texts.append(str(unknown.value))
+    for function, word in itertools.product(CALLED, WORDS.split()):
+        # A word that is a parameter is taken, and others are missing.
+        with pytest.raises(TypeError) as unknown:
+            function(**{word: 1.0})
+        texts.append(str(unknown.value))
     called = r"\b((?:[A-Z]\w+|indent\w*|impact|oblique_impact|creep|at_angle)(?:\.\w+)?)\("
     named = set(re.findall(called, " ".join(texts)))
     assert len(named) > 15

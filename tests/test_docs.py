@@ -4,6 +4,7 @@ import ast
 import doctest
 import importlib
 import inspect
+import os
 import pkgutil
 import re
 import shutil
@@ -148,10 +149,55 @@ def test_the_gallery_is_large_and_the_readme_short():
     assert len(PAGES[0].read_text(encoding="utf-8").splitlines()) <= 145
 
 
+def test_contributing_begins_with_the_environment_of_the_readme():
+    """Its first command is the README's, which `.ci/run` runs, with ruff besides."""
+    readme, contributing = (page.read_text(encoding="utf-8") for page in PAGES[:2])
+    command = re.search(r"python3 -m venv \.venv-test .*--group test", readme)[0]
+    first = re.search(r"```sh\n(.*)\n", contributing)[1]
+    assert first == f"{command} --group dev"
+
+
 def test_the_reference_has_all_public_names():
     text = "".join(page.read_text(encoding="utf-8") for page in (DOCS / "reference").glob("*.md"))
     documented = set(re.findall(r"^\.\. auto\w+:: (?:mdr_core\.)?(\w+)$", text, re.MULTILINE))
     assert set(mdr.__all__) <= documented
+
+
+#: What people search for first; a term of the glossary is the first answer of the site's search.
+SEARCHED = [
+    "spherical indenter",
+    "viscoelastic",
+    "DEM",
+    "Mindlin",
+    "friction",
+    "area function",
+    "restitution",
+    "hardness",
+    "JKR",
+    "Hertz",
+    "Sneddon",
+    "Berkovich",
+    "Oliver-Pharr",
+    "Oliver Pharr",
+    "creep",
+    "pile-up",
+    "PDMS",
+    "gold",
+    "AFM",
+    "Kelvin-Voigt",
+    "Kelvin Voigt",
+    "plastic zone",
+]
+
+
+@pytest.mark.parametrize("word", SEARCHED)
+def test_a_word_that_is_searched_for_is_a_term_with_an_answer(word):
+    entries = re.findall(
+        r"((?:^   \S.*\n)+)((?:^      \S.*\n)+)", (DOCS / "words.md").read_text("utf-8"), re.M
+    )
+    (answer,) = (answer for terms, answer in entries if f"   {word}\n" in terms)
+    # A name of the package, a page, or "No".
+    assert re.search(r"`|\*\*No\*\*", answer)
 
 
 class Links(HTMLParser):
@@ -172,31 +218,30 @@ class Links(HTMLParser):
             self.loaded.append(address)
 
 
-@pytest.mark.slow
-def test_the_site_is_built_without_warnings_and_its_links_lead_somewhere(tmp_path):
-    """Built without the pictures of the gallery. Nothing is loaded from other servers."""
+@pytest.fixture
+def site(tmp_path):
+    """The folder of the site: of `MDR_SITE`, which the README's command has built, or without pictures."""
+    if built := os.environ.get("MDR_SITE"):
+        return Path(built)
     for package in ("sphinx", "numpydoc", "myst_parser", "pydata_sphinx_theme", "sphinx_gallery", "panel"):
         pytest.importorskip(package)
-    build = [
-        sys.executable,
-        "-m",
-        "sphinx",
-        "-W",
-        "-q",
-        "-D",
-        "plot_gallery=0",
-        "-d",
-        str(tmp_path / "tree"),
-    ]
-    done = subprocess.run([*build, str(DOCS), str(tmp_path / "site")], capture_output=True, text=True)
+    folder = tmp_path / "site"
+    build = ("-m", "sphinx", "-W", "-q", "-D", "plot_gallery=0", "-d", tmp_path / "tree", DOCS, folder)
+    done = subprocess.run([sys.executable, *map(str, build)], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+    return folder
+
+
+@pytest.mark.slow
+def test_the_site_is_built_without_warnings_and_its_links_lead_somewhere(site):
+    """Nothing is loaded from other servers."""
     # A template of the theme is in _static.
-    files = [page for page in (tmp_path / "site").rglob("*.html") if "_static" not in page.parts]
+    files = [page for page in site.rglob("*.html") if "_static" not in page.parts]
     pages = {page.resolve(): Links(page) for page in files}
     assert len(pages) > len(EXAMPLES)
     # A scene to play stands on the first page, with its plots and the frames of its slider.
-    assert "scene.html" in pages[(tmp_path / "site" / "index.html").resolve()].loaded
-    assert {"player", "readout"} <= pages[(tmp_path / "site" / "scene.html").resolve()].anchors
+    assert "scene.html" in pages[(site / "index.html").resolve()].loaded
+    assert {"player", "readout"} <= pages[(site / "scene.html").resolve()].anchors
     for page, found in pages.items():
         for link in found.links + found.loaded:
             target, _, anchor = unquote(link).partition("#")

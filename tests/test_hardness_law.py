@@ -38,7 +38,7 @@ def both(mixture, **other):
 
 def assert_same(one, other, rel=1e-12, names=None):
     """All quantities of two results; a difference of depths or forces is relative to their largest."""
-    for name in names or one._quantities:
+    for name in names or one.to_dict():
         first, last = (np.asarray(getattr(each, name), dtype=float) for each in (one, other))
         scale = np.max(np.abs(last[np.isfinite(last)]), initial=0.0)
         np.testing.assert_allclose(first, last, rtol=rel, atol=rel * scale * 1e-2, err_msg=name)
@@ -86,7 +86,7 @@ class TestALawThatWritesTheSumOut:
         path = np.array([0.0, 2e-9, 3e-7, 2.9e-7, 1e-6, 0.999e-6, 0.9e-6])
         states, others = (mdr.indent(shape, medium, path) for medium in (law, constants))
         # The stiffness is a difference of widths.
-        assert_same(states, others, names=[n for n in states._quantities if n != "stiffness"])
+        assert_same(states, others, names=[n for n in states.to_dict() if n != "stiffness"])
         np.testing.assert_allclose(states.stiffness, others.stiffness, rtol=1e-9)
         r = np.linspace(0.0, 3e-6, 7)
         for i in (2, 4):
@@ -376,6 +376,19 @@ class TestWhatIsNoLaw:
         with pytest.raises(ValueError, match="grows with the contact radius"):
             mdr.impact(mdr.PowerLaw(coefficient=[0.3, 0.3], exponent=[2.0, 1.2]), rising, 1e-12, 1.0)
 
+    def test_a_gap_between_the_radii_of_the_check_is_found_by_a_contact_in_it(self):
+        """It is 3 nm wide at 1 µm, where the check looks at every 70th nanometre."""
+        radius = np.linspace(0.5e-6, 2e-6, 2000)
+        with pytest.raises(ValueError, match=r"line_load\(a\) is nan at a = 1\.00[3-6]\d*e-06 m"):
+            mdr.indent(BALL, mdr.Medium(E, hardness=Gap(1e9)), radius**2 / BALL.radius)
+
+    def test_each_of_several_punches_is_looked_at(self):
+        """A law that is negative below a radius is one for the wider punch alone."""
+        law = mdr.Medium(E, hardness=NixGao(1e9, -1.5e-6))
+        assert mdr.impact(mdr.FlatPunch(2e-6), law, 1e-12, 1.0).max_depth > 0
+        with pytest.raises(ValueError, match=r"σ_c = nan Pa at a = 1\S*e-06 m"):
+            mdr.impact(mdr.FlatPunch([1e-6, 2e-6]), law, 1e-12, 1.0)
+
     def test_its_functions_are_looked_at(self):
         with pytest.raises(ValueError, match="write it for arrays"):
             mdr.indent(BALL, mdr.Medium(E, hardness=Scalar(1e9)), 1e-8)
@@ -413,6 +426,11 @@ class Constant(HardnessLaw):
 
     def rate(self, a):
         return 0.0
+
+
+class Gap(Constant):
+    def at(self, a):
+        return np.where((a > 1.003e-6) & (a < 1.006e-6), np.nan, self.H)
 
 
 class Scalar(Constant):

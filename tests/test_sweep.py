@@ -21,7 +21,8 @@ SPEED = xr.DataArray(np.geomspace(1e-2, 1.0, 5), dims="speed")
 RADIUS = xr.DataArray([1e-6, 1e-5, 1e-4], dims="radius", coords={"radius": [1, 10, 100]})
 SPHERES = {"E_star": 1e9, "q_c": 10.0, "mass": 1e-12, "radius": RADIUS, "speed": SPEED}
 REST = {"radius": 1e-5, "E_star": 1e9, "q_c": 10.0, "mass": 1e-12}
-ALL = [name for name in mdr.Impact._quantities if name not in ("mass", "speed")]
+ONE = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, 10.0), 1e-12, 0.1)
+ALL = [name for name in ONE.to_dict() if name not in ("mass", "speed")]
 
 
 @pytest.mark.parametrize("eta", [0.0, 1.0])
@@ -167,18 +168,19 @@ class TestInvalid:
 
     SPEED = xr.DataArray([0.1, 0.2, -1.0, 0.3, 0.4, 0.5, np.nan, 1e9], dims="particle")
 
-    @pytest.mark.parametrize("size", [2**17, 3])
-    def test_an_error_has_the_index_in_the_stream(self, monkeypatch, size):
-        monkeypatch.setattr(sweep, "_BLOCK", size)
-        for start, says in ((0, r"speed\[2\] = -1 m/s must be"), (3, r"speed\[3\] = nan m/s must be")):
-            with pytest.raises(ValueError, match=says):
-                sweep.impacts(mdr.Sphere, **REST, speed=self.SPEED[start:])
-        with pytest.raises(ValueError, match=r"speed\[0\] = 1e\+09 m/s presses deeper"):
-            sweep.impacts(mdr.Sphere, **REST, speed=self.SPEED[7:])
+    @pytest.mark.parametrize("before", [0, 40_000])
+    @pytest.mark.parametrize(
+        ("start", "place", "says"),
+        [(0, 2, "-1 m/s must be"), (3, 3, "nan m/s must be"), (7, 0, r"1e\+09 m/s presses deeper")],
+    )
+    def test_an_error_has_the_index_in_the_stream(self, before, start, place, says):
+        """Also behind so many valid ones that the stream is solved in blocks."""
+        valid = xr.DataArray(np.full(before, 0.1), dims="particle")
+        speed = xr.concat([valid, self.SPEED[start:]], "particle")
+        with pytest.raises(ValueError, match=rf"speed\[{before + place}\] = {says}"):
+            sweep.impacts(mdr.Sphere, **REST, speed=speed)
 
-    @pytest.mark.parametrize("size", [2**17, 3])
-    def test_nan_counted_and_listed(self, monkeypatch, size):
-        monkeypatch.setattr(sweep, "_BLOCK", size)
+    def test_nan_counted_and_listed(self):
         radius = xr.DataArray([1e-5, -1.0], dims="radius")
         given = REST | {"radius": radius, "speed": self.SPEED}
         table = sweep.impacts(mdr.Sphere, **given, invalid="nan", quantities=("restitution", "max_depth"))
@@ -228,10 +230,14 @@ def test_an_ensemble_of_none():
     assert sweep.impacts(mdr.Sphere, **REST, speed=SPEED[:0]).restitution.shape == (0,)
 
 
-def test_blocks_do_not_show(monkeypatch):
-    whole = sweep.impacts(mdr.Sphere, **SPHERES)
-    monkeypatch.setattr(sweep, "_BLOCK", 4)
-    xr.testing.assert_allclose(sweep.impacts(mdr.Sphere, **SPHERES), whole, rtol=1e-13)
+def test_a_long_stream_is_that_of_its_parts():
+    """Also at the ends of the blocks in which it is solved, whatever their lengths."""
+    speed = xr.DataArray(np.geomspace(1e-2, 1.0, 40_000), dims="particle")
+    whole = sweep.impacts(mdr.Sphere, **REST, speed=speed)
+    parts = [
+        sweep.impacts(mdr.Sphere, **REST, speed=speed[rows]) for rows in (slice(7001), slice(7001, None))
+    ]
+    xr.testing.assert_allclose(whole, xr.concat(parts, "particle"), rtol=1e-13)
 
 
 class Terminal(io.StringIO):
@@ -246,7 +252,6 @@ def test_progress_is_shown_at_a_terminal(monkeypatch, kind):
     """As the number of entries or curves that are done, and nothing in a pipe."""
     pytest.importorskip("tqdm")
     monkeypatch.setattr(progress, "_DELAY", 0.0)
-    monkeypatch.setattr(sweep, "_BLOCK", 4)
     monkeypatch.setattr(sys, "stderr", kind())
     count = sweep.impacts(mdr.Sphere, **SPHERES).restitution.size
     depth = np.linspace(0.0, 60e-9, 50)

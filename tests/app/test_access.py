@@ -1,6 +1,7 @@
 """The pages without a mouse and without sight: landmarks, names, the focus and its ring, keys, axe."""
 
 import importlib.resources
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -16,8 +17,9 @@ GRAVE = ("serious", "critical")
 DESK, PHONE = (1280, 720), (390, 844)
 
 
+@cache
 def findings(page):
-    """What axe finds: its impact, its rule, and the elements."""
+    """What axe finds on a page when it is first asked: its impact, its rule, and the elements."""
     page.evaluate(AXE)
     found = page.evaluate("axe.run(document, { resultTypes: ['violations'] })")["violations"]
     return [(each["impact"], each["id"], [node["target"] for node in each["nodes"]]) for each in found]
@@ -60,8 +62,9 @@ STATES = {
 }
 
 
-@pytest.fixture(params=STATES)
+@pytest.fixture(scope="module", params=STATES)
 def state(request, server, browser):
+    """A page that several tests look at, and none of them changes."""
     query, act, (width, height) = STATES[request.param]
     with browser.new_context(viewport={"width": width, "height": height}) as context:
         of_page = query in ("?fit", "?theory")

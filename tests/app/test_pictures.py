@@ -53,7 +53,7 @@ def has(swatch, wanted):
     return (np.abs(swatch - wanted).max(axis=2) < 8).any()
 
 
-@pytest.fixture(params=["light", "dark"])
+@pytest.fixture(scope="module", params=["light", "dark"])
 def saved(request, server, context):
     """Pictures of an impact: of every plot that is seen, and whether they are dark."""
     dark = request.param == "dark"

@@ -81,6 +81,7 @@ def test_the_page_is_in_use_without_any_of_them(without, browser):
     assert "Traceback" not in without.log
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("end", IN_THE_BROWSER)
 def test_the_page_is_in_use_without_an_end_in_the_browser(end, without, browser):
     """Everything is drawn, played and saved, and one line of the console says what is not there."""

@@ -28,6 +28,10 @@ READ = {
     "DEPTH (NM)": 1e-9, "LOAD (UN)": 1e-6,
     "Load (mN, corrected)": 1e-3, "Time (min)": 60.0, "Zeit in Sekunden": 1.0, "Time (h)": 3600.0,
     "Stiffness (N/m)": 1.0, "S [mN/nm]": 1e6, "Load (mN) 1": 1e-3,
+    "k (mN/m)": 1e-3, "S (µN/nm)": 1e3, "S (N/nm)": 1e9, "Deflection (V)": 1.0, "Deflection (mV)": 1e-3,
+    "Load (kN)": 1e3, "Force (nN)": 1e-9, "Depth (mm)": 1e-3, "Depth (cm)": 1e-2, "Depth (pm)": 1e-12,
+    "Time (ms)": 1e-3, "Time (µs)": 1e-6, "Time (msec)": 1e-3, "Time (µsec)": 1e-6, "Time (hr)": 3600.0,
+    "Zeit (Minuten)": 60.0, "Profondeur (centimètres)": 1e-2, "位移 (纳米)": 1e-9, "时间 (毫秒)": 1e-3,
 }  # fmt: skip
 #: Units with something beside them that is not understood, or that has two readings.
 DOUBTFUL = (

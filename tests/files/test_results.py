@@ -60,6 +60,15 @@ def test_a_sheet_that_is_refused_is_named(tmp_path):
     assert any("sheet 'Test 2' is left out: " in remark and "kgf" in remark for remark in curve.remarks)
 
 
+def test_an_unloading_alone_is_a_curve_though_its_depth_hardly_changes(write):
+    """As of a hard material in a stiff frame: the force falls to nothing over 7 % of the depth."""
+    force = np.linspace(10.0, 0.0, 40)
+    depth = 930.0 + 70.0 * (force / 10) ** (2 / 3)
+    heads = "Displacement Into Surface (nm),Load (mN),Modulus (GPa)\n"
+    curve = mdr.read_curve(write(heads + rows(depth, force, 0 * force + 200)))
+    assert_curve(curve, 1e-9 * depth, 1e-3 * force)
+
+
 BATCH = "".join(
     f"ind_{k}.hys\t{k}\t{100 + k}\t{180 + k % 3}\t{9990 + k * 7 % 5}\t{200 + k * 3 % 7}\t72.{k}\t9.{k}\t1\n"
     for k in range(9)

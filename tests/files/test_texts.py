@@ -50,6 +50,22 @@ def test_thousands_are_separated_in_several_ways(write, head, form):
     assert_curve(mdr.read_curve(write("\n".join(lines))), depth, force, digits=1e-5)
 
 
+def test_a_column_of_a_rate_is_not_taken_for_the_quantity(write):
+    """mN/s is no force: the one column in mN is."""
+    heads = "Depth (nm),Load (mN/s),Channel 3 (mN)\n"
+    assert_curve(mdr.read_curve(write(heads + rows(1e9 * DEPTH, 0 * DEPTH + 0.5, 1e3 * FORCE))))
+
+
+def test_columns_are_named_without_the_units_of_their_line(write):
+    """A name that two columns have is not taken."""
+    columns = 1e9 * DEPTH, 0 * DEPTH, 1e3 * FORCE
+    path = write("Depth,Load,Force\nnm,mN,mN\n" + rows(*columns))
+    assert_curve(mdr.read_curve(path, columns={"depth": "Depth", "force": "Force"}))
+    path = write("Depth,Force,Force\nnm,mN,mN\n" + rows(*columns))
+    with pytest.raises(ValueError, match="'Force'"):
+        mdr.read_curve(path, columns={"depth": "Depth", "force": "Force"})
+
+
 def test_a_comma_that_may_be_either_is_refused(write):
     with pytest.raises(
         ValueError, match="the comma of '1,024' may be a decimal sign, or separate thousands"

@@ -205,10 +205,10 @@ def test_largest_force(exponent, share, q_c):
     shape, medium = mdr.PowerLaw(0.1 * 1e-6 ** (1 - exponent), exponent), mdr.Medium(E_STAR, q_c)
     dry = hit_to_depth(shape, medium, 1e-6)
     tau = share * float(dry.contact_time)
-    d_c, reduced = float(medium.critical_depth), float(shape._reduced_coefficient)
+    d_c, g = float(medium.critical_depth), float(shape.reduced(1e-6))
 
     def radius(d):
-        return (d / reduced) ** (1 / exponent)
+        return 1e-6 * (d / g) ** (1 / exponent)
 
     def load(s, v):
         d = np.exp(s)

@@ -434,7 +434,7 @@ def test_every_shape(shape, medium):
     solvable(shape, medium)
     hit = mdr.oblique_impact(shape, medium, MASS, SPEED, 0.06, MU, tangential_mass=BALL, tolerance=1e-3)
     motion = hit.motion(40)
-    energy = sum(getattr(motion, name) for name in motion._quantities if name.endswith(("energy", "work")))
+    energy = sum(each for name, each in motion.to_dict().items() if name.endswith(("energy", "work")))
     np.testing.assert_allclose(energy, energy[0], rtol=1e-5)
     assert (np.abs(motion.tangential_force) <= MU * motion.force).all()
     assert motion.tangential_force[-1] == 0
