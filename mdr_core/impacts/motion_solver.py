@@ -17,7 +17,37 @@ from ..numerics.stable import cube_way
 from .collocation_steps import DepthCoordinate, DepthSteps, VelocitySteps
 from .equation_of_motion import Loading, MotionState, Unloading
 
+#: Tries of steps of one leg, after which it is given up. Legs of impacts with τ from 10⁻⁴ to 10⁴ contact
+#: times take 17 at most, and 38 with the tolerance of a motion in time.
 _MOST_STEPS = 3000
+
+# Shares of lengths. They decide how many steps are tried, not how exact these are: a step whose error is too
+# large is made shorter. The ranges are those in which impacts with the τ above take at most 5 % more steps:
+# measured by `python -m tests.benchmarks.constants`.
+
+#: First step in depth, over the largest penetration of the same impact without viscosity: 0.5 to 0.7.
+_FIRST = 0.65
+#: Longest step in depth on loading, over the way v²/(2|v̇|) on which the present deceleration would stop the
+#: body: 0.3 to 1.0.
+_STOPPING = 2 / 3
+#: Longest step in velocity on unloading, over the velocity that springs or dashpots alone would return: 0.3
+#: to 0.7.
+_RETURNED = 0.4
+#: Next length, over the one at which the error is the tolerance: the usual safety, 0.82 to 0.92.
+_SAFETY = 0.9
+#: Power of the length with which the error is taken to grow, 28 to 50. Coefficients of degree 21 and more,
+#: times the length, grow as its power 22 where the motion is smooth, and as 22/√(1 − s) for a step over the
+#: share s of the depths up to a singular one: 30 is s = 0.46.
+_POWER = 30
+#: Least change of a length from one step to the next, and the inverse of the largest: 0.1 to 0.5.
+_SHORTER = 0.3
+#: Share of the room of a step towards zero that is tried if the whole of it was too long: 0.82 to 0.88. A
+#: function that is singular at zero has Legendre coefficients ∝ ρ⁻ⁿ over the share s, with s = 4ρ/(1 + ρ)²:
+#: for 0.85 that is 2·10⁻⁸ at degree 22, and 0.93 is where it is the tolerance of 10⁻⁵.
+_AGAIN = 0.85
+#: A largest deceleration is looked for in steps that have this share of it at a node. Nodes are at most
+#: 0.064 of a step apart: a peak as wide as a step has 0.996 at one.
+_NEAR = 0.98
 
 
 @dataclass(frozen=True)
@@ -37,7 +67,7 @@ class Solution:
             np.fmax.at(largest, rows, step.decelerations().max(axis=1))
         # Steps next to the largest value at a node may have a larger one in between.
         for rows, step in self.loading:
-            near = np.flatnonzero(step.decelerations().max(axis=1) >= 0.98 * largest[rows])
+            near = np.flatnonzero(step.decelerations().max(axis=1) >= _NEAR * largest[rows])
             if near.size:
                 np.maximum.at(largest, rows[near], step[near].largest_deceleration())
         return largest
@@ -67,7 +97,7 @@ def _load(bodies, tolerance):
         root = np.cbrt(np.where((base == 0) | (base == onset), below, 0.0))
         coordinate = DepthCoordinate(base, root)
         leg = _LoadingLeg(equation, coordinate, edge, coordinate.delta(edge))
-        first = np.minimum(cube_way(root, 0.65 * bodies.dry_penetration), leg.edge_delta)
+        first = np.minimum(cube_way(root, _FIRST * bodies.dry_penetration), leg.edge_delta)
         ended, turned = leg.run(leg.from_states(state, rows, first), tolerance, steps)
         state = state.replaced(ended.row, ended.state)
         rows, base = np.sort(ended.row[~turned]), edge
@@ -204,12 +234,12 @@ class _Leg(Entries):
         end = step.end()
         good, factor = _judged(step, end, error, tolerance)
         passed = self.depth_sign * (end.depth - leg.edge) > self.margin * leg.edge
+        # Past the edge only the depth leads to it; but from rest the depth is no variable.
+        depth_only = good & passed & (state.velocity != 0)
         good &= ~passed
-        factor = np.where(passed, 0.3, factor)
+        factor = np.where(passed, _SHORTER, factor)
         if not self.depth_vanishes:
             factor = _shrinking(factor, good, last, length, room)
-        # Past the edge only the depth leads to it; but from rest the depth is no variable.
-        depth_only = passed & (error[:, None] < 1e-3) & (state.velocity != 0)
         after = _Underway(
             impacts.row,
             state=state.replaced(good[:, 0], end[good[:, 0]]),
@@ -234,7 +264,7 @@ class _LoadingLeg(_Leg):
         """Longest step in δ (m^(1/3)): a part of the depth in which the present force stops the body."""
         depth, velocity = impacts.state.depth, impacts.state.velocity
         with np.errstate(divide="ignore"):
-            way = velocity**2 / (3 * deceleration)
+            way = _STOPPING * velocity**2 / (2 * deceleration)
         return self.coordinate.delta(depth + way) - impacts.delta
 
     def room_in_velocity(self, impacts, deceleration):
@@ -259,13 +289,13 @@ class _UnloadingLeg(_Leg):
         That is a part of the velocity that springs alone, or dashpots alone, would return.
         """
         depth, relaxation_time = impacts.state.depth, self.equation.bodies.relaxation_time
-        gain = 0.4 / (1 / np.sqrt(depth * deceleration) + relaxation_time / depth)
+        gain = _RETURNED / (1 / np.sqrt(depth * deceleration) + relaxation_time / depth)
         return np.full_like(gain, np.inf), gain
 
 
 def _length(room, longest):
-    """Lengths of steps: the longest ones, or all of the room where it is hardly longer; and where it is."""
-    last = room <= 1.001 * longest
+    """Lengths of steps: the longest ones, or the room where that is not longer; and where it is not."""
+    last = room <= longest
     return np.where(last, room, longest), last
 
 
@@ -274,7 +304,7 @@ def _judged(step, end, error, tolerance):
     # A body that turns round within a step in depth leaves no state at its end.
     error = np.where(step.start.velocity * end.velocity >= 0, error[:, None], np.inf)
     with np.errstate(divide="ignore"):
-        factor = np.clip(0.9 * (tolerance / error) ** (1 / 30), 0.3, 3.0)
+        factor = np.clip(_SAFETY * (tolerance / error) ** (1 / _POWER), _SHORTER, 1 / _SHORTER)
     return error <= tolerance, factor
 
 
@@ -282,7 +312,7 @@ def _shrinking(factor, good, last, length, room):
     """Factors of steps towards zero, which shrink with what remains of the room that they had."""
     with np.errstate(invalid="ignore"):
         shrunk = factor * (1 - length / room)
-    return np.where(good, shrunk, np.where(last, 0.85, factor))
+    return np.where(good, shrunk, np.where(last, _AGAIN, factor))
 
 
 def _joined(parts):
