@@ -40,8 +40,8 @@ class YieldRule(_check.Parameters, ABC):
     #: Distances s past the onset of yield, over the penetration y₀ there, at which a loading is cut. The
     #: ends of the live interval are at about s and s + y₀, so that forces have powers of both: a second
     #: singular place at s = −y₀. Pieces whose ends have one ratio see it from equally far; a ratio of 25 is
-    #: 2.9 in the cube root of s, in which nodes are even. With them contact times have errors of 5·10⁻¹¹ at most,
-    #: without them 10⁻⁸, with the first alone 5·10⁻¹⁰, ten million critical depths deep. Those of
+    #: 2.9 in the cube root of s, in which nodes are even. With them contact times have errors of 5·10⁻¹¹ at
+    #: most, without them 10⁻⁸, with the first alone 5·10⁻¹⁰, ten million critical depths deep. Those of
     #: `RadiusCap` give 4·10⁻¹³ against 6·10⁻⁹: `python -m tests.benchmarks.constants`.
     scales = 5 * 25.0 ** np.arange(6)
     #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/ℓ for all, ℓ

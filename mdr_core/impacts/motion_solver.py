@@ -21,9 +21,9 @@ from .equation_of_motion import Loading, MotionState, Unloading
 #: times take 17 at most, and 38 with the tolerance of a motion in time.
 _MOST_STEPS = 3000
 
-# Shares of lengths. They decide how many steps are tried, not how exact these are: a step whose error is too
-# large is made shorter. The ranges are those in which impacts with the τ above take at most 5 % more steps:
-# measured by `python -m tests.benchmarks.constants`.
+# Shares of lengths. They decide how many steps are tried, not how exact these are: a step is made shorter
+# if its error is too large. The ranges are those in which impacts with the τ above take at most 5 % more
+# steps: measured by `python -m tests.benchmarks.constants`.
 
 #: First step in depth, over the largest penetration of the same impact without viscosity: 0.5 to 0.7.
 _FIRST = 0.65
