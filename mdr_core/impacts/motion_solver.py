@@ -18,8 +18,8 @@ from .collocation_steps import DepthCoordinate, DepthSteps, VelocitySteps
 from .equation_of_motion import Loading, MotionState, Unloading
 
 #: Tries of steps of one leg, after which it is given up. Legs of impacts with τ from 10⁻⁴ to 10⁴ contact
-#: times take 17 at most, and 38 with the tolerance of a motion in time.
-_MOST_STEPS = 3000
+#: times take 17 at most, with τ from 10⁻⁹ to 10⁹ and the tolerance of a motion in time 54.
+_MOST_STEPS = 300
 
 # Shares of lengths. They decide how many steps are tried, not how exact these are: a step is made shorter
 # if its error is too large. The ranges are those in which impacts with the τ above take at most 5 % more
@@ -71,6 +71,14 @@ class Solution:
             if near.size:
                 np.maximum.at(largest, rows[near], step[near].largest_deceleration())
         return largest
+
+
+class Unsolved(ValueError):
+    """The error of impacts, at `rows`, whose motion has not ended after as many steps as are tried."""
+
+    def __init__(self, rows):
+        super().__init__(f"a motion is not solved: it has not ended after {_MOST_STEPS} steps")
+        self.rows = rows
 
 
 def solve(bodies, tolerance=1e-5):
@@ -186,7 +194,7 @@ class _Leg(Entries):
                 ended.append(after[arrived])
                 turned.append(np.full(np.count_nonzero(arrived), turns))
             impacts = _joined(going)
-        raise ValueError(f"no convergence in {_MOST_STEPS} steps of a motion; check mass, speed, viscosity")
+        raise Unsolved(impacts.row)
 
     def _variable(self, impacts):
         """Which impacts take their next step in depth, shape (N,), and their decelerations (m/s²)."""
