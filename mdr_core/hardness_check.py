@@ -97,7 +97,8 @@ def _refuse_growth(law, profile, a):
     falls[:, 1:] = depth[:, 1:] < depth[:, :-1] * (1 - 1e-9)
     _refuse_radii(
         law, a, falls,
-        lambda i: f"a σ_c/g(a) grows with the contact radius at a = {a[i]:g} m under {shown(profile)}",
+        lambda i: f"a σ_c/g(a) grows with the contact radius at a = {a[i]:g} m under "
+        f"{shown(profile.entries(i, a.shape))}",
         "elements that have yielded would become elastic again on loading: take a law that grows less, or "
         "a sharper indenter",
     )  # fmt: skip

@@ -95,7 +95,9 @@ class Integrals(ABC):
         if self.elastic_exponent is not None:
             # g ∝ xⁿ, with F ∝ d^(1 + 1/n).
             return bool(np.all(self.elastic_exponent <= 2))
-        return _growing_mean_slope(self.unit[0])
+        unit = self.unit[0]
+        # An ensemble of a user's dataclass has no hash.
+        return (_growing_mean_slope.__wrapped__ if unit.shape else _growing_mean_slope)(unit)
 
 
 # Kept, single states of a sampled tip on a medium with a hardness H are 19 times as fast.

@@ -80,15 +80,22 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, *, in_time=False):
     imprint_depth = _check.positive("plastic_depth", plastic_depth, unit="m", zero=True)
     shape = shape_with("impact", profile, medium, mass=mass, speed=speed, plastic_depth=imprint_depth)
     mass, speed, imprint_depth = (np.broadcast_to(values, shape) for values in (mass, speed, imprint_depth))
-    too_deep = profile.too_deep()
     outside = imprint_depth > profile.known_depth
-    _check.refuse("plastic_depth", imprint_depth, outside, f"is {too_deep}", unit="m")
+    if np.any(outside):
+        bound, remedy = f"is {_too_deep(profile, outside)}", "give a smaller one"
+        _check.refuse("plastic_depth", imprint_depth, outside, bound, unit="m", remedy=remedy)
     hit = _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time)
     known = np.minimum(profile.known_depth, _check.LONGEST)
     unknown = ~(hit.turning_point.live_interval.upper <= known)
-    bound = f"presses {too_deep}"
-    _check.refuse("speed", speed, unknown, bound, unit="m/s", remedy="hit less hard")
+    if np.any(unknown):
+        bound, remedy = f"presses {_too_deep(profile, unknown)}", "reduce speed or mass"
+        _check.refuse("speed", speed, unknown, bound, unit="m/s", remedy=remedy)
     return hit
+
+
+def _too_deep(profile, where):
+    """Words for the known depth of the first indenter of an ensemble at a mask."""
+    return profile.flat_entries(int(np.argmax(where)), where.shape).too_deep()
 
 
 def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):

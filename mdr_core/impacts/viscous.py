@@ -60,7 +60,7 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
         except Unsolved as error:
             # A shape or a law that is at fault is known at the depths without viscosity, which are larger.
             check_reached(profile, medium, interval.upper)
-            _refuse_unsolved(error, rows[error.rows], speed)
+            _refuse_unsolved(error, rows[error.rows], speed, profile, interval.upper)
     restitution, end_time, work, deceleration = motions
     rule = yield_rule(profile, medium)
     interval, increase = rule.loading(penetrations.reshape(mass.shape), imprint_depth)
@@ -76,12 +76,19 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
     )
 
 
-def _refuse_unsolved(error, rows, speed):
-    """Refuses the impacts at some rows of the flattened ensemble, which have not been solved."""
+def _refuse_unsolved(error, rows, speed, profile, depth):
+    """Refuses the impacts at some rows of the flattened ensemble, which have not been solved.
+
+    `depth` (m) is that without viscosity.
+    """
     bad = np.zeros(speed.size, bool)
     bad[rows] = True
-    bound = f"has no solution: {error}"
-    remedy = "check mass and eta, and the functions of a shape or a law of your own"
+    one = profile.flat_entries(int(rows[0]), speed.shape)
+    if not depth.flat[rows[0]] <= one.known_depth:
+        bound, remedy = f"presses {one.too_deep()}", "reduce speed or mass"
+    else:
+        bound = f"has no solution: {error}"
+        remedy = "check mass and eta, and the functions of a shape or a law of your own"
     raise _check.InvalidEntries("speed", speed, bad.reshape(speed.shape), bound, "m/s", remedy) from error
 
 

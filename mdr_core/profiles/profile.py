@@ -199,4 +199,7 @@ class Profile(_check.Parameters, ABC):
                 f"{self.sound.fault}: mend its functions, or give known_depth and known_radius, or wall, "
                 "where the shape ends"
             )
-        return f"deeper than {self._last}, {np.min(self.known_depth, initial=_check.LONGEST):g} m"
+        deepest = np.min(self.known_depth)
+        if deepest > _check.LONGEST:
+            return f"deeper than {_check.LONGEST:g} m, the largest depth that is computed"
+        return f"deeper than {self._last}, {deepest:g} m"

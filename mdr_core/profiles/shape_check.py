@@ -194,6 +194,16 @@ def check_shape(profile, depth):
             _check_slope(profile, np.max(depths))
 
 
+def check_tips(profile):
+    """Refuses an ensemble with an indenter whose g is not 0 at the tip; that of one profile is known."""
+    if profile.shape and is_own(profile):
+        every = profile.flat_entries(slice(None), profile.shape)
+        x = np.zeros(every.shape)
+        reduced, *_ = functions_at(every, x)
+        bad = ~(np.abs(reduced) <= _TIP)
+        _refuse(every, x, reduced, bad, "g(x) is {value:g} m at x = {place:g} m, the tip", _RISE)
+
+
 def check_slopes(profile, depth):
     """Refuses an ensemble with an indenter whose g′ is not the slope of g up to its depth (m).
 
