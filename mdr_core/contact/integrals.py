@@ -27,9 +27,10 @@ from .quadrature import integrate, kink_above, radius, radius_rate
 #: the tip; the energy loses up to two digits by it. 2000 elastic states of a rounded cone are 10 times as
 #: fast, the depths of 10⁵ impacts 17 times.
 _LONG = 0.15
-#: Number of depths up to which a table is not made. 16 impacts of a new tip of 400 samples are 26 times as
-#: fast without one; it pays for itself after some 3000 of them, in one call or in many.
-_FEW = 16
+#: Number of depths up to which no table is made, and how many more there may be for a kink above its end.
+#: It is made in the time of 2 to 8 depths a kink: for one call it should wait so long, for many calls it
+#: should come at once.
+_FEW, _FEW_A_KINK = 16, 0.5
 #: Numbers of Gauss nodes for shorter ones, by their length over the distance from the last kink. Forces of
 #: 2000 states of a rounded cone are 7 times as fast as by `integrate`.
 _SHORT = ((0.03, 4), (0.15, 6), (0.5, 10))
@@ -235,15 +236,18 @@ def _differences(table, lower, upper, length, moments):
 
 
 def tabulated_for(profile, count, largest_depth):
-    """The profile for searches of `count` depths, if they are many with a table to its known depth.
+    """The profile for searches of `count` depths, if they are many with a table.
 
-    `largest_depth()` is about the largest of the depths (m). A table ends there if the radius is not
-    bounded, as of a `Smooth` profile without a radius: panels are halved from its end towards the tip.
+    `largest_depth()` is about the largest of the depths (m), where the table ends: the more kinks are above
+    its end, the longer it takes to make one.
     """
     slow = not profile.shape and isinstance(integrals(profile), QuadratureIntegrals)
     if count <= _FEW or not slow or profile.known_depth == np.inf:
         return profile
-    return tabulated(profile, largest_depth() if profile.known_radius == np.inf else profile.known_depth)
+    end = _end_of_table(profile, largest_depth())
+    if count <= _FEW + _FEW_A_KINK * np.searchsorted(profile.kinks, end):
+        return profile
+    return tabulated(profile, end)
 
 
 def tabulated(profile, known_depth):
@@ -253,8 +257,12 @@ def tabulated(profile, known_depth):
     """
     if profile.shape or not isinstance(integrals(profile), QuadratureIntegrals):
         return profile
-    known_depth = min(2.0 ** np.ceil(np.log2(np.max(known_depth))), np.min(profile.known_depth))
-    return _tabulated(profile, float(known_depth))
+    return _tabulated(profile, _end_of_table(profile, known_depth))
+
+
+def _end_of_table(profile, depth):
+    """Depth (m) of the end of a table for depths (m): a power of 2, so that few tables are made."""
+    return float(min(2.0 ** np.ceil(np.log2(np.max(depth))), np.min(profile.known_depth)))
 
 
 # A table makes the times of 300 impacts of a sampled tip some 300 times as fast, one time and 20 viscous

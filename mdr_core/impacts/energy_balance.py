@@ -88,7 +88,7 @@ def turning_interval(rule, target, before):
         row = np.unravel_index(np.argmax(target), shape)
         imprint = np.broadcast_to(before, shape)[row]
         energy = np.array([target[row]])
-        return imprint + _penetration(given.entries(row, shape), energy, np.array([imprint]))[0]
+        return imprint + _penetration(given.entries(row, shape), energy, np.array([imprint]), 0.1)[0]
 
     rule = replace(rule, profile=tabulated_for(rule.profile, target.size, largest_depth))
     unit, *scales = integrals(rule.profile).unit
@@ -109,10 +109,11 @@ def turning_interval(rule, target, before):
     return LiveInterval(*interval), increase
 
 
-def _penetration(rule, target, before):
+def _penetration(rule, target, before, close=1e-7):
     """y = d − p₀ (m) at which the work over 2E* is `target` (m³); infinite below the known depth.
 
-    The work grows about as a power of y: Newton's method on their logarithms.
+    The work grows about as a power of y: Newton's method on their logarithms. After a step of less than
+    `close` the next one would be about its square: with 10⁻⁷ that is rounding.
     """
 
     def work(y, rows):
@@ -132,8 +133,7 @@ def _penetration(rule, target, before):
             new = np.minimum(y[rows] * np.exp(step), highest[rows])
         # At the known depth the work is still less than the energy.
         y[rows] = np.where((y[rows] == highest[rows]) & (step > 1e-13), np.inf, new)
-        # After a step of 10⁻⁷ the next one would be its square, which is rounding.
-        rows = rows[~(np.abs(step) < 1e-7) & (y[rows] < np.inf)]
+        rows = rows[~(np.abs(step) < close) & (y[rows] < np.inf)]
         if not rows.size:
             return y
     # The first guess was poor, or left double precision: in a bracket.

@@ -55,7 +55,7 @@ def impact(
     ------
     ValueError
         If an argument is out of its range, or the indenter would go deeper than its profile is known, or if
-        a law of hardness is none up to the largest contact radius (`HardnessLaw`).
+        a law of hardness is not valid up to the largest contact radius (`HardnessLaw`).
 
     Examples
     --------
@@ -99,7 +99,7 @@ def _too_deep(profile, where):
 
 
 def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
-    """The `Impact`, refused if a law of hardness is none up to its largest contact radius."""
+    """The `Impact`, refused if a law of hardness is not valid up to its largest contact radius."""
     if medium.has_own_law:
         _check_elastic(profile, medium, mass, speed, imprint_depth)
     hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
@@ -108,9 +108,10 @@ def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
 
 
 def _check_elastic(profile, medium, mass, speed, imprint_depth):
-    """Refuses a law of hardness that is none up to the depths of impacts on an elastic medium, or of some.
+    """Refuses a law of hardness that is not valid up to the depths of impacts on an elastic medium.
 
-    These are less deep: such a law is not given to a solver.
+    Of many impacts some are checked. They are less deep than those on a medium that yields, and a law that
+    is refused here is not given to a solver.
     """
     rows = np.unique(np.linspace(0, mass.size - 1, min(mass.size, _SOME)).astype(int))
     some = (values.ravel()[rows] for values in (mass, speed, imprint_depth))

@@ -153,7 +153,8 @@ class Profile(_check.Parameters, ABC):
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
         depth = self._known(depth)
         radius = self.radius_at(depth)
-        _check.refuse("depth", depth, np.isinf(radius), "has a contact beyond double precision", unit="m")
+        bound, remedy = "has a contact beyond double precision", "press less deep"
+        _check.refuse("depth", depth, np.isinf(radius), bound, unit="m", remedy=remedy)
         remedy = f"mend radius_at of {type(self).__name__}"
         _check.refuse("depth", depth, np.isnan(radius), "has no contact radius", unit="m", remedy=remedy)
         return radius[()]
@@ -171,7 +172,8 @@ class Profile(_check.Parameters, ABC):
         r = np.abs(self._places(quantity, r))
         known = np.min(self.known_radius, initial=np.inf)
         bound = f"is beyond the radius up to which the shape is known, {known:g} m"
-        _check.refuse(quantity, r, r > self.known_radius, bound, unit="m")
+        remedy = "give a smaller radius"
+        _check.refuse(quantity, r, r > self.known_radius, bound, unit="m", remedy=remedy)
         values = function(r)[()]
         remedy = f"mend {function.__name__} of {type(self).__name__}"
         _check.refuse(quantity, r, np.isnan(values), "has no height or slope", unit="m", remedy=remedy)
@@ -192,10 +194,10 @@ class Profile(_check.Parameters, ABC):
         return _check.refuse("depth", depth, too_deep, bound, unit="m", remedy="press less deep")
 
     def too_deep(self):
-        """Text for a refusal of depths below `known_depth`."""
+        """Words for depths beyond `known_depth`, in messages of errors."""
         if is_own(self) and not self.shape and self.sound.fault and self.known_depth == self.sound.depth:
             return (
-                f"deeper than {type(self).__name__} is a shape, {self.known_depth:g} m, since "
+                f"deeper than {type(self).__name__} is valid, {self.known_depth:g} m, since "
                 f"{self.sound.fault}: mend its functions, or give known_depth and known_radius, or wall, "
                 "where the shape ends"
             )

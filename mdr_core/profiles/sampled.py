@@ -120,7 +120,8 @@ class Sampled(Profile):
         """
         r, z = _lists("Sampled.fit", r, z)
         if np.unique(np.abs(r)).size < 3:
-            raise ValueError("a fit needs three or more different radii")
+            count = np.unique(r).size
+            raise ValueError(f"Sampled.fit needs three or more different radii |r|, got {count}")
         return cls(*convex_fit(r, z))
 
     @classmethod

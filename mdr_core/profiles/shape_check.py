@@ -1,8 +1,8 @@
-"""Whether a shape of one's own is one: g starts at 0 and does not fall, g′ is its slope, all are finite.
+"""Check of shapes that users write: g starts at 0 and does not fall, g′ is its slope, all are finite.
 
-A shape of the library is trusted. Of one that a user wrote two things are asked: up to which radius its
-functions are finite at all (`sound_range`, once for a profile), which ends its known depth; and whether it
-is a shape at the radii that a calculation reaches (`check_shape`).
+Shapes of the library are trusted. `sound_range` finds, once for a profile, the radius up to which its
+functions are valid, which ends its known depth. `check_shape` checks them at the radii that a calculation
+reaches.
 """
 
 from typing import NamedTuple
@@ -40,7 +40,7 @@ def is_own(profile):
 
 
 class SoundRange(NamedTuple):
-    """Radius and depth (m) up to which a shape is one, infinite without an end; and why it is none there.
+    """Radius and depth (m) up to which a shape is valid, infinite without an end, and the fault there.
 
     `levels` are the largest g (m) up to ascending radii, and `falls` the largest height (m) by which g has
     fallen below such a level, up to there; `places` are the radii (m) of these. `slopes` are radii (m) at
@@ -61,7 +61,7 @@ def sound_range(profile, end, own_radius):
 
     It ends before the first radius at which g or z is not finite, g′ is not a number, the contact radius is
     not that of g if the shape has its own (`own_radius`), or from which on g never again reaches a depth
-    that it had. Refused if it is none at the tip.
+    that it had. Refused if it is not valid at the tip.
     """
     x = np.append(_RADII[end > _RADII], end if end < _RADII[-1] else [])
     reduced, slope, fault = _values(profile, x)
@@ -119,7 +119,7 @@ def _said_of_slope(profile, x):
 
 
 def _last_sound(profile, low, high):
-    """The last radius (m) between two at which a shape is one, and the first one at which it is none."""
+    """The last radius (m) between two at which a shape is valid, and the first at which it is not."""
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
         none = _values(profile, np.array([middle]))[2][0]
@@ -146,7 +146,7 @@ def _up_to_wrong_radius(profile, x, reduced, known):
 
 
 def _values(profile, x):
-    """g (m) and g′ at radii (m), and whether g, g′ or z is none there."""
+    """g (m) and g′ at radii (m), and whether g or z is not finite, or g′ not a number, there."""
     try:
         reduced, slope, height = functions_at(profile, x)
     except (ValueError, ArithmeticError):
@@ -159,7 +159,7 @@ def _values(profile, x):
 
 
 def functions_at(profile, x):
-    """g (m), g′ and z (m) at radii (m), whose values are looked at: it is asked where no solver goes."""
+    """g (m), g′ and z (m) at radii (m), without warnings: also at radii that no solver reaches."""
     with np.errstate(all="ignore"):
         values = profile.reduced_at(x), profile.reduced_slope_at(x), profile.height_at(x)
     return [np.broadcast_to(value, x.shape).astype(float) for value in values]
@@ -179,7 +179,7 @@ def _said(profile, x):
 
 
 def check_shape(profile, depth):
-    """Refuses a shape of one's own that is none at the contact radii (m) of depths (m) up to the largest.
+    """Refuses a user's shape that is not valid at the contact radii (m) of depths (m) up to the largest.
 
     That of one profile is known from `sound_range` already, but for places where g falls and rises again,
     or g′ is not its slope. An indenter of an ensemble is checked from 10⁻⁶ of its contact radius on. Depths
@@ -295,6 +295,6 @@ def _refuse(profile, places, values, bad, what, remedy):
 
 
 def _refused(profile, what, remedy):
-    """The error of a shape that is none: what is wrong with it, and what to do."""
+    """The error of a shape that is not valid: what is wrong with it, and what to do."""
     text = f"profile {shown(profile)}: {what}; {remedy}"
     return _check.InvalidArgument(text, "profile", profile, what, "", remedy)
