@@ -5,8 +5,8 @@
     radius_drop       a(d) − a(d_p)                              stiffness while yielding
 
 for arrays of states. They are geometry only: the caller multiplies by the modulus. `pressure` has
-the integrals that depend on the radius r. A profile has closed forms, or a table of a(s), or is integrated
-by quadrature: `integrals` chooses, for all that is asked of it.
+the integrals that depend on the radius r. They come from closed forms, from
+a table of a(s), or by quadrature: `integrals` chooses one of these for a profile.
 """
 
 from abc import ABC, abstractmethod
@@ -40,7 +40,8 @@ _SHORT = ((0.03, 4), (0.15, 6), (0.5, 10))
 class Integrals(ABC):
     """Integrals over the live interval under one profile or an ensemble, elementwise.
 
-    The first three are required. Everything else says here that there is no closed form, and no table.
+    A subclass gives the first three functions. The others return here that there is no closed form and no
+    table.
     """
 
     profile: Any
@@ -71,7 +72,7 @@ class Integrals(ABC):
         """a(d) − a(d_p) (m): where the medium has yielded, the width of the elastic ring."""
 
     def radius_and_energy(self, interval):
-        """`radius_integral` and `energy_integral`, at the cost of one where a table has both."""
+        """`radius_integral` and `energy_integral`; from a table both cost as much as one."""
         return self.radius_integral(interval), self.energy_integral(interval)
 
     def pressure_integral(self, interval, r):

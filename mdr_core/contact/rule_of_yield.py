@@ -102,7 +102,7 @@ class YieldRule(_check.Parameters, ABC):
         return self.loading(onset + distance, imprint)[0]
 
     def yielding(self, interval):
-        """Whether states are at the cap, so that loading goes on to yield."""
+        """Whether the elements of a state are at the cap, so that further loading yields."""
         # The cap is computed again, with other rounding where arrays have other lengths.
         return (interval.lower > 0) & (interval.length >= self.cap(interval.upper) * (1 - 1e-14))
 
@@ -114,9 +114,9 @@ class YieldRule(_check.Parameters, ABC):
         return integrals(self.profile).radius_drop(interval) + c * slower
 
     def breaks(self, imprint, increase, onset):
-        """Depths (m), one row each, past the penetration `onset` (m) between which a loading is smooth.
+        """Distances (m) past the penetration `onset` (m) at which a loading is cut into smooth pieces.
 
-        The loading increases the plastic depth of an imprint by `increase` (m).
+        A row for each loading, which increases the plastic depth of an imprint by `increase` (m).
         """
         return self.scales * onset
 

@@ -1,7 +1,8 @@
 """Impacts without viscosity by the energy balance: maximum depth and restitution, without time stepping.
 
-The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). At the penetration y = d − p₀
-the work is that of the live interval, 2E* ∫(d − s) a ds, which is stored, and the plastic work.
+The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). Up to the penetration
+y = d − p₀ its work is the energy 2E* ∫(d − s) a ds that is stored over the live interval, plus the plastic
+work.
 """
 
 from dataclasses import dataclass, replace
@@ -32,7 +33,7 @@ class DryImpact(Impact):
 
     @_check.frozen_property
     def max_force(self):
-        """Largest force (N): that at the turning point, or with f_c above 0 it may be an earlier one."""
+        """Largest force (N): at the turning point, or before it if the force falls with depth."""
         force, shape = self.turning_point.force, np.shape(self.mass)
         if not self._rule.may_fall(self.max_depth):
             return force

@@ -52,7 +52,11 @@ _NEAR = 0.98
 
 @dataclass(frozen=True)
 class Solution:
-    """States (N, 1) at turning point (infinite below the known depth) and end; steps with their impacts."""
+    """States (N, 1) of N impacts at the turning point and at the end, and their steps.
+
+    The depth of a turning point below the known depth is infinite. `loading` and `unloading` are lists of
+    pairs: the numbers of impacts, and the steps that these have taken.
+    """
 
     turning_point: MotionState
     end: MotionState
@@ -82,7 +86,10 @@ class Unsolved(ValueError):
 
 
 def solve(bodies, tolerance=1e-5):
-    """The `Solution` of impacts; the tolerance is that between nodes: at ends errors are far smaller."""
+    """The `Solution` of impacts.
+
+    `tolerance` is the relative error of a step between its nodes; at its end the error is far smaller.
+    """
     turning_point, loading = _load(bodies, tolerance)
     end, unloading = _unload(bodies, turning_point, tolerance)
     return Solution(turning_point, end, loading, unloading)
@@ -172,9 +179,9 @@ class _Leg(Entries):
         return _Underway(rows, state[rows], delta, first, none, np.zeros(none.shape, bool))
 
     def run(self, impacts, tolerance, steps):
-        """The impacts at the end of the leg, and which have turned round; notes their steps in `steps`.
+        """The impacts at the end of the leg, and which of them have turned round.
 
-        `steps` gets pairs: the numbers of impacts, and the steps that they have taken.
+        Appends to `steps` pairs: the numbers of impacts, and the steps that they have taken.
         """
         ended, turned = [impacts[:0]], [np.zeros(0, bool)]
         for _ in range(_MOST_STEPS):
@@ -269,7 +276,7 @@ class _LoadingLeg(_Leg):
     margin = 1e-12
 
     def longest_in_depth(self, impacts, room, deceleration):
-        """Longest step in δ (m^(1/3)): a part of the depth in which the present force stops the body."""
+        """Longest step in δ (m^(1/3)): a share of the way on which the present force stops the body."""
         depth, velocity = impacts.state.depth, impacts.state.velocity
         with np.errstate(divide="ignore"):
             way = _STOPPING * velocity**2 / (2 * deceleration)
@@ -292,9 +299,9 @@ class _UnloadingLeg(_Leg):
         return room
 
     def room_in_velocity(self, impacts, deceleration):
-        """Change of velocity (m/s) up to the end of the leg, which has none, and the longest step.
+        """Room in velocity, infinite because the leg ends at a depth, and the longest step (m/s).
 
-        That is a part of the velocity that springs alone, or dashpots alone, would return.
+        The longest step is a share of the velocity that springs alone, or dashpots alone, would return.
         """
         depth, relaxation_time = impacts.state.depth, self.equation.bodies.relaxation_time
         gain = _RETURNED / (1 / np.sqrt(depth * deceleration) + relaxation_time / depth)
@@ -302,13 +309,13 @@ class _UnloadingLeg(_Leg):
 
 
 def _length(room, longest):
-    """Lengths of steps: the longest ones, or the room where that is not longer; and where it is not."""
+    """Lengths of steps, at most `longest` and at most the room; and which of them take all of the room."""
     last = room <= longest
     return np.where(last, room, longest), last
 
 
 def _judged(step, end, error, tolerance):
-    """Which steps are good, and by which factor the next ones are longer, both (N, 1)."""
+    """Which steps are good, and the length of the next ones over that of these, both (N, 1)."""
     # A body that turns round within a step in depth leaves no state at its end.
     error = np.where(step.start.velocity * end.velocity >= 0, error[:, None], np.inf)
     with np.errstate(divide="ignore"):
@@ -317,7 +324,7 @@ def _judged(step, end, error, tolerance):
 
 
 def _shrinking(factor, good, last, length, room):
-    """Factors of steps towards zero, which shrink with what remains of the room that they had."""
+    """`factor` of steps towards zero: a good one leaves less room, and the next is shorter by as much."""
     with np.errstate(invalid="ignore"):
         shrunk = factor * (1 - length / room)
     return np.where(good, shrunk, np.where(last, _AGAIN, factor))

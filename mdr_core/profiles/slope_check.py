@@ -1,4 +1,4 @@
-"""Whether g′ of a shape of one's own is the derivative of its g.
+"""Check whether g′ of a shape that a user wrote is the derivative of its g.
 
 Between two radii that are near each other, the slope of g lies between the values of g′ at both, unless g′
 turns in between. At a kink, at a jump of g and in the first cells of a table it may lie outside. So g′ is
