@@ -29,8 +29,9 @@ from .quadrature import integrate, kink_above, radius, radius_rate
 _LONG = 0.15
 #: Number of depths up to which no table is made, and how many more there may be for a kink above its end.
 #: It is made in the time of 2 to 8 depths a kink: for one call it should wait so long, for many calls it
-#: should come at once.
-_FEW, _FEW_A_KINK = 16, 0.5
+#: should come at once. From so many depths a kink of the profile on it goes to the known depth: that the
+#: largest depth is not sought makes the impacts of later calls 1.6 times as fast.
+_FEW, _FEW_A_KINK, _MANY_A_KINK = 16, 0.5, 8
 #: Numbers of Gauss nodes for shorter ones, by their length over the distance from the last kink. Forces of
 #: 2000 states of a rounded cone are 7 times as fast as by `integrate`.
 _SHORT = ((0.03, 4), (0.15, 6), (0.5, 10))
@@ -239,12 +240,14 @@ def _differences(table, lower, upper, length, moments):
 def tabulated_for(profile, count, largest_depth):
     """The profile for searches of `count` depths, if they are many with a table.
 
-    `largest_depth()` is about the largest of the depths (m), where the table ends: the more kinks are above
-    its end, the longer it takes to make one.
+    `largest_depth()` is about the largest of the depths (m), where the table ends, if it does not go to the
+    known depth: the more kinks are above its end, the longer it takes to make one.
     """
     slow = not profile.shape and isinstance(integrals(profile), QuadratureIntegrals)
     if count <= _FEW or not slow or profile.known_depth == np.inf:
         return profile
+    if profile.known_radius < np.inf and count > _MANY_A_KINK * len(profile.kinks):
+        return tabulated(profile, profile.known_depth)
     end = _end_of_table(profile, largest_depth())
     if count <= _FEW + _FEW_A_KINK * np.searchsorted(profile.kinks, end):
         return profile
