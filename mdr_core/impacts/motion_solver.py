@@ -18,8 +18,9 @@ from .collocation_steps import DepthCoordinate, DepthSteps, VelocitySteps
 from .equation_of_motion import Loading, MotionState, Unloading
 
 #: Tries of steps of one leg, after which it is given up. Legs of impacts with τ from 10⁻⁴ to 10⁴ contact
-#: times take 17 at most, with τ from 10⁻⁹ to 10⁹ and the tolerance of a motion in time 54.
-_MOST_STEPS = 300
+#: times take 17 at most; under profiles r^0.02 to r^20, with τ from 10⁻⁶ to 10⁸ and the tolerance of a
+#: motion in time, 92.
+_MOST_STEPS = 500
 
 # Shares of lengths. They decide how many steps are tried, not how exact these are: a step is made shorter
 # if its error is too large. The ranges are those in which impacts with the τ above take at most 5 % more
