@@ -31,7 +31,7 @@ _LONG = 0.15
 #: It is made in the time of 2 to 8 depths a kink: for one call it should wait so long, for many calls it
 #: should come at once. From so many depths a kink of the profile on it goes to the known depth: that the
 #: largest depth is not sought makes the impacts of later calls 1.6 times as fast.
-_FEW, _FEW_A_KINK, _MANY_A_KINK = 16, 0.5, 8
+_FEW, _FEW_A_KINK, _MANY_A_KINK = 16, 0.5, 2
 #: Numbers of Gauss nodes for shorter ones, by their length over the distance from the last kink. Forces of
 #: 2000 states of a rounded cone are 7 times as fast as by `integrate`.
 _SHORT = ((0.03, 4), (0.15, 6), (0.5, 10))
