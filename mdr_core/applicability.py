@@ -7,7 +7,7 @@ from ._check import shown
 from .hardness_check import check_law
 from .medium import Medium
 from .profiles.profile import Profile
-from .profiles.shape_check import check_shape
+from .profiles.shape_check import check_shape, check_tips
 
 
 def check_pair(profile, medium, what=None):
@@ -17,6 +17,7 @@ def check_pair(profile, medium, what=None):
     if type(profile).__hash__ is None:
         name = type(profile).__name__
         raise TypeError(f"{name} must not change once it is made: declare it with @dataclass(frozen=True)")
+    check_tips(profile)
     if not isinstance(medium, Medium):
         raise TypeError(f"medium must be a Medium, got {shown(medium)}")
     if what and (profile.shape or medium.shape):

@@ -15,7 +15,7 @@ _FEWER = 24
 
 
 def check_law(law, profile, depth):
-    """Refuses a law of hardness that is none at the contact radii (m) of depths (m) up to the largest ones.
+    """Refuses a law of hardness that is not valid at the contact radii (m) of depths (m) up to the largest.
 
     Below them it is checked from 10⁻⁶ of the radius on; depths that are infinite or not positive are left
     out.
@@ -60,7 +60,7 @@ def _radii_below(least, largest, face, count=_RADII):
 
 
 def _check_values(law, a):
-    """Refuses a law whose functions are none at radii (m) in ascending order along the last axis."""
+    """Refuses a law whose functions are not valid at radii (m) in ascending order along the last axis."""
     hardness = law_values(law, "at", a)
     _refuse_radii(
         law, a, ~((hardness > 0) & (hardness < np.inf)),
@@ -97,9 +97,10 @@ def _refuse_growth(law, profile, a):
     falls[:, 1:] = depth[:, 1:] < depth[:, :-1] * (1 - 1e-9)
     _refuse_radii(
         law, a, falls,
-        lambda i: f"a σ_c/g(a) grows with the contact radius at a = {a[i]:g} m under {shown(profile)}",
+        lambda i: f"a σ_c/g(a) grows with the contact radius at a = {a[i]:g} m under "
+        f"{shown(profile.entries(i, a.shape))}",
         "elements that have yielded would become elastic again on loading: take a law that grows less, or "
-        "a sharper indenter",
+        "an indenter whose g grows more",
     )  # fmt: skip
 
 

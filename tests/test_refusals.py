@@ -70,7 +70,13 @@ REFUSALS = {
     ),
     "beyond the tip": (
         lambda: mdr.Sampled([0.0, 1.0], [0.0, 1.0]).height(2.0),
-        ("r", 2.0, "is beyond the radius up to which the shape is known, 1 m", "m", ""),
+        (
+            "r",
+            2.0,
+            "is beyond the radius up to which the shape is known, 1 m",
+            "m",
+            "give a smaller radius",
+        ),
     ),
     "no known name": (
         lambda: mdr.indent(CONE, MEDIUM, 1e-9).stress_peak("tension"),

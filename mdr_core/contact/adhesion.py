@@ -74,7 +74,10 @@ def stable_ranges(profile, medium, share):
     if threshold.ndim == 0:
         return depth * ranges[0]
     if any(len(low) > 1 for low, _ in ranges):
-        raise ValueError("the rim of the contact jumps between several ranges; take one medium at a time")
+        raise ValueError(
+            "with adhesion, the rim of the contact jumps between several ranges of radii, which is "
+            "computed for one medium at a time: take medium.entries(i)"
+        )
     ends = np.reshape([(low[0], high[0]) for low, high in ranges], (*threshold.shape, 2))
     return np.moveaxis(ends, -1, 0)[:, None] * depth
 
@@ -84,8 +87,9 @@ def single_range(profile, medium, share):
     low, _ = stable_ranges(profile, medium, share)
     if len(low) > 1:
         raise ValueError(
-            "the rim of this contact jumps, which only indent follows, along one path of depths; over "
-            "samples of a smooth tip it jumps from facet to facet: take Smooth with the slope of a fit"
+            "with adhesion, the rim of this contact jumps between several ranges of radii, which only "
+            "indent computes, along one path of depths; under a Sampled profile it jumps from facet to "
+            "facet: take Smooth with the slope of a smooth curve through the samples"
         )
     return low[0]
 
@@ -93,7 +97,8 @@ def single_range(profile, medium, share):
 def _power_range(profile, threshold, exponent):
     """Start D (m) of the stable range of g ∝ xⁿ, in which √a g′(a) grows as a^(n − 1/2)."""
     bound = "is 1/2 or less: with adhesion the contact spreads without limit"
-    _check.refuse("exponent", np.asarray(exponent), exponent <= 0.5, bound)
+    remedy = "set work_of_adhesion = 0, or take an exponent above 1/2"
+    _check.refuse("exponent", np.asarray(exponent), exponent <= 0.5, bound, remedy=remedy)
     if np.any(profile.wall < np.inf):
         return np.zeros(np.broadcast_shapes(np.shape(threshold), profile.shape))
     # Of a weak power the radius may leave double precision.
@@ -118,7 +123,10 @@ def _ranges(profile, threshold):
     if stable[0]:
         low = np.append(0.0, low)
     if not low.size:
-        raise ValueError("adhesion is too strong for the known part of the profile; give more of it")
+        raise ValueError(
+            "work_of_adhesion is too large for this profile: the rim of the contact would be outside the "
+            f"radius up to which the profile is known, {x[-1]:g} m; give the profile to a larger radius"
+        )
     return np.array([low, np.append(high, np.inf)[: low.size]])
 
 

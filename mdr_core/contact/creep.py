@@ -1,9 +1,9 @@
 """Viscous indentation under a prescribed force in time: creep.
 
-Three solvers answer. Without viscosity the path is that of `indent_to_force`. With it the scalar laws hold:
-that of `creep_loading` while the indenter goes deeper, and that of `creep_retreat` while it recedes
-afterwards. At the first time at which the force rises again `chain_creep` takes over, and follows every
-element from the state that the scalar laws have reached.
+There are three solvers. Without viscosity the path is that of `indent_to_force`. With viscosity the scalar
+laws hold: that of `creep_loading` while the indenter goes deeper, and that of `creep_retreat` while it
+recedes afterwards. At the first time at which the force rises again `chain_creep` takes over, and follows
+every element from the state that the scalar laws have reached.
 """
 
 from dataclasses import replace

@@ -266,7 +266,9 @@ def _integrate(rates, span, start, places, event, precision):
             )  # fmt: skip
         if solution.status >= 0:
             return solution
-    raise ValueError(f"creep was not integrated: {solution.message}; check the units of the times")
+    raise ValueError(
+        f"creep is not solved: {solution.message} (SciPy); check that times are in s and forces in N"
+    )
 
 
 def _relaxed(x):

@@ -6,8 +6,8 @@ height g at which elements are released, from the rim inward, and
     A = f     as long as the force does not rise.
 
 The edge of the contact follows the force at once, and the lead e = d − D of the indenter over it obeys
-τ ė = −e − τ Ḋ. Released elements relax from the e of their release on, and are not met again. Times are in
-units of τ, and f is linear between the given times.
+τ ė = −e − τ Ḋ. A released element relaxes from the e at its release, and does not touch the indenter again.
+Times are in units of τ, and f is linear between the given times.
 """
 
 from dataclasses import dataclass

@@ -83,7 +83,7 @@ class Indentation(Result):
 
     @property
     def _quick(self):
-        """The profile, of very many states with a table of its contact radius."""
+        """The profile, with a table of its contact radius if there are very many states."""
         if np.size(self.depth) < _MANY or self.profile.shape or not 0 < np.max(self.depth) < np.inf:
             return self.profile
         return tabulated(self.profile, np.max(self.depth))

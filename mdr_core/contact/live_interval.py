@@ -1,4 +1,4 @@
-"""The live interval of depths: what is elastic of an indentation."""
+"""The live interval: the depths between which an indentation is elastic."""
 
 from dataclasses import dataclass
 from typing import Self

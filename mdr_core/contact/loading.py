@@ -97,7 +97,8 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     ValueError
         If a force is not finite, negative without adhesion, larger than a flat face carries before all of
         it yields (π b² σ_c(b), Popov 2015, Eq. (11)) or than f_c carries alone (π f_c), or presses deeper
-        than the known depth of the profile; or if a law of hardness is none up to the contact radius there.
+        than the known depth of the profile; or if a law of hardness is not valid up to the contact radius
+        there.
 
     Examples
     --------

@@ -34,8 +34,8 @@ def yield_depth(profile: Profile, medium: Medium) -> Array:
     Raises
     ------
     ValueError
-        If yield starts deeper than the profile is known, or if a law of hardness is none up to the contact
-        radius there.
+        If yield starts deeper than the profile is known, or if a law of hardness is not valid up to the
+        contact radius there.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The rule of yield for a law of hardness of one's own, of which nothing is known beforehand."""
+"""The rule of yield for a law of hardness that a user wrote, of which nothing is known beforehand."""
 
 from dataclasses import dataclass
 
@@ -17,7 +17,7 @@ _STEP = 1.07
 
 @dataclass(frozen=True, eq=False)
 class OwnCap(RadiusCap):
-    """`RadiusCap` of a law of hardness of one's own, of which nothing is known beforehand."""
+    """`RadiusCap` of a law of hardness that a user wrote."""
 
     def may_fall(self, depth):
         depth = np.asarray(depth, dtype=float)

@@ -1,8 +1,8 @@
 """Quadrature over the live interval, for any profile.
 
-A profile enters by its contact radius a(s), by g′(x) and by its kinks. At depths much larger than the
-critical depth the interval is much shorter than the depths at its ends. Nodes are therefore counted from
-d_p, so that no integral over a short interval is a difference of two elastic curves.
+Of a profile the contact radius a(s), the slope g′(x) and the kinks are used. At depths much larger than the
+critical depth the interval is much shorter than the depths at its ends. Nodes are therefore depths above
+d_p: no integral over a short interval is a difference of two elastic curves.
 """
 
 from functools import lru_cache

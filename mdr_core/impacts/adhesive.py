@@ -1,7 +1,7 @@
 """Impacts with adhesion by the energy balance.
 
 The surfaces touch at the bottom of the imprint with the kinetic energy T, where the contact jumps to a
-radius a₀ of the energy E₀. On loading T + E₀ = E + W_p + kinetic energy; from the turning point on E is
+radius a₀, with the energy E₀. On loading T + E₀ = E + W_p + kinetic energy; from the turning point on E is
 conserved up to E₁ at the pull-off. So T (1 − e²) = W_p + W_a with W_a = E₁ − E₀, and the body is captured
 where E at the turning point is not larger than E₁. Energies here are over 2E* (m³).
 """

@@ -1,7 +1,8 @@
 """Contact time of a dry impact, without time stepping.
 
-It has a closed form for an elastic impact of a power law. On a virgin medium it is a function of one ratio
-for all profiles of a family: a series. Every other impact takes the integral of `time_quadrature`.
+For an elastic impact of a power law it has a closed form. On a virgin medium it is a function of one ratio
+for all profiles of a family, which is evaluated as a series. For all other impacts it is the integral of
+`time_quadrature`.
 """
 
 from functools import lru_cache

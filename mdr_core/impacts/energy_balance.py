@@ -1,7 +1,8 @@
 """Impacts without viscosity by the energy balance: maximum depth and restitution, without time stepping.
 
-The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). At the penetration y = d − p₀
-the work is that of the live interval, 2E* ∫(d − s) a ds, which is stored, and the plastic work.
+The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). Up to the penetration
+y = d − p₀ its work is the energy 2E* ∫(d − s) a ds that is stored over the live interval, plus the plastic
+work.
 """
 
 from dataclasses import dataclass, replace
@@ -32,7 +33,7 @@ class DryImpact(Impact):
 
     @_check.frozen_property
     def max_force(self):
-        """Largest force (N): that at the turning point, or with f_c above 0 it may be an earlier one."""
+        """Largest force (N): at the turning point, or before it if the force falls with depth."""
         force, shape = self.turning_point.force, np.shape(self.mass)
         if not self._rule.may_fall(self.max_depth):
             return force
@@ -88,7 +89,7 @@ def turning_interval(rule, target, before):
         row = np.unravel_index(np.argmax(target), shape)
         imprint = np.broadcast_to(before, shape)[row]
         energy = np.array([target[row]])
-        return imprint + _penetration(given.entries(row, shape), energy, np.array([imprint]))[0]
+        return imprint + _penetration(given.entries(row, shape), energy, np.array([imprint]), 0.1)[0]
 
     rule = replace(rule, profile=tabulated_for(rule.profile, target.size, largest_depth))
     unit, *scales = integrals(rule.profile).unit
@@ -109,10 +110,11 @@ def turning_interval(rule, target, before):
     return LiveInterval(*interval), increase
 
 
-def _penetration(rule, target, before):
+def _penetration(rule, target, before, close=1e-7):
     """y = d − p₀ (m) at which the work over 2E* is `target` (m³); infinite below the known depth.
 
-    The work grows about as a power of y: Newton's method on their logarithms.
+    The work grows about as a power of y: Newton's method on their logarithms. After a step of less than
+    `close` the next one would be about its square: with 10⁻⁷ that is rounding.
     """
 
     def work(y, rows):
@@ -132,8 +134,7 @@ def _penetration(rule, target, before):
             new = np.minimum(y[rows] * np.exp(step), highest[rows])
         # At the known depth the work is still less than the energy.
         y[rows] = np.where((y[rows] == highest[rows]) & (step > 1e-13), np.inf, new)
-        # After a step of 10⁻⁷ the next one would be its square, which is rounding.
-        rows = rows[~(np.abs(step) < 1e-7) & (y[rows] < np.inf)]
+        rows = rows[~(np.abs(step) < close) & (y[rows] < np.inf)]
         if not rows.size:
             return y
     # The first guess was poor, or left double precision: in a bracket.

@@ -55,7 +55,7 @@ def impact(
     ------
     ValueError
         If an argument is out of its range, or the indenter would go deeper than its profile is known, or if
-        a law of hardness is none up to the largest contact radius (`HardnessLaw`).
+        a law of hardness is not valid up to the largest contact radius (`HardnessLaw`).
 
     Examples
     --------
@@ -80,19 +80,26 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, *, in_time=False):
     imprint_depth = _check.positive("plastic_depth", plastic_depth, unit="m", zero=True)
     shape = shape_with("impact", profile, medium, mass=mass, speed=speed, plastic_depth=imprint_depth)
     mass, speed, imprint_depth = (np.broadcast_to(values, shape) for values in (mass, speed, imprint_depth))
-    too_deep = profile.too_deep()
     outside = imprint_depth > profile.known_depth
-    _check.refuse("plastic_depth", imprint_depth, outside, f"is {too_deep}", unit="m")
+    if np.any(outside):
+        bound, remedy = f"is {_too_deep(profile, outside)}", "give a smaller one"
+        _check.refuse("plastic_depth", imprint_depth, outside, bound, unit="m", remedy=remedy)
     hit = _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time)
     known = np.minimum(profile.known_depth, _check.LONGEST)
     unknown = ~(hit.turning_point.live_interval.upper <= known)
-    bound = f"presses {too_deep}"
-    _check.refuse("speed", speed, unknown, bound, unit="m/s", remedy="hit less hard")
+    if np.any(unknown):
+        bound, remedy = f"presses {_too_deep(profile, unknown)}", "reduce speed or mass"
+        _check.refuse("speed", speed, unknown, bound, unit="m/s", remedy=remedy)
     return hit
 
 
+def _too_deep(profile, where):
+    """Words for the known depth of the first indenter of an ensemble at a mask."""
+    return profile.flat_entries(int(np.argmax(where)), where.shape).too_deep()
+
+
 def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
-    """The `Impact`, refused if a law of hardness is none up to its largest contact radius."""
+    """The `Impact`, refused if a law of hardness is not valid up to its largest contact radius."""
     if medium.has_own_law:
         _check_elastic(profile, medium, mass, speed, imprint_depth)
     hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
@@ -101,9 +108,10 @@ def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
 
 
 def _check_elastic(profile, medium, mass, speed, imprint_depth):
-    """Refuses a law of hardness that is none up to the depths of impacts on an elastic medium, or of some.
+    """Refuses a law of hardness that is not valid up to the depths of impacts on an elastic medium.
 
-    These are less deep: such a law is not given to a solver.
+    Of many impacts some are checked. They are less deep than those on a medium that yields, and a law that
+    is refused here is not given to a solver.
     """
     rows = np.unique(np.linspace(0, mass.size - 1, min(mass.size, _SOME)).astype(int))
     some = (values.ravel()[rows] for values in (mass, speed, imprint_depth))

@@ -17,12 +17,47 @@ from ..numerics.stable import cube_way
 from .collocation_steps import DepthCoordinate, DepthSteps, VelocitySteps
 from .equation_of_motion import Loading, MotionState, Unloading
 
-_MOST_STEPS = 3000
+#: Tries of steps of one leg, after which it is given up. Legs of impacts with τ from 10⁻⁴ to 10⁴ contact
+#: times take 17 at most; under profiles r^0.02 to r^20, with τ from 10⁻⁶ to 10⁸ and the tolerance of a
+#: motion in time, 92.
+_MOST_STEPS = 500
+
+# Shares of lengths. They decide how many steps are tried, not how exact these are: a step is made shorter
+# if its error is too large. The ranges are those in which impacts with the τ above take at most 5 % more
+# steps: measured by `python -m tests.benchmarks.constants`.
+
+#: First step in depth, over the largest penetration of the same impact without viscosity: 0.5 to 0.7.
+_FIRST = 0.65
+#: Longest step in depth on loading, over the way v²/(2|v̇|) on which the present deceleration would stop the
+#: body: 0.3 to 1.0.
+_STOPPING = 2 / 3
+#: Longest step in velocity on unloading, over the velocity that springs or dashpots alone would return: 0.3
+#: to 0.7.
+_RETURNED = 0.4
+#: Next length, over the one at which the error is the tolerance: the usual safety, 0.82 to 0.92.
+_SAFETY = 0.9
+#: Power of the length with which the error is taken to grow, 28 to 50. Coefficients of degree 21 and more,
+#: times the length, grow as its power 22 where the motion is smooth, and as 22/√(1 − s) for a step over the
+#: share s of the depths up to a singular one: 30 is s = 0.46.
+_POWER = 30
+#: Least change of a length from one step to the next, and the inverse of the largest: 0.1 to 0.5.
+_SHORTER = 0.3
+#: Share of the room of a step towards zero that is tried if the whole of it was too long: 0.82 to 0.88. A
+#: function that is singular at zero has Legendre coefficients ∝ ρ⁻ⁿ over the share s, with s = 4ρ/(1 + ρ)²:
+#: for 0.85 that is 2·10⁻⁸ at degree 22, and 0.93 is where it is the tolerance of 10⁻⁵.
+_AGAIN = 0.85
+#: A largest deceleration is looked for in steps that have this share of it at a node. Nodes are at most
+#: 0.064 of a step apart: a peak as wide as a step has 0.996 at one.
+_NEAR = 0.98
 
 
 @dataclass(frozen=True)
 class Solution:
-    """States (N, 1) at turning point (infinite below the known depth) and end; steps with their impacts."""
+    """States (N, 1) of N impacts at the turning point and at the end, and their steps.
+
+    The depth of a turning point below the known depth is infinite. `loading` and `unloading` are lists of
+    pairs: the numbers of impacts, and the steps that these have taken.
+    """
 
     turning_point: MotionState
     end: MotionState
@@ -37,14 +72,25 @@ class Solution:
             np.fmax.at(largest, rows, step.decelerations().max(axis=1))
         # Steps next to the largest value at a node may have a larger one in between.
         for rows, step in self.loading:
-            near = np.flatnonzero(step.decelerations().max(axis=1) >= 0.98 * largest[rows])
+            near = np.flatnonzero(step.decelerations().max(axis=1) >= _NEAR * largest[rows])
             if near.size:
                 np.maximum.at(largest, rows[near], step[near].largest_deceleration())
         return largest
 
 
+class Unsolved(ValueError):
+    """The error of impacts, at `rows`, whose motion has not ended after as many steps as are tried."""
+
+    def __init__(self, rows):
+        super().__init__(f"a motion is not solved: it has not ended after {_MOST_STEPS} steps")
+        self.rows = rows
+
+
 def solve(bodies, tolerance=1e-5):
-    """The `Solution` of impacts; the tolerance is that between nodes: at ends errors are far smaller."""
+    """The `Solution` of impacts.
+
+    `tolerance` is the relative error of a step between its nodes; at its end the error is far smaller.
+    """
     turning_point, loading = _load(bodies, tolerance)
     end, unloading = _unload(bodies, turning_point, tolerance)
     return Solution(turning_point, end, loading, unloading)
@@ -67,7 +113,7 @@ def _load(bodies, tolerance):
         root = np.cbrt(np.where((base == 0) | (base == onset), below, 0.0))
         coordinate = DepthCoordinate(base, root)
         leg = _LoadingLeg(equation, coordinate, edge, coordinate.delta(edge))
-        first = np.minimum(cube_way(root, 0.65 * bodies.dry_penetration), leg.edge_delta)
+        first = np.minimum(cube_way(root, _FIRST * bodies.dry_penetration), leg.edge_delta)
         ended, turned = leg.run(leg.from_states(state, rows, first), tolerance, steps)
         state = state.replaced(ended.row, ended.state)
         rows, base = np.sort(ended.row[~turned]), edge
@@ -134,9 +180,9 @@ class _Leg(Entries):
         return _Underway(rows, state[rows], delta, first, none, np.zeros(none.shape, bool))
 
     def run(self, impacts, tolerance, steps):
-        """The impacts at the end of the leg, and which have turned round; notes their steps in `steps`.
+        """The impacts at the end of the leg, and which of them have turned round.
 
-        `steps` gets pairs: the numbers of impacts, and the steps that they have taken.
+        Appends to `steps` pairs: the numbers of impacts, and the steps that they have taken.
         """
         ended, turned = [impacts[:0]], [np.zeros(0, bool)]
         for _ in range(_MOST_STEPS):
@@ -156,7 +202,7 @@ class _Leg(Entries):
                 ended.append(after[arrived])
                 turned.append(np.full(np.count_nonzero(arrived), turns))
             impacts = _joined(going)
-        raise ValueError(f"no convergence in {_MOST_STEPS} steps of a motion; check mass, speed, viscosity")
+        raise Unsolved(impacts.row)
 
     def _variable(self, impacts):
         """Which impacts take their next step in depth, shape (N,), and their decelerations (m/s²)."""
@@ -204,12 +250,12 @@ class _Leg(Entries):
         end = step.end()
         good, factor = _judged(step, end, error, tolerance)
         passed = self.depth_sign * (end.depth - leg.edge) > self.margin * leg.edge
+        # Past the edge only the depth leads to it; but from rest the depth is no variable.
+        depth_only = good & passed & (state.velocity != 0)
         good &= ~passed
-        factor = np.where(passed, 0.3, factor)
+        factor = np.where(passed, _SHORTER, factor)
         if not self.depth_vanishes:
             factor = _shrinking(factor, good, last, length, room)
-        # Past the edge only the depth leads to it; but from rest the depth is no variable.
-        depth_only = passed & (error[:, None] < 1e-3) & (state.velocity != 0)
         after = _Underway(
             impacts.row,
             state=state.replaced(good[:, 0], end[good[:, 0]]),
@@ -231,10 +277,10 @@ class _LoadingLeg(_Leg):
     margin = 1e-12
 
     def longest_in_depth(self, impacts, room, deceleration):
-        """Longest step in δ (m^(1/3)): a part of the depth in which the present force stops the body."""
+        """Longest step in δ (m^(1/3)): a share of the way on which the present force stops the body."""
         depth, velocity = impacts.state.depth, impacts.state.velocity
         with np.errstate(divide="ignore"):
-            way = velocity**2 / (3 * deceleration)
+            way = _STOPPING * velocity**2 / (2 * deceleration)
         return self.coordinate.delta(depth + way) - impacts.delta
 
     def room_in_velocity(self, impacts, deceleration):
@@ -254,35 +300,35 @@ class _UnloadingLeg(_Leg):
         return room
 
     def room_in_velocity(self, impacts, deceleration):
-        """Change of velocity (m/s) up to the end of the leg, which has none, and the longest step.
+        """Room in velocity, infinite because the leg ends at a depth, and the longest step (m/s).
 
-        That is a part of the velocity that springs alone, or dashpots alone, would return.
+        The longest step is a share of the velocity that springs alone, or dashpots alone, would return.
         """
         depth, relaxation_time = impacts.state.depth, self.equation.bodies.relaxation_time
-        gain = 0.4 / (1 / np.sqrt(depth * deceleration) + relaxation_time / depth)
+        gain = _RETURNED / (1 / np.sqrt(depth * deceleration) + relaxation_time / depth)
         return np.full_like(gain, np.inf), gain
 
 
 def _length(room, longest):
-    """Lengths of steps: the longest ones, or all of the room where it is hardly longer; and where it is."""
-    last = room <= 1.001 * longest
+    """Lengths of steps, at most `longest` and at most the room; and which of them take all of the room."""
+    last = room <= longest
     return np.where(last, room, longest), last
 
 
 def _judged(step, end, error, tolerance):
-    """Which steps are good, and by which factor the next ones are longer, both (N, 1)."""
+    """Which steps are good, and the length of the next ones over that of these, both (N, 1)."""
     # A body that turns round within a step in depth leaves no state at its end.
     error = np.where(step.start.velocity * end.velocity >= 0, error[:, None], np.inf)
     with np.errstate(divide="ignore"):
-        factor = np.clip(0.9 * (tolerance / error) ** (1 / 30), 0.3, 3.0)
+        factor = np.clip(_SAFETY * (tolerance / error) ** (1 / _POWER), _SHORTER, 1 / _SHORTER)
     return error <= tolerance, factor
 
 
 def _shrinking(factor, good, last, length, room):
-    """Factors of steps towards zero, which shrink with what remains of the room that they had."""
+    """`factor` of steps towards zero: a good one leaves less room, and the next is shorter by as much."""
     with np.errstate(invalid="ignore"):
         shrunk = factor * (1 - length / room)
-    return np.where(good, shrunk, np.where(last, 0.85, factor))
+    return np.where(good, shrunk, np.where(last, _AGAIN, factor))
 
 
 def _joined(parts):

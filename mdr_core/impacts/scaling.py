@@ -203,7 +203,8 @@ def fast_limit(hit):
     profile, medium = hit.profile, hit.medium
     refuse_other_classes(medium, "the fast limit", "ScalingLaw has the powers of each class")
     d_c = np.asarray(medium.critical_depth)
-    _check.refuse("critical depth", d_c, np.isinf(d_c), "m: nothing yields", remedy="give q_c")
+    bound = "is infinite, so that nothing yields"
+    _check.refuse("critical depth", d_c, np.isinf(d_c), bound, unit="m", remedy="give the medium a q_c")
     depth = depth_in_fast_limit(hit)
     known = np.min(profile.known_depth, initial=_check.LONGEST)
     bound = f"presses deeper than the known depth of the profile, {known:g} m, in this limit"

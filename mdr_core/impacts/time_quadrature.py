@@ -13,10 +13,11 @@ from ..numerics.stable import cube_rise, cube_way
 
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
 #: transition depth. Contact times of five shapes over seven decades of speed then have errors of 5·10⁻¹¹
-#: at most, without them 2·10⁻¹⁰: `python -m tests.benchmarks.constants`, which tries other ones, too.
+#: at most, without them 3·10⁻⁶, with half of these depths 7·10⁻¹⁰, and with twice these depths 5·10⁻¹²:
+#: `python -m tests.benchmarks.constants`.
 TRANSITIONS = np.array([1.0, 6.0])
 #: Gauss nodes of pieces that are longer than their distance from the turning point, and of others. Times
-#: of the same impacts have errors of 5·10⁻¹¹ at most, with (20, 9) 3·10⁻⁹: measured by the same command.
+#: of the same impacts have errors of 5·10⁻¹¹ at most, with (20, 9) 4·10⁻⁹: measured by the same command.
 NODES = (28, 12)
 
 
@@ -122,8 +123,10 @@ def _past_yield(rule, before, onset, increase, length, kinks, transitions):
     cuts = _Cuts(
         root=passed_by_lower(kink_above(profile, before[:, 0])[:, None]),
         kinks=np.hstack([by_lower, passed_by_upper(kinks)]),
-        # The lower end of the interval is at about p₀ + s, and where it passes a transition a(s) turns.
-        smooth=np.hstack([transitions - before, column.breaks(before, increase, onset)]),
+        # a at the lower end goes over to another power where this end passes a transition. It is at
+        # p₀ + s + (y₀ − u_c): the bracket is 0 for a constant cap, else small against s, and a cut of
+        # twice the depth does as well.
+        transitions=np.hstack([transitions - before, column.breaks(before, increase, onset)]),
     )
     return _stretch(profile, interval_at, cuts, length)
 
@@ -150,8 +153,8 @@ class _Cuts(NamedTuple):
     root: np.ndarray
     #: Kinks of the force, from each of which a(s) rises as a root.
     kinks: np.ndarray
-    #: Where the force is smooth, but turns from one power of the depth into another.
-    smooth: np.ndarray
+    #: Where the force is smooth, but goes over from about one power of the depth to another.
+    transitions: np.ndarray
 
 
 class _Pieces(NamedTuple):
@@ -236,9 +239,10 @@ def _edges(cuts, length):
     roots : ndarray, shape (N, K)
         For piece k the last kink at or above its start, or `cuts.root` where the stretch has none there.
     """
-    kinks, smooth = (np.broadcast_to(cut, (len(length), cut.shape[1])) for cut in (cuts.kinks, cuts.smooth))
-    inner = np.clip(np.hstack([kinks, smooth]), 0.0, length)
-    is_kink = np.hstack([np.ones(kinks.shape, bool), np.zeros(smooth.shape, bool)])
+    both = cuts.kinks, cuts.transitions
+    kinks, transitions = (np.broadcast_to(cut, (len(length), cut.shape[1])) for cut in both)
+    inner = np.clip(np.hstack([kinks, transitions]), 0.0, length)
+    is_kink = np.hstack([np.ones(kinks.shape, bool), np.zeros(transitions.shape, bool)])
     ascending = np.argsort(inner, axis=1)
     inner = np.take_along_axis(inner, ascending, axis=1)
     is_kink = np.take_along_axis(is_kink, ascending, axis=1)

@@ -6,13 +6,15 @@ import numpy as np
 
 from .. import _check
 from .._check import Array
+from ..applicability import check_reached
 from ..contact.indentation import Indentation
 from ..contact.yielding import yield_rule
 from ..numerics.blocks import chunks
 from ..numerics.results import SCALAR_ODE
+from ..profiles.shape_check import check_slopes
 from .energy_balance import dry_impact
 from .equation_of_motion import Bodies
-from .motion_solver import solve
+from .motion_solver import Unsolved, solve
 from .result import Impact
 
 
@@ -37,6 +39,8 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
     dry = dry_impact(profile, medium, mass, speed, imprint_depth)
     interval, increase = dry.turning_point.live_interval, dry.plastic_depth_increase
     penetration = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
+    # Steps with a wrong slope would not end.
+    check_slopes(profile, interval.upper)
     bodies = Bodies.of(profile, medium, mass, speed, imprint_depth, penetration)
     viscous = (bodies.relaxation_time.reshape(mass.shape) > 0) | in_time
     motions = np.zeros((4, *mass.shape))
@@ -51,7 +55,12 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
     numbers = np.flatnonzero(viscous)
     for block in chunks(numbers.size, 256):
         rows = numbers[block]
-        penetrations[rows], columns[:, rows] = _solved(bodies[rows])
+        try:
+            penetrations[rows], columns[:, rows] = _solved(bodies[rows])
+        except Unsolved as error:
+            # A shape or a law that is at fault is known at the depths without viscosity, which are larger.
+            check_reached(profile, medium, interval.upper)
+            _refuse_unsolved(error, rows[error.rows], speed, profile, interval.upper)
     restitution, end_time, work, deceleration = motions
     rule = yield_rule(profile, medium)
     interval, increase = rule.loading(penetrations.reshape(mass.shape), imprint_depth)
@@ -65,6 +74,22 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
         max_force=_check.frozen(mass * deceleration),
         viscous_work=_check.frozen(2 * medium.E_star * work),
     )
+
+
+def _refuse_unsolved(error, rows, speed, profile, depth):
+    """Refuses the impacts at some rows of the flattened ensemble, which have not been solved.
+
+    `depth` (m) is that without viscosity.
+    """
+    bad = np.zeros(speed.size, bool)
+    bad[rows] = True
+    one = profile.flat_entries(int(rows[0]), speed.shape)
+    if not depth.flat[rows[0]] <= one.known_depth:
+        bound, remedy = f"presses {one.too_deep()}", "reduce speed or mass"
+    else:
+        bound = f"has no solution: {error}"
+        remedy = "check mass and eta, and the functions of a shape or a law of your own"
+    raise _check.InvalidEntries("speed", speed, bad.reshape(speed.shape), bound, "m/s", remedy) from error
 
 
 def _solved(bodies):

@@ -24,7 +24,6 @@ def gauss_integrals(count, places):
     return rise @ _to_legendre(count)
 
 
-@lru_cache
 def _to_legendre(count):
     """Matrix from values at Gauss–Legendre nodes to coefficients of Legendre polynomials."""
     node, weight = gauss_legendre(count)

@@ -8,10 +8,11 @@ velocity W = U̇ of the contact point follows Ẇ = −C ∫Q dx.
 1. Levels of depth are the edges of cells, with a pair of elements at Gauss's points in each. A step lies
    between two instants at which the edge of the contact passes a level: it covers or releases one cell.
 2. A step is Nyström's, with F = ∫Q dx at its start, middle and end.
-3. An element that is covered has for an origin the U of that instant, from a parabola in depth.
+3. The origin of an element is U at the instant at which it is covered, from a parabola in depth.
 4. At the middle and at the end of a step slip moves the origins.
 5. On unloading, the load of the cell at the edge is corrected for the ring in it that slips.
-6. The next run has twice the levels, until the error, which is what this changes, is within the tolerance.
+6. Runs are repeated with twice the levels until the error, which is estimated as the change from one run to
+   the next, is within the tolerance.
 
 Errors are of second order in the step.
 """
@@ -79,7 +80,7 @@ class DryRun:
         self.velocity = self.softness * velocity
 
     def solve(self, recorded=()):
-        """The run itself, which returns itself."""
+        """Takes all steps of the run, and returns it."""
         self.velocities, self.forces = [self.velocity], [self.force]
         self.element_states = {0: (self.origin[:0], self.origin[:0])}
         for i in range(len(self.levels.step)):

@@ -247,7 +247,7 @@ class ObliqueImpact(Entries, Result):
 
     @property
     def tangential_restitution(self) -> Array:
-        """Tangential restitution e_t = −v_t′/v_t0; −1 without friction, for v_t0 = 0 that of slow ones."""
+        """Tangential restitution e_t = −v_t′/v_t0; −1 without friction; its limit for v_t0 → 0."""
         return (-1 - self._surface.relative_change)[()]
 
     @property

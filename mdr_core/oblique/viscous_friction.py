@@ -1,12 +1,13 @@
 """Friction along the surface of a viscous medium, for one impact at a time: section 13 of the theory.
 
-Lengths along the surface are those of a body of speed 1. An element with the displacement s has the load
-Q = s + τṡ, and |Q| ≤ B, μ/κ times its normal load. It sticks with ṡ = W, the velocity of the contact point,
-or slips with |Q| = B; released, it relaxes with Q = 0. With C = 2κE*/m_t the velocity follows Ẇ = −C ∫Q dx.
+Quantities along the surface are divided by the initial tangential speed. An element with the displacement s
+has the load Q = s + τṡ, and |Q| ≤ B, where B is μ/κ times its normal load. It sticks with ṡ = W, the
+velocity of the contact point, or slips with |Q| = B; once released, it relaxes with Q = 0. With
+C = 2κE*/m_t the velocity follows Ẇ = −C ∫Q dx.
 
 1. Levels of depth are the edges of elements. A step lies between two instants at which the edge of the
    contact passes a level: it covers or releases one element.
-2. An element stands for its mean depth ∫g dx/Δx: the normal force is then exact at every level.
+2. The depth of an element is the mean ∫g dx/Δx, so that the normal force is exact at every level.
 3. Over a step load and bound are linear in time until they meet, and s is then exact. The balance of
    momentum is solved for the velocity at the end.
 4. Work is the mean load times the displacement, friction work the mean load times the slip: the energies

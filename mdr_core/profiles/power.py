@@ -185,10 +185,10 @@ class PowerLaw(Profile):
         _check.set_positive(self, coefficient="m^(1-n)", exponent="")
         exponent = np.asarray(self.exponent)
         outside = (exponent < 0.01) | (exponent > 100)
-        bound = "must lie in 0.01 ≤ n ≤ 100"
-        _check.refuse("PowerLaw exponent", exponent, outside, bound, remedy="FlatPunch is n → ∞")
+        bound, remedy = "must lie between 0.01 and 100", "for a flat end, n → ∞, take FlatPunch"
+        _check.refuse("PowerLaw exponent", exponent, outside, bound, remedy=remedy)
 
-    # Kept, viscous impacts are 1.3 times as fast.
+    # Kept, single states are 1.5 times as fast, impacts 1.3 times.
     @cached_property
     def _reduced_coefficient(self):
         return _check.frozen(kappa(self.exponent) * self.coefficient)
@@ -215,4 +215,6 @@ class PowerLaw(Profile):
     def _known(self, depth):
         with np.errstate(over="ignore"):
             far = self.radius_at(np.maximum(depth, 0.0)) > _check.FARTHEST
-        return _check.refuse("depth", depth, far, "has a contact beyond double precision", unit="m")
+        return _check.refuse(
+            "depth", depth, far, "has a contact beyond double precision", unit="m", remedy="press less deep"
+        )

@@ -44,7 +44,8 @@ class Profile(_check.Parameters, ABC):
 
     Every calculation checks a shape of your own at 200 radii, from 10⁻⁶ of its largest contact radius up to
     it: g is 0 at the tip, finite, and does not fall, z is finite and g′ a number. A shape ends, if it does
-    not say where, at the first radius at which this is not so.
+    not say where, at the first radius at which this is not so. g′ that differs from the slope of g by more
+    than 30 % at three quarters of the radii is refused; kinks, jumps of g and coarse tables are not.
 
     Examples
     --------
@@ -152,7 +153,8 @@ class Profile(_check.Parameters, ABC):
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
         depth = self._known(depth)
         radius = self.radius_at(depth)
-        _check.refuse("depth", depth, np.isinf(radius), "has a contact beyond double precision", unit="m")
+        bound, remedy = "has a contact beyond double precision", "press less deep"
+        _check.refuse("depth", depth, np.isinf(radius), bound, unit="m", remedy=remedy)
         remedy = f"mend radius_at of {type(self).__name__}"
         _check.refuse("depth", depth, np.isnan(radius), "has no contact radius", unit="m", remedy=remedy)
         return radius[()]
@@ -162,14 +164,16 @@ class Profile(_check.Parameters, ABC):
         root = increasing_root(
             lambda x: (self.reduced_at(x), self.reduced_slope_at(x)), depth, 1.0, self.known_radius
         )
-        return np.maximum(root, self.face_radius)
+        # A search passes a wall at which g jumps.
+        return np.minimum(np.maximum(root, self.face_radius), self.wall)
 
     def _of_radius(self, quantity, r, function):
         """`function` at checked radii |r| (m)."""
         r = np.abs(self._places(quantity, r))
         known = np.min(self.known_radius, initial=np.inf)
         bound = f"is beyond the radius up to which the shape is known, {known:g} m"
-        _check.refuse(quantity, r, r > self.known_radius, bound, unit="m")
+        remedy = "give a smaller radius"
+        _check.refuse(quantity, r, r > self.known_radius, bound, unit="m", remedy=remedy)
         values = function(r)[()]
         remedy = f"mend {function.__name__} of {type(self).__name__}"
         _check.refuse(quantity, r, np.isnan(values), "has no height or slope", unit="m", remedy=remedy)
@@ -190,14 +194,17 @@ class Profile(_check.Parameters, ABC):
         return _check.refuse("depth", depth, too_deep, bound, unit="m", remedy="press less deep")
 
     def too_deep(self):
-        """Text for a refusal of depths below `known_depth`."""
+        """Words for depths beyond `known_depth`, in messages of errors."""
         if is_own(self) and not self.shape and self.sound.fault and self.known_depth == self.sound.depth:
             return (
-                f"deeper than {type(self).__name__} is a shape, {self.known_depth:g} m, since "
+                f"deeper than {type(self).__name__} is valid, {self.known_depth:g} m, since "
                 f"{self.sound.fault}: mend its functions, or give known_depth and known_radius, or wall, "
                 "where the shape ends"
             )
-        return f"deeper than {self._last}, {np.min(self.known_depth, initial=_check.LONGEST):g} m"
+        deepest = np.min(self.known_depth)
+        if deepest > _check.LONGEST:
+            return f"deeper than {_check.LONGEST:g} m, the largest depth that is computed"
+        return f"deeper than {self._last}, {deepest:g} m"
 
 
 def check_known(profile: Profile, depth: np.ndarray) -> np.ndarray:

@@ -20,7 +20,7 @@ _MOST_SAMPLES = 5000
 
 @dataclass(frozen=True, repr=False)
 class Sampled(Profile):
-    """Profile that is the polygon through samples of its height, solved exactly.
+    """Polygon through samples of the height of a profile, solved exactly.
 
     Its reduced height is x Σ sᵢ [arcsin(min(rᵢ₊₁, x)/x) − arcsin(rᵢ/x)] with slopes sᵢ, from Popov (2015),
     Eq. (3). It must be convex: outside a concave vertex g falls, and the contact would not be compact.
@@ -120,7 +120,8 @@ class Sampled(Profile):
         """
         r, z = _lists("Sampled.fit", r, z)
         if np.unique(np.abs(r)).size < 3:
-            raise ValueError("a fit needs three or more different radii")
+            count = np.unique(r).size
+            raise ValueError(f"Sampled.fit needs three or more different radii |r|, got {count}")
         return cls(*convex_fit(r, z))
 
     @classmethod

@@ -77,7 +77,9 @@ def _nearest_convex(r, z):
     _, _, *bends = scipy.optimize.nnls(columns, (z - z.mean()) / size)[0]
     bends = np.array(bends) * size / radii[-1]
     if not np.any(bends > 0):
-        raise ValueError("z does not increase with r: use FlatPunch, or change the sign of z")
+        raise ValueError(
+            "the height z does not increase with the radius r: change the sign of z, or take FlatPunch"
+        )
     used = (bends > 0) | (kinks == 0)
     kinks, bends = kinks[used], bends[used]
     vertices = np.append(kinks, radii[-1])
@@ -137,8 +139,9 @@ def area_samples(coefficients, height, samples, limit, unit):
     wide = radius[-1] / height
     if not 1 / _WIDEST < wide < _WIDEST:
         raise ValueError(
-            f"area coefficients: at height = {height:g} m the radius would be {radius[-1]:.3g} m, "
-            f"{wide:.2g} times the height: check the unit of the coefficients, {unit}"
+            f"area coefficients: at height = {height:g} m the radius is {radius[-1]:.3g} m, {wide:.2g} "
+            f"times the height, which must be between {1 / _WIDEST:g} and {_WIDEST:g}: check the unit of "
+            f"the coefficients, {unit}"
         )
     r, h = np.append(0.0, radius), np.append(0.0, h)
     slopes = scipy.optimize.isotonic_regression(np.diff(h) / np.diff(r), weights=np.diff(r)).x

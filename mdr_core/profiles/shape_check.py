@@ -1,8 +1,8 @@
-"""Whether a shape of one's own is one: g starts at 0, is finite and does not fall, and g′, z, a are finite.
+"""Check of shapes that users write: g starts at 0 and does not fall, g′ is its slope, all are finite.
 
-A shape of the library is trusted. Of one that a user wrote two things are asked: up to which radius its
-functions are finite at all (`sound_range`, once for a profile), which ends its known depth; and whether it
-is a shape at the radii that a calculation reaches (`check_shape`).
+Shapes of the library are trusted. `sound_range` finds, once for a profile, the radius up to which its
+functions are valid, which ends its known depth. `check_shape` checks them at the radii that a calculation
+reaches.
 """
 
 from typing import NamedTuple
@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import _check
 from .._check import shown
+from .slope_check import misfit, words, wrong_contacts
 
 #: Radii (m) between which a shape is looked at: 33 in each decade, no two 8 % apart.
 _RADII = np.concatenate([[0.0], np.geomspace(1e-18, 1e12, 1000)])
@@ -22,13 +23,15 @@ _ROUNDING, _TIP = 1e-6, 1e-12
 #: Share by which a contact radius may differ from that of g.
 _SAME = 1e-3
 #: Radii at which each indenter of an ensemble is checked below its contact radius, over so many decades;
-#: indenters that are checked at a time.
-_COUNT, _DECADES, _ROWS = 24, 6, 4096
+#: pairs of radii at which its g′ is compared with g, and their distance over the larger one; indenters that
+#: are checked at a time.
+_COUNT, _DECADES, _PAIRS, _STEP, _ROWS = 24, 6, 12, 0.01, 4096
 #: What is wrong, and what to do about it.
 _ENDS = "mend its functions, or give known_depth and known_radius, or wall, where the shape ends"
 _RADIUS = "mend radius_at(depth), or leave it out"
 _FALLS = "g(x) has fallen to {value:g} m at x = {place:g} m, so that the contact would not be compact"
 _RISE = "mend reduced_at(x): g is 0 at the tip, and does not fall"
+_SLOPE = "mend reduced_slope_at(x): it is the derivative of reduced_at(x), not of the height z"
 
 
 def is_own(profile):
@@ -37,10 +40,11 @@ def is_own(profile):
 
 
 class SoundRange(NamedTuple):
-    """Radius and depth (m) up to which a shape is one, infinite without an end; and why it is none there.
+    """Radius and depth (m) up to which a shape is valid, infinite without an end, and the fault there.
 
     `levels` are the largest g (m) up to ascending radii, and `falls` the largest height (m) by which g has
-    fallen below such a level, up to there; `places` are the radii (m) of these.
+    fallen below such a level, up to there; `places` are the radii (m) of these. `slopes` are radii (m) at
+    which g′ is not the slope of g, for contacts up to ascending radii; NaN where it is.
     """
 
     radius: float
@@ -49,6 +53,7 @@ class SoundRange(NamedTuple):
     levels: np.ndarray
     falls: np.ndarray
     places: np.ndarray
+    slopes: np.ndarray
 
 
 def sound_range(profile, end, own_radius):
@@ -56,15 +61,15 @@ def sound_range(profile, end, own_radius):
 
     It ends before the first radius at which g or z is not finite, g′ is not a number, the contact radius is
     not that of g if the shape has its own (`own_radius`), or from which on g never again reaches a depth
-    that it had. Refused if it is none at the tip.
+    that it had. Refused if it is not valid at the tip.
     """
     x = np.append(_RADII[end > _RADII], end if end < _RADII[-1] else [])
-    reduced, fault = _values(profile, x)
+    reduced, slope, fault = _values(profile, x)
     fault[0] |= abs(reduced[0]) > _TIP
     if fault[0]:
         raise _refused(profile, _said(profile, x[0]), _ENDS)
     count = int(np.argmax(fault)) if fault.any() else x.size
-    x, reduced, beyond = x[:count], reduced[:count], x[count:]
+    x, reduced, slope, beyond = x[:count], reduced[:count], slope[:count], x[count:]
     levels = np.maximum.accumulate(reduced)
     falls = levels - reduced
     worst = np.maximum.accumulate(falls)
@@ -81,14 +86,43 @@ def sound_range(profile, end, own_radius):
         radius, depth, fault = np.inf, float(reduced[-1]) if end < _RADII[-1] else np.inf, ""
     if own_radius:
         radius, depth, fault = _up_to_wrong_radius(profile, x, reduced, (radius, depth, fault))
-    return SoundRange(radius, depth, fault, levels, worst, places)
+    slopes = _wrong_slopes(profile, x, reduced, slope)
+    if np.isfinite(slopes[-1]):
+        # For a contact up to the next radius, and up to all larger ones, g′ is wrong.
+        last = np.flatnonzero(np.isnan(slopes))[-1]
+        if x[last] < radius:
+            radius, depth = float(x[last]), float(levels[last])
+            fault = _said_of_slope(profile, slopes[last + 1])
+    return SoundRange(radius, depth, fault, levels, worst, places, slopes)
+
+
+def _wrong_slopes(profile, x, reduced, slope):
+    """The last radius (m) at which g′ is wrong for contacts up to each radius x (m), NaN if it is right.
+
+    From g (m) and g′ at the radii. Refused if g′ is wrong for all contacts.
+    """
+    before = np.maximum(np.arange(x.size) - 1, 0)
+    values = x, reduced, slope
+    pairs = misfit([value[before] for value in values], values)
+    wrong = wrong_contacts(x, pairs)
+    places = x[np.maximum.accumulate(np.where(pairs.off, np.arange(x.size), 0))]
+    if np.any(wrong) and np.all(wrong == pairs.enough):
+        raise _refused(profile, _said_of_slope(profile, places[np.argmax(wrong)]), _SLOPE)
+    return np.where(wrong, places, np.nan)
+
+
+def _said_of_slope(profile, x):
+    """Words for a g′ that is not the slope of g at a radius (m)."""
+    x = np.array([(1 - _STEP) * x, x])
+    g, slope, _ = functions_at(profile, x)
+    return words(x, g, slope)
 
 
 def _last_sound(profile, low, high):
-    """The last radius (m) between two at which a shape is one, and the first one at which it is none."""
+    """The last radius (m) between two at which a shape is valid, and the first at which it is not."""
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
-        none = _values(profile, np.array([middle]))[1][0]
+        none = _values(profile, np.array([middle]))[2][0]
         low, high = (low, middle) if none else (middle, high)
     return float(low), float(high)
 
@@ -112,20 +146,20 @@ def _up_to_wrong_radius(profile, x, reduced, known):
 
 
 def _values(profile, x):
-    """g (m) at radii (m), and whether g, g′ or z is none there."""
+    """g (m) and g′ at radii (m), and whether g or z is not finite, or g′ not a number, there."""
     try:
         reduced, slope, height = functions_at(profile, x)
     except (ValueError, ArithmeticError):
         if x.size == 1:
-            return np.full(1, np.nan), np.ones(1, bool)
+            return np.full(1, np.nan), np.full(1, np.nan), np.ones(1, bool)
         # It ends somewhere: an interpolation, say, fails beyond its table.
         each = [_values(profile, x[i : i + 1]) for i in range(x.size)]
         return tuple(np.concatenate(values) for values in zip(*each, strict=True))
-    return reduced, ~np.isfinite(reduced) | np.isnan(slope) | ~np.isfinite(height)
+    return reduced, slope, ~np.isfinite(reduced) | np.isnan(slope) | ~np.isfinite(height)
 
 
 def functions_at(profile, x):
-    """g (m), g′ and z (m) at radii (m), whose values are looked at: it is asked where no solver goes."""
+    """g (m), g′ and z (m) at radii (m), without warnings: also at radii that no solver reaches."""
     with np.errstate(all="ignore"):
         values = profile.reduced_at(x), profile.reduced_slope_at(x), profile.height_at(x)
     return [np.broadcast_to(value, x.shape).astype(float) for value in values]
@@ -145,11 +179,45 @@ def _said(profile, x):
 
 
 def check_shape(profile, depth):
-    """Refuses a shape of one's own that is none at the contact radii (m) of depths (m) up to the largest.
+    """Refuses a user's shape that is not valid at the contact radii (m) of depths (m) up to the largest.
 
-    That of one profile is known from `sound_range` already, but for places where g falls and rises again.
-    An indenter of an ensemble is checked from 10⁻⁶ of its contact radius on. Depths that are infinite or
-    not positive are left out.
+    That of one profile is known from `sound_range` already, but for places where g falls and rises again,
+    or g′ is not its slope. An indenter of an ensemble is checked from 10⁻⁶ of its contact radius on. Depths
+    that are infinite or not positive are left out.
+    """
+    for some, depths in _in_blocks(profile, depth):
+        if profile.shape:
+            _check_each(some, depths)
+            _check_slopes(some, depths)
+        else:
+            _check_falls(profile, np.max(depths))
+            _check_slope(profile, np.max(depths))
+
+
+def check_tips(profile):
+    """Refuses an ensemble with an indenter whose g is not 0 at the tip; that of one profile is known."""
+    if profile.shape and is_own(profile):
+        every = profile.flat_entries(slice(None), profile.shape)
+        x = np.zeros(every.shape)
+        reduced, *_ = functions_at(every, x)
+        bad = ~(np.abs(reduced) <= _TIP)
+        _refuse(every, x, reduced, bad, "g(x) is {value:g} m at x = {place:g} m, the tip", _RISE)
+
+
+def check_slopes(profile, depth):
+    """Refuses an ensemble with an indenter whose g′ is not the slope of g up to its depth (m).
+
+    That of one profile is known from `sound_range`.
+    """
+    if profile.shape:
+        for some, depths in _in_blocks(profile, depth):
+            _check_slopes(some, depths)
+
+
+def _in_blocks(profile, depth):
+    """Indenters of a class that a user wrote, and their depths (m), some thousands at a time.
+
+    One profile comes at once with all depths. Those that are infinite or not positive are left out.
     """
     if not is_own(profile):
         return
@@ -157,14 +225,10 @@ def check_shape(profile, depth):
     shape = np.broadcast_shapes(depth.shape, profile.shape)
     depth = np.minimum(np.broadcast_to(depth, shape), profile.known_depth).ravel()
     rows = np.flatnonzero((depth > 0) & (depth <= _check.LONGEST))
-    if not rows.size:
-        return
-    if not profile.shape:
-        _check_falls(profile, np.max(depth[rows]))
-        return
-    for start in range(0, rows.size, _ROWS):
-        some = rows[start : start + _ROWS]
-        _check_each(profile.flat_entries(some, shape), depth[some])
+    size = _ROWS if profile.shape else max(rows.size, 1)
+    for start in range(0, rows.size, size):
+        some = rows[start : start + size]
+        yield profile.flat_entries(some, shape), depth[some]
 
 
 def _check_falls(profile, depth):
@@ -174,6 +238,29 @@ def _check_falls(profile, depth):
     if sound.falls[number] > _ROUNDING * depth:
         x = sound.places[number]
         raise _refused(profile, _FALLS.format(place=x, value=profile.reduced_at(np.array([x]))[0]), _RISE)
+
+
+def _check_slope(profile, depth):
+    """Refuses one profile whose g′ is not the slope of g over the contact at a depth (m)."""
+    sound = profile.sound
+    place = sound.slopes[np.searchsorted(sound.levels, depth, side="right") - 1]
+    if np.isfinite(place):
+        raise _refused(profile, _said_of_slope(profile, place), _SLOPE)
+
+
+def _check_slopes(profile, depth):
+    """`check_slopes` with one depth (m) for each indenter."""
+    radius = np.broadcast_to(profile.radius_at(depth), depth.shape)
+    face = np.broadcast_to(profile.face_radius, radius.shape)
+    x = face + (radius - face) * ((np.arange(_PAIRS)[:, None] + 0.5) / _PAIRS)
+    x = np.stack([(1 - _STEP) * x, x])
+    g, slope, _ = functions_at(profile, x)
+    pairs = misfit((x[0], g[0], slope[0]), (x[1], g[1], slope[1]))
+    wrong = pairs.wrong(1.0)[-1]
+    if np.any(wrong):
+        i = int(np.argmax(wrong))
+        one, place = profile.entries((i,)), np.flatnonzero(pairs.off[:, i])[-1]
+        raise _refused(one, _said_of_slope(one, x[1, place, i]), _SLOPE)
 
 
 def _check_each(profile, depth):
@@ -208,6 +295,6 @@ def _refuse(profile, places, values, bad, what, remedy):
 
 
 def _refused(profile, what, remedy):
-    """The error of a shape that is none: what is wrong with it, and what to do."""
+    """The error of a shape that is not valid: what is wrong with it, and what to do."""
     text = f"profile {shown(profile)}: {what}; {remedy}"
     return _check.InvalidArgument(text, "profile", profile, what, "", remedy)

@@ -128,16 +128,24 @@ def uncached_everywhere(function):
         yield
 
 
+@contextmanager
 def tables_for_one():
     """Where a single depth is enough for a table of the profile."""
-    return patch.object(integrals, "_FEW", 0)
+    with patch.object(integrals, "_FEW", 0), patch.object(integrals, "_FEW_A_KINK", 0):
+        yield
 
 
-def new_tips(count):
-    """Restitutions of impacts of tips that are new each time, so that no table of theirs is kept."""
-    for _ in range(5):
-        tip = mdr.Sampled(R, R**2 / (2e-5 + next(NUMBER) * 1e-12))
-        yield mdr.impact(tip, DRY, 1e-9, SPEEDS[-count:] / 5).restitution
+def no_tables():
+    """Where no number of depths is enough for a table of the profile."""
+    return patch.object(integrals, "_FEW", np.inf)
+
+
+def new_tip(count, calls=1, samples=400, medium=DRY):
+    """Restitutions of impacts of a tip that is new, so that no table of it is kept, in so many calls."""
+    r = np.linspace(0, 2e-5, samples)
+    tip = mdr.Sampled(r, r**2 / (2e-5 + next(NUMBER) * 1e-12))
+    speeds = np.geomspace(0.01, 0.2, count)
+    return [mdr.impact(tip, medium, 1e-9, speeds).restitution for _ in range(calls)]
 
 
 NUMBER = itertools.count()
@@ -191,14 +199,19 @@ PATHS = (
     ("_sharp_radii kept, a step", lambda: patch.object(*sharp()), lambda: times(CONE, 0.1, STEP)),
     ("PowerLaw._reduced_coefficient kept",
      without_coefficient,
-     lambda: times(POWER, SPEEDS[::15], WET)),
+     lambda: one_by_one(POWER)),
     ("Parameters.shape kept, single states", shapeless, lambda: one_by_one(CONE)),
     ("_LONG, 2000 elastic states of rounded cones", lambda: patch.object(integrals, "_LONG", np.inf),
      lambda: mdr.indent(ROUND, mdr.Medium(1e9), DEPTHS * 100).force),
     ("_LONG, 10⁵ impacts of rounded cones", lambda: patch.object(integrals, "_LONG", np.inf),
      lambda: mdr.impact(ROUND, DRY, 1e-9, np.geomspace(1e-3, 1.0, 10**5)).restitution),
-    ("_FEW, 1 impact of a new tip", tables_for_one, lambda: list(new_tips(1))),
-    ("_FEW, 16 impacts of a new tip", tables_for_one, lambda: list(new_tips(16))),
+    ("_FEW, 1 impact of a new tip", tables_for_one, lambda: new_tip(1)),
+    ("_FEW, 64 impacts of a new tip", tables_for_one, lambda: new_tip(64)),
+    ("_FEW, 64 impacts of a new tip of 30 samples", tables_for_one, lambda: new_tip(64, samples=30)),
+    ("_FEW, 60 impacts with adhesion", tables_for_one, lambda: new_tip(60, samples=100, medium=STICKY)),
+    ("tables, 1000 impacts of a new tip of 30 samples", no_tables, lambda: new_tip(1000, samples=30)),
+    ("tables, 8000 impacts of a new tip", no_tables, lambda: new_tip(8000)),
+    ("tables, 10 times 64 impacts of a new tip of 30", no_tables, lambda: new_tip(64, 10, 30)),
     ("Indentation._quick, 20,000 states of samples", lambda: patch.object(indentation, "_MANY", np.inf),
      lambda: mdr.indent(TIP, DRY, np.linspace(1e-8, 1e-6, 20_000)).force),
     ("Indentation._quick, 10⁵ states of samples", lambda: patch.object(indentation, "_MANY", np.inf),

@@ -361,7 +361,10 @@ def test_a_rim_that_jumps_from_facet_to_facet_names_the_way_out():
         (lambda: mdr.oblique_impact(mdr.Cone(0.2), ELASTIC, 1e-12, 1.0, 1.0, 0.1), "oblique"),
         (lambda: mdr.impact(mdr.Cone(0.2), ELASTIC, 1e-12, 1.0).motion(), "motion"),
         (lambda: mdr.indent(mdr.Sampled([0, 1e-6], [0, 1e-7]), ELASTIC, 1.57e-7), "adhesion"),
-        (lambda: mdr.impact(mdr.Sampled([0, 1e-7], [0, 3e-8]), YIELDING, 1e-12, 50.0), "hit less hard"),
+        (
+            lambda: mdr.impact(mdr.Sampled([0, 1e-7], [0, 3e-8]), YIELDING, 1e-12, 50.0),
+            "reduce speed or mass",
+        ),
     ],
 )
 def test_what_is_not_modelled_is_refused(call, words):

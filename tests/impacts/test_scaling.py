@@ -75,7 +75,7 @@ def test_fast_limit_is_approached_in_proportion_to_the_critical_depth(shape):
 
 
 def test_fast_limit_needs_a_medium_that_yields():
-    with pytest.raises(ValueError, match="nothing yields; give q_c"):
+    with pytest.raises(ValueError, match="nothing yields; give the medium a q_c"):
         _ = mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9), 1.0, 1.0).fast_limit
 
 

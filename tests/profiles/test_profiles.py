@@ -127,7 +127,10 @@ def test_limits_of_families():
         (lambda: mdr.Paraboloid(radius=-1.0), "Paraboloid radius = -1 m"),
         (lambda: mdr.PowerLaw(coefficient=1.0, exponent=0.0), "exponent = 0"),
         (lambda: mdr.Hyperboloid(slope=1e-200, tip_radius=1.0), r"between 1e-25 and 1e\+25"),
-        (lambda: mdr.PowerLaw(coefficient=1.0, exponent=1e15), "must lie in 0.01 ≤ n ≤ 100; FlatPunch"),
+        (
+            lambda: mdr.PowerLaw(coefficient=1.0, exponent=1e15),
+            "must lie between 0.01 and 100; .*FlatPunch",
+        ),
         (lambda: mdr.PowerLaw(coefficient=1e308, exponent=50.0), r"1e\+308 m\^\(1-n\) must lie between"),
         (lambda: kappa([2.0, 300.0]), r"exponent n\[1\] = 300 must be 0 or lie between 0 and 100"),
         (lambda: mdr.FlatPunch(radius=math.inf), "radius = inf m"),
