@@ -199,7 +199,7 @@ def test_a_measured_tip_is_taken_as_it_is_or_made_convex():
     r = np.linspace(-50, 50, 41)
     z = 0.2 * np.abs(r) + 0.5 * rng.standard_normal(41)
     assert "41 rows reduced to" in read_tip(table({"r (nm)": r, "z (nm)": z}))[1]
-    with pytest.raises(ValueError, match="does not increase with r"):
+    with pytest.raises(ValueError, match="does not increase with the radius r"):
         read_tip(table({"r (nm)": r, "z (nm)": -np.abs(r)}))
 
 
