@@ -89,17 +89,21 @@ def _found(table, each, free):
         column for column in of_kind if not units[column].doubt and not words.is_none(each, free[column])
     ]
     named = [column for column in fits if words.named(each, free[column])]
-    # Another column has the name, and a unit that is not understood.
-    unclear = any(
-        words.named(each, head) and not words.is_none(each, head) and column not in fits
+    # Other columns that have the name, and a unit that is not understood.
+    unclear = [
+        column for column, head in free.items()
+        if words.named(each, head) and not words.is_none(each, head) and column not in fits
         and (units[column].doubt or not units[column].kind) and not _other_kind(units[column], head)
-        for column, head in free.items()
-    )  # fmt: skip
+    ]  # fmt: skip
     if not fits or (unclear and not named):
         return None, []
     best = max(named or fits, key=lambda column: _rank(each, free[column]))
+    better = (column for column in unclear if units[column].doubt)
+    if any(_rank(each, free[column]) > _rank(each, free[best]) for column in better):
+        return None, []
     unnamed = not named and len(fits) > 1
-    return (None, []) if unnamed and each == "depth" else (best, [k for k in of_kind if k != best])
+    others = [k for k in free if (k in of_kind or k in unclear) and k != best]
+    return (None, []) if unnamed and each == "depth" else (best, others)
 
 
 def _other_kind(unit, head):

@@ -129,6 +129,9 @@ def _in_brackets(text):
             return Unit(inner[0].kind, inner[0].name, inner[0].size, match[1].strip()), ""
         if match[1].strip() == "h":
             return Unit("time", "h", 3600.0), before
+        if re.search(r"[A-Za-zµ]\s*/\s*\d[\d.,]*\s*$", match[1]):
+            # A scale, as (mN/10).
+            return Unit(doubt=match[1].strip()), before
         if re.search(r"[A-Za-zµ%].*[/^]|[/^-]\d", match[1]):
             # A quantity of another kind, as (mN/s) or (nm^2).
             return Unit(), before
@@ -143,6 +146,8 @@ def _after_slash(text):
     before, after = before.strip(), after.strip()
     tail = re.split(r"[\s,_(\[]+", before)[-1]
     if unit_alone(tail) or unit_alone(f"{tail}/{after}") or _doubt_of(tail) or _A_UNIT.fullmatch(tail):
+        if re.fullmatch(r"[\d.,]+", after):
+            return Unit(doubt=f"{tail}/{after}"), ""
         # "Load µN/s" is a rate, "Stiffness N/m" no length.
         compound = unit_alone(f"{tail}/{after}")
         return (compound or Unit(), "")

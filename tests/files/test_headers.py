@@ -39,7 +39,8 @@ DOUBTFUL = (
     "Load (N)*1e-3", "Load (N x 10^3)",
     "Load (mN)*1e3", "Load (10e-3 N)", "Load (0.1 mN)", "Load 100 mN",
     "Load x10 (mN)", "Load (mN) x 1000",
-    "Load (mN)/10", "1000*Load (mN)", "10 Load (mN)", "2F (mN)", "Load (thousand N)", "Load deca N",
+    "Load (mN)/10", "Load (mN/10)", "Load [mN / 10.0]", "Load mN/1000", "Depth (nm/10)",
+    "1000*Load (mN)", "10 Load (mN)", "2F (mN)", "Load (thousand N)", "Load deca N",
     "Depth (hundreds of nm)", "Load (tenths of mN)", "log Force (N)", "sqrt(Load) (mN)", "Load (mN)^2",
     "Load (mN) normalised", "Load scaled (mN)", "LOAD (MN)", "Force (m N)", "Force m(N)", "kForce (N)",
     "Depth (\ufffdm)", "Force ?N", "Force N e-3", "Load (% of 10 mN)", "Depth (nm) [µm]",
@@ -86,9 +87,23 @@ def test_a_column_with_a_known_unit_comes_before_one_in_doubt(tmp_path):
     path = tmp_path / "run.csv"
     rows = "\n0,0,0\n10,1,0.5\n20,4,2\n"
     path.write_text(f"Depth (nm),Load (kgf),Load (N){rows}")
-    assert mdr.read_curve(path).force.tolist() == [0, 0.5, 2]
+    curve = mdr.read_curve(path)
+    assert curve.force.tolist() == [0, 0.5, 2]
+    assert "force is taken from 'Load (N)', not from 'Load (kgf)'" in curve.remarks
     path.write_text(f"Depth (nm),Load (kgf),Friction (N){rows}")
     with pytest.raises(ValueError, match=r"'Load \(kgf\)' is not understood: 'kgf'"):
+        mdr.read_curve(path)
+
+
+@pytest.mark.parametrize(
+    ("header", "doubt"),
+    [("Depth (nm),Load (mN/10),Other (mN)", "mN/10"), ("Depth (nm/10),Load (mN),Height (nm)", "nm/10")],
+)
+def test_no_column_stands_in_for_one_whose_unit_is_scaled(tmp_path, header, doubt):
+    """A height may be that of a piezo, and an unnamed force anything."""
+    path = tmp_path / "run.csv"
+    path.write_text(f"{header}\n0,0,0\n10,1,5\n20,4,20\n")
+    with pytest.raises(ValueError, match=f"'{doubt}' is not a unit"):
         mdr.read_curve(path)
 
 
