@@ -112,5 +112,5 @@ def test_panel_has_an_upper_bound_at_the_next_minor_version():
     """Private ends may move with it."""
     data = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     needed = [each for each in data["project"]["optional-dependencies"]["app"] if each.startswith("panel")]
-    low, high = re.fullmatch(r"panel>=1\.(\d+),<1\.(\d+)", *needed).groups()
+    low, high = re.fullmatch(r"panel>=1\.(\d+)[.\d]*,<1\.(\d+)", *needed).groups()
     assert int(high) == int(low) + 1

@@ -5,6 +5,7 @@ from html import unescape
 
 import numpy as np
 import pytest
+from scipy.integrate import trapezoid
 
 from app import changes, readouts
 from app.draw import Picture
@@ -95,7 +96,7 @@ def test_the_numbers_of_a_cone_are_read_and_drawn_in_every_state(saved):
         # The pressure that is drawn carries the force; trapezoids miss some of its cusp.
         r, p = saved.row("pressure", "−σzz(r)")
         units = saved.axis("pressure")["labels"]
-        carried = np.pi * np.trapezoid(p * np.abs(r), r)
+        carried = np.pi * trapezoid(p * np.abs(r), r)
         carried *= unit_of(units[0], "length") ** 2 * unit_of(units[1], "pressure")
         assert carried == approx(expected, rel=0.01), number
 

@@ -217,7 +217,8 @@ def test_largest_force(exponent, share, q_c):
         return 2 * E_STAR * (area + tau * radius(d) * v)
 
     def turned(s, v):
-        return v[0] - 1e-6 * dry.speed
+        # The depth that is left is some 10⁻⁸ of the largest; steps that are not above rounding stop SciPy.
+        return v[0] - 1e-4 * dry.speed
 
     turned.terminal = True
     ends = np.log(1e-25), np.log(2e-6)
