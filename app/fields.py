@@ -126,9 +126,9 @@ class Form:
         state, page = view.state, self._page
         # An imprint that is not there has the unit of the present depth.
         depth = float(view.course.turning_point.depth)
-        numbers = {
-            region: [page.number(name, depth) for name in names] for region, names in regions(state).items()
-        }
+        named = regions(state)
+        folded = named.pop("more")
+        numbers = {region: [page.number(name, depth) for name in names] for region, names in named.items()}
         notes = [extra.notes(view) for extra in EXTRAS.values()]
 
         def note(place: str, before: str = "") -> Part:
@@ -136,11 +136,14 @@ class Form:
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
         # What differs from the preset is not folded.
-        in_use = not {*FOLDED_CHOICES, *regions(state)["more"]}.isdisjoint(altered(state))
+        in_use = not {*FOLDED_CHOICES, *folded}.isdisjoint(altered(state))
         opened = in_use or self._open["more"]
         modulus, *constant = numbers["medium"]
-        more = [part for name in FOLDED_CHOICES for part in self._with_numbers(name, state, depth)]
-        more += [note("more"), note("sources")]
+        # Below each choice the numbers of its option.
+        more = []
+        for choice in FOLDED_CHOICES if opened else ():
+            names = (name for name in used_by(state, choice) if name in folded)
+            more += [page.choice(choice), *(page.number(name, depth) for name in names)]
         with_tip = self._open["tip"] or state.shape == "sampled" or self._tip_refused
         parts = [
             note("first", _FIRST),
@@ -151,15 +154,9 @@ class Form:
             title("Medium"), modulus, page.choice("plasticity"), *constant, *numbers["hardness"],
             note("medium"),
             button("More about the medium", self._fold, pressed=opened, disabled=in_use, key="fold"),
-            *(more if opened else []),
+            *more, *[note("more"), note("sources")] * opened,
         ]  # fmt: skip
         self.view.show(parts)
-
-    def _with_numbers(self, choice: str, state: State, depth: float) -> list[Part]:
-        """A choice that folds, and below it the numbers of its option."""
-        known = regions(state)["more"]
-        names = [name for name in used_by(state, choice) if name in known]
-        return [self._page.choice(choice), *(self._page.number(name, depth) for name in names)]
 
     def _shape(self, state: State) -> Part:
         """The list of shapes, of which one asks for the file of a measured tip while there is none."""

@@ -102,6 +102,18 @@ def test_a_box_with_shift_is_zoomed_to_until_a_double_click_or_another_drive(pro
     assert projector.axis("pressure")["x"][1] - projector.axis("pressure")["x"][0] > 30
 
 
+def test_a_large_plot_says_how_to_zoom_until_it_is_zoomed(projector):
+    page = projector.page
+    page.locator(".card.pressure .act[name=Large]").click()
+    hint = page.locator(".card.pressure").get_by_text("Shift and drag to zoom")
+    hint.wait_for()
+    page.keyboard.down("Shift")
+    projector.drag("pressure", (0.2, 0.15))
+    page.keyboard.up("Shift")
+    page.locator(".card.pressure .act[name='Whole plot']").wait_for()
+    hint.wait_for(state="hidden")
+
+
 def test_a_spring_says_its_compression_and_its_load_against_their_limits(projector):
     """Near the axis it has yielded: u = d_c = π q_c/(2E*) = 1.796 nm, q = π q_c/2 = 157 N/m.
 
