@@ -266,6 +266,11 @@ def impact_limits(hit):
     return (*limits, *how_fast(hit))
 
 
+def chain_limits(hit):
+    """Limits of a `ChainImpact`."""
+    return contact_limits(hit.profile, hit.medium, hit.contact_radius)
+
+
 def how_fast(hit):
     """`Limit`s of the fast limit (23), (24) for an `Impact`, from its errors; none without yield."""
     first_class = hit.medium.inverse_to_radius and hit.structure.rigid
