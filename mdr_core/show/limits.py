@@ -8,6 +8,7 @@ from ..numerics.results import Limit
 from ..profiles.power import Cone
 from ..profiles.sampled import Sampled, bent_vertices
 from .quantities import engineering
+from .structure_limits import structure_limits
 
 #: Slope up to which results are good, above which they are estimates, and above which the slope is
 #: probably a mistake.
@@ -263,12 +264,19 @@ def path_limits(path):
 def impact_limits(hit):
     """Limits of an `Impact`, that of the fast limit (23), (24) included."""
     limits = contact_limits(hit.profile, hit.medium, hit.contact_radius)
-    return (*limits, *how_fast(hit))
+    return (*limits, *structure_limits(hit), *how_fast(hit))
+
+
+def chain_limits(hit):
+    """Limits of a `ChainImpact`."""
+    limits = contact_limits(hit.profile, hit.medium, hit.contact_radius)
+    return (*limits, *structure_limits(hit))
 
 
 def how_fast(hit):
     """`Limit`s of the fast limit (23), (24) for an `Impact`, from its errors; none without yield."""
-    if not (hit.medium.inverse_to_radius and np.any(hit.plastic_depth_increase > 0)):
+    first_class = hit.medium.inverse_to_radius and hit.structure.rigid
+    if not (first_class and np.any(hit.plastic_depth_increase > 0)):
         return ()
     if np.any(np.isinf(hit.medium.critical_depth)):
         return ()
