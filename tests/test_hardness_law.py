@@ -405,6 +405,27 @@ class TestWhatIsNoLaw:
 
 
 @dataclass(frozen=True)
+class Floor(HardnessLaw):
+    """H (1 + L/a), constant below a radius, which it writes into its argument."""
+
+    H: float
+
+    def at(self, a):
+        a[a < 5e-8] = 5e-8
+        return self.H * (1 + 1e-7 / a)
+
+    def rate(self, a):
+        return np.where(a < 5e-8, 0.0, -self.H * 1e-7 / np.maximum(a, 5e-8) ** 2)
+
+
+def test_a_law_cannot_change_its_argument():
+    """The solver goes on with the radii that it has asked for."""
+    medium = mdr.Medium(1e9, hardness=Floor(1e7))
+    with pytest.raises(ValueError, match=r"Floor\.at changes its argument in place .*: return new values"):
+        mdr.impact(mdr.Cone(0.3), medium, 1e-12, [0.5, 1.0])
+
+
+@dataclass(frozen=True)
 class Power(HardnessLaw):
     H: float
     L: float
