@@ -35,7 +35,9 @@ def read_only(function, name):
             if "read-only" not in str(error) or isinstance(error, InvalidArgument):
                 raise
             what = f"changes its argument in place ({error})"
-            raise InvalidArgument(f"{name} {what}: {_REMEDY}", name, given[-1], what, "", _REMEDY) from error
+            raise InvalidArgument(
+                f"{name} {what}: {_REMEDY}", name, given[-1], what, "", _REMEDY
+            ) from error
         # The argument itself, or a part of it: what is returned may be changed.
         return result.copy() if isinstance(result, np.ndarray) and not result.flags.writeable else result
 

@@ -23,8 +23,8 @@ which any number is missing has not been computed to the end. One without missin
 While a sweep of arrays in memory runs, tqdm shows its progress where it is installed and the output is a
 terminal; of dask arrays ``dask.diagnostics.ProgressBar()`` does.
 
-Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; the regions on disk remain. Particles
-of ``invalid="nan"`` have NaN for results: their regions are computed again.
+Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; the regions on disk remain.
+Particles of ``invalid="nan"`` have NaN for results: their regions are computed again.
 
 An example:
 

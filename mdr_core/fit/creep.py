@@ -11,7 +11,7 @@ from .unloading import last_at_top
 #: Least force in a hold and largest deviation from its median, as shares, in standard deviations of noise.
 _HELD, _STILL, _NOISE = 0.99, 1e-3, 4.0
 #: How far below the force of a hold the lines beside it begin, and where they end, as shares of it. Least
-#: length of a hold in errors of that length: with 5, holds of 5 to 9 samples were found at tips of triangles.
+#: length of a hold in errors of that length: with 5, tips of triangles had holds of 5 to 9 samples.
 _BELOW, _LOWEST, _CERTAIN = 0.05, 0.7, 10.0
 #: Least number of samples in a hold, and least share of those at the largest force that are still.
 _FEW, _MOST = 5, 0.5
