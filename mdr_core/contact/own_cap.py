@@ -9,8 +9,8 @@ from .radius_cap import RadiusCap
 
 #: Halvings of a piece of the plastic work: to 10⁻⁹ of its length, as at a kink.
 _HALVINGS = 30
-#: A piece is halved again while it differs from its halves by more than this share of its work, as at a kink,
-#: or by less than this share of what the piece differed of which it is a half. A derivative that is a
+#: A piece is halved again while it differs from its halves by more than this share of its work, as at a
+#: kink, or by less than this share of what the piece differed of which it is a half. A derivative that is a
 #: difference has a noise of 10⁻⁸, of which a half has half: without this an impact takes 200 times as long.
 _KINKED = 1e-7
 _HELPED = 0.25

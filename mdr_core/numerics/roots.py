@@ -58,7 +58,7 @@ def increasing_root(function, target, start, highest=np.inf, *, largest=_check.L
             miss = np.log(target / value)
             # The slope is infinite at the edge of a flat face and at some kinks, and a step there is 0.
             step = np.where(slope < np.inf, miss * value / (slope * x), np.nan)
-            # Short steps first: from a bad start they miss less. 200 of them would end at 10⁻²⁶¹ of the start.
+            # Short steps first, which miss less from a bad start; 200 of them would end at 10⁻²⁶¹ of it.
             longest = 3.0 if iteration < 24 else 50.0
             step = np.clip(step, -longest, longest)
             new, middle = x * np.exp(step), np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 16)
