@@ -100,7 +100,7 @@ MODELS = {
     "sphericalindenter": "take mdr_core.Sphere(radius)",
     "substrate": _HALF_SPACE,
     "thornton": "take mdr_core.impact with a Medium(E_star, hardness=H)",
-    "vickers": "take mdr_core.Cone.berkovich(), which has nearly the area of a Vickers pyramid at each depth",
+    "vickers": "take mdr_core.Cone.berkovich(), which has the area of a Vickers pyramid to 0.1 %",
     "viscoelastic": _VISCOUS,
 }
 

@@ -290,7 +290,7 @@ def test_an_unknown_name_is_told_the_nearest_one(owner, name, says):
 )
 def test_cones_of_pyramids_have_their_area(name, cone, area):
     """A = area h²: 4 tan²68° of Vickers, 3√3/2 of a corner of a cube; to 0.1 %, as the cone is given."""
-    with pytest.raises(AttributeError, match="take mdr_core.Cone"):
+    with pytest.raises(AttributeError, match=r"take mdr_core\.Cone"):
         getattr(mdr, name)
     assert np.pi / cone.slope**2 == approx(area, rel=1e-3)
 
