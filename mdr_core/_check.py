@@ -1,11 +1,11 @@
 """Checks of arguments, with errors that name the quantity, its value, the bound and a remedy."""
 
 import difflib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import fields
 from functools import cached_property, lru_cache, wraps
 from inspect import signature
-from typing import TYPE_CHECKING, Any, ParamSpec, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, Protocol, Self, TypeVar
 
 import numpy as np
 
@@ -13,12 +13,22 @@ from ._errors import InvalidArgument, InvalidEntries, shown
 from ._hints import keyword_hint, model_hint, quantity_hint
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from numpy.typing import NDArray
 
     class Array(np.ndarray[tuple[Any, ...], np.dtype[np.float64]]):
         """A quantity: an array, or NumPy's scalar for one state, which has the methods of an array."""
 
         def __round__(self, ndigits: int = ...) -> float: ...
+
+    class _WithUnit(Protocol):
+        """A quantity of pint, astropy or unyt."""
+
+        def to(self, unit: Any, /) -> Any: ...
+
+    _Number = float | np.floating[Any] | np.integer[Any]
+    _Numbers = _Number | NDArray[np.floating[Any]] | NDArray[np.integer[Any]] | _WithUnit
+    #: A number or an array of numbers. NumPy's `ArrayLike` has text in it, and so has a recursive type.
+    ArrayLike = _Numbers | Sequence[_Numbers] | Sequence[Sequence[_Numbers]]
 
 else:
     Array, ArrayLike = np.ndarray, Any

@@ -100,7 +100,7 @@ MODELS = {
     "sphericalindenter": "take mdr_core.Sphere(radius)",
     "substrate": _HALF_SPACE,
     "thornton": "take mdr_core.impact with a Medium(E_star, hardness=H)",
-    "vickers": _CONE.format("70.3", "a Vickers pyramid"),
+    "vickers": "take mdr_core.Cone.berkovich(), which has the area of a Vickers pyramid to 0.1 %",
     "viscoelastic": _VISCOUS,
 }
 

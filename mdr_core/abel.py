@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 import scipy
 
-from . import _check
+from . import _check, _read_only
 from ._check import Array, ArrayLike
 from .numerics.blocks import chunks
 from .numerics.gauss import tanh_sinh
@@ -80,6 +80,7 @@ def kappa(n: ArrayLike) -> Array:
 
 def _slope_integral(slope, x, factor):
     """∫ slope(x sin t) factor(t) dt over 0 < t < π/2, for an array of x."""
+    slope = _read_only.read_only(slope, "slope dz/dr")
     previous = None
     for step in _STEPS:
         node, weight = tanh_sinh(step)

@@ -7,7 +7,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from . import _check
+from . import _check, _read_only
 from ._check import Array, Parameter, shown
 
 _TINY = np.finfo(float).tiny
@@ -21,7 +21,8 @@ _WORST = 500
 class HardnessLaw(_check.Parameters, ABC):
     """Base class of laws of hardness σ_c(a), for `Medium(E_star, hardness=law)`.
 
-    A law is a frozen dataclass with two functions of arrays of contact radii a > 0 (m), smooth in a:
+    A law is a frozen dataclass with two functions of arrays of contact radii a > 0 (m), smooth in a, which
+    do not change these arrays:
     `at(a)`, the hardness σ_c (Pa), and `rate(a)`, its derivative dσ_c/da (Pa/m). The base class makes the
     other three of them; a law may override these where its limits for a → 0 and a → ∞ need it.
 
@@ -59,6 +60,10 @@ class HardnessLaw(_check.Parameters, ABC):
     >>> (state.mean_pressure / 1e9).round(4)
     array([2.8761, 1.0765])
     """
+
+    def __init_subclass__(cls, **keywords: Any):
+        super().__init_subclass__(**keywords)
+        _read_only.guard_methods(cls, ("at", "rate", "line_load", "line_load_rate", "wall_load"))
 
     @abstractmethod
     def at(self, a: Any) -> Any:
@@ -225,6 +230,8 @@ def law_values(law, name, a):
     try:
         with np.errstate(all="ignore"):
             value = getattr(law, name)(a)
+    except _check.InvalidArgument:
+        raise
     except (TypeError, ValueError, ArithmeticError) as error:
         what = f"{name}(a) fails for an array of radii ({type(error).__name__}: {error})"
         raise refused_law(law, what, "write it for arrays, with NumPy's functions") from error

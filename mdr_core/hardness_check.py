@@ -10,8 +10,6 @@ from .hardness import NARROWEST, HardnessLaw, law_values, refused_law, steep_pla
 _RADII, _DECADES, _STEP = 200, 6, 2e-6
 #: Indenters of an ensemble that are checked at a time.
 _ROWS = 512
-#: Radii at which each indenter of an ensemble is looked at, under one law for all.
-_FEWER = 24
 
 
 def check_law(law, profile, depth):
@@ -43,7 +41,7 @@ def check_law(law, profile, depth):
         own = profile.flat_entries(some, shape)
         radius = np.broadcast_to(own.contact_radius(depth[some]), some.shape)
         face = np.broadcast_to(own.face_radius, some.shape)
-        radii = _radii_below(radius, radius, face, _RADII if law.shape else _FEWER)
+        radii = _radii_below(radius, radius, face)
         column = (slice(None), None), some.shape
         each = law.flat_entries(some, shape).entries(*column)
         if law.shape:
@@ -51,11 +49,11 @@ def check_law(law, profile, depth):
         _refuse_growth(each, own.entries(*column), radii)
 
 
-def _radii_below(least, largest, face, count=_RADII):
+def _radii_below(least, largest, face):
     """Radii (m), one row each, from 10⁻⁶ of the least contact radius, or a flat face, to the largest."""
     low = np.maximum(np.maximum(10.0**-_DECADES * least, face), NARROWEST)
     share = np.max(np.log10(largest / low)) / _DECADES
-    radii = np.geomspace(low, largest, int(np.ceil(count * max(share, 1.0))), axis=-1)
+    radii = np.geomspace(low, largest, int(np.ceil(_RADII * max(share, 1.0))), axis=-1)
     return np.minimum(radii, largest[:, None])
 
 

@@ -405,6 +405,27 @@ class TestWhatIsNoLaw:
 
 
 @dataclass(frozen=True)
+class Floor(HardnessLaw):
+    """H (1 + L/a), constant below a radius, which it writes into its argument."""
+
+    H: float
+
+    def at(self, a):
+        a[a < 5e-8] = 5e-8
+        return self.H * (1 + 1e-7 / a)
+
+    def rate(self, a):
+        return np.where(a < 5e-8, 0.0, -self.H * 1e-7 / np.maximum(a, 5e-8) ** 2)
+
+
+def test_a_law_cannot_change_its_argument():
+    """The solver goes on with the radii that it has asked for."""
+    medium = mdr.Medium(1e9, hardness=Floor(1e7))
+    with pytest.raises(ValueError, match=r"Floor\.at changes its argument in place .*: return new values"):
+        mdr.impact(mdr.Cone(0.3), medium, 1e-12, [0.5, 1.0])
+
+
+@dataclass(frozen=True)
 class Power(HardnessLaw):
     H: float
     L: float
@@ -551,3 +572,34 @@ def test_what_has_no_law_says_so(call, instead):
     with pytest.raises(ValueError, match=instead) as error:
         call()
     assert "NixGao(H0=1000000000.0, a_star=3e-06)" in str(error.value)
+
+
+class Asked(NixGao):
+    """Nix and Gao's law, with a forward difference for its rate, which has a noise of 10⁻⁸."""
+
+    radii = 0
+
+    def at(self, a):
+        type(self).radii += np.size(a)
+        return super().at(a)
+
+    def rate(self, a):
+        step = 1e-8 * a
+        return (self.at(a + step) - self.at(a)) / step
+
+
+class TestARateByDifferences:
+    """Its noise is not taken for a kink, at which the work is halved down to 10⁻⁹ of its length."""
+
+    speed = np.geomspace(0.5, 5.0, 8)
+
+    @pytest.mark.parametrize("tip", [BALL, CONE], ids=["ball", "cone"])
+    def test_impacts(self, tip):
+        exact = mdr.impact(tip, mdr.Medium(E, hardness=NixGao(0.5e9, 4e-6)), 1e-12, self.speed)
+        Asked.radii = 0
+        hit = mdr.impact(tip, mdr.Medium(E, hardness=Asked(0.5e9, 4e-6)), 1e-12, self.speed)
+        # The noise of the rate, over the square root of the number of nodes.
+        assert hit.restitution == approx(exact.restitution, rel=1e-8)
+        assert hit.contact_time == approx(exact.contact_time, rel=1e-8)
+        # It is 10⁵; halved to the end, one impact asks for 10⁸.
+        assert Asked.radii < 1e6

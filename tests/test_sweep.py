@@ -320,7 +320,8 @@ class TestLazily:
             def fill(last, done=0):
                 for start in range(0, last, 1000):
                     part = {"particle": slice(start, start + 1000)}
-                    if xr.open_zarr(store).restitution.isel(part)[-1].isnull():
+                    found = xr.open_zarr(store).isel(part)
+                    if found.isnull().any().to_array().any():
                         stream.isel(part).to_zarr(store, region=part)
                         done += 1
                 return done
@@ -329,6 +330,38 @@ class TestLazily:
             assert int(xr.open_zarr(store).restitution.isnull().sum()) == 2000
             assert fill(4000) == 2
             xr.testing.assert_allclose(xr.open_zarr(store).load(), stream.compute(), rtol=1e-13)
+
+    @pytest.mark.parametrize("chunks", [1, 2, 3])
+    def test_a_run_that_was_killed_between_chunks_leaves_no_holes(self, tmp_path, monkeypatch, chunks):
+        """Whichever of the chunks of a region were written before."""
+        pytest.importorskip("zarr")
+        dask = pytest.importorskip("dask")
+        store, stream, solved = tmp_path / "stream.zarr", self.stream(chunk=250), []
+
+        def stopped(*given, **more):
+            solved.append(1)
+            if len(solved) > chunks:
+                raise KeyboardInterrupt
+            return mdr.impact(*given, **more)
+
+        def fill():
+            for start in range(0, 4000, 1000):
+                region = {"particle": slice(start, start + 1000)}
+                done = xr.open_zarr(store).isel(region)
+                if done.isnull().any().to_array().any():
+                    stream.isel(region).to_zarr(store, region=region)
+
+        with warnings.catch_warnings(), dask.config.set(scheduler="synchronous"):
+            warnings.simplefilter("ignore")
+            stream.to_zarr(store, compute=False, encoding={name: {"_FillValue": np.nan} for name in stream})
+            with monkeypatch.context() as patch:
+                patch.setattr(sweep, "impact", stopped)
+                with pytest.raises(KeyboardInterrupt):
+                    fill()
+            missing = int(xr.open_zarr(store).restitution.isnull().sum())
+            assert missing == 4000 - 250 * chunks
+            fill()
+            assert not xr.open_zarr(store).isnull().any().to_array().any()
 
     @pytest.mark.full
     def test_a_lost_worker_changes_nothing(self):

@@ -246,7 +246,9 @@ def tabulated_for(profile, count, largest_depth):
     slow = not profile.shape and isinstance(integrals(profile), QuadratureIntegrals)
     if count <= _FEW or not slow or profile.known_depth == np.inf:
         return profile
-    if profile.known_radius < np.inf and count > _MANY_A_KINK * len(profile.kinks):
+    kinks = len(profile.kinks)
+    # Without kinks the known depth may be many powers of ten away, and a table to it is long.
+    if kinks and profile.known_radius < np.inf and count > _MANY_A_KINK * kinks:
         return tabulated(profile, profile.known_depth)
     end = _end_of_table(profile, largest_depth())
     if count <= _FEW + _FEW_A_KINK * np.searchsorted(profile.kinks, end):
@@ -257,9 +259,10 @@ def tabulated_for(profile, count, largest_depth):
 def tabulated(profile, known_depth):
     """A profile that gives its contact radius and integrals quickly, down to a depth (m) or to its own end.
 
-    Ensembles, and profiles that have closed forms or a table, are returned as they are.
+    Ensembles, and profiles that have closed forms or a table, are returned as they are, and so is any for
+    no depths.
     """
-    if profile.shape or not isinstance(integrals(profile), QuadratureIntegrals):
+    if profile.shape or not np.size(known_depth) or not isinstance(integrals(profile), QuadratureIntegrals):
         return profile
     return _tabulated(profile, _end_of_table(profile, known_depth))
 

@@ -52,7 +52,7 @@ def _sums(profile, lower, upper, length, function, moment):
     inner, total = np.zeros(row.size, bool), np.empty(row.size)
     inner[1:-1] = (row[2:] == row[:-2]) & _has_cuts(profile)
     if inner.any():
-        zeroth, first = (integral[zone[inner]] for integral in _zone_integrals(profile, function))
+        zeroth, first = _Zones(profile, function)(zone[inner])
         total[inner] = first + remainder[inner] * zeroth if moment else zeroth
     outer = ~inner
     node, weight = nodes(start[outer], stop[outer], offset[outer], gauss_legendre(24))
@@ -68,16 +68,31 @@ def _sums(profile, lower, upper, length, function, moment):
 
 # Kept, states of a sampled tip are some 16 times as fast one by one, and 2000 at once 1.5 times.
 @lru_cache(maxsize=64)
-def _zone_integrals(profile, function):
-    """∫ function(s) ds and ∫ (s₁ − s) function(s) ds over each zone between two cuts, s₁ its upper cut."""
-    cuts, origins = _cuts(profile)
-    zeroth, first = np.zeros((2, len(origins)))
-    lower, width = cuts[:-1], np.diff(cuts)
-    node, weight = nodes(np.zeros_like(width), width, lower - origins[1:-1], gauss_legendre(24))
-    values = weight * function(profile, lower[:, None] + node)
-    zeroth[1:-1] = values.sum(axis=1)
-    first[1:-1] = (values * (width[:, None] - node)).sum(axis=1)
-    return zeroth, first
+class _Zones:
+    """∫ function(s) ds and ∫ (s₁ − s) function(s) ds over zones between two cuts, s₁ its upper cut.
+
+    Each zone is integrated when it is first asked for: those outside the deepest contact never are, and a
+    radius of a polygon takes the longer the farther out it is.
+    """
+
+    def __init__(self, profile, function):
+        self._profile, self._function = profile, function
+        self._cuts, self._origins = _cuts(profile)
+        self._integrals = np.full((2, len(self._origins)), np.nan)
+
+    def __call__(self, zone):
+        """Both integrals over zones, shape (2, N); a zone lies above the cut of its number."""
+        new = np.unique(zone[np.isnan(self._integrals[0, zone])])
+        if new.size:
+            lower = self._cuts[new - 1]
+            width = self._cuts[new] - lower
+            node, weight = nodes(
+                np.zeros_like(width), width, lower - self._origins[new], gauss_legendre(24)
+            )
+            values = weight * self._function(self._profile, lower[:, None] + node)
+            self._integrals[0, new] = values.sum(axis=1)
+            self._integrals[1, new] = (values * (width[:, None] - node)).sum(axis=1)
+        return self._integrals[:, zone]
 
 
 def kink_above(profile, depth):

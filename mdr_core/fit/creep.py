@@ -10,6 +10,9 @@ from .unloading import last_at_top
 
 #: Least force in a hold and largest deviation from its median, as shares, in standard deviations of noise.
 _HELD, _STILL, _NOISE = 0.99, 1e-3, 4.0
+#: How far below the force of a hold the lines beside it begin, and where they end, as shares of it. Least
+#: length of a hold in errors of that length: with 5, tips of triangles had holds of 5 to 9 samples.
+_BELOW, _LOWEST, _CERTAIN = 0.05, 0.7, 10.0
 #: Least number of samples in a hold, and least share of those at the largest force that are still.
 _FEW, _MOST = 5, 0.5
 #: Standard deviations from which on the rate changes in the hold, and the depth grows.
@@ -22,11 +25,12 @@ COUNTS = 0.05
 
 @dataclass(frozen=True)
 class Creep:
-    """Rate (m/s) of the depth at the end of a hold, its standard error, and the last sample of the hold."""
+    """Rate (m/s) of the depth at the end of a hold, its standard error, last sample and length (s)."""
 
     rate: float
     error: float
     end: int
+    length: float
 
     def without(self, depth, time, deviations=0.0):
         """Depths (m) without creep after the hold, at the rate or some errors more."""
@@ -36,13 +40,8 @@ class Creep:
 
 def creep(depth, force, time):
     """`Creep` of one unloading with the hold before it, None where the force is not held."""
-    noise = roughness(force[None])[0, 0]
-    high = np.flatnonzero(force >= _HELD * force.max() - _NOISE * noise)
-    run = slice(high[0], high[-1] + 1)
-    middle = np.median(force[run])
-    still = np.abs(force[run] - middle) <= max(_STILL * middle, _NOISE * noise)
-    held = high[0] + np.flatnonzero(still)
-    if held.size < _FEW or held.size < _MOST * still.size:
+    held = _hold(time, force)
+    if held is None:
         return None
     end = int(held[-1])
     used = held[-max(held.size // 2, _FEW) :]
@@ -54,7 +53,63 @@ def creep(depth, force, time):
         coefficients, errors = _line(columns, h)
         if abs(coefficients[0]) > _SIGNIFICANT * errors[0]:
             rate, error = coefficients[1], errors[1]
-    return Creep(float(rate / scale), float(error / scale), end)
+    return Creep(float(rate / scale), float(error / scale), end, float(time[end] - time[held[0]]))
+
+
+def _hold(time, force):
+    """Samples at which the largest force is held, None if it is not.
+
+    They lie between the times at which straight lines through the force before and after meet the median
+    of their forces. At the tip of a triangle each such median is nearer to the tip, until none are left.
+    """
+    noise = roughness(force[None])[0, 0]
+    high = np.flatnonzero(force >= _HELD * force.max() - _NOISE * noise)
+    run = slice(high[0], high[-1] + 1)
+    level = np.median(force[run])
+    still = np.abs(force[run] - level) <= max(_STILL * level, _NOISE * noise)
+    held = high[0] + np.flatnonzero(still)
+    if held.size < _MOST * still.size:
+        return None
+    held = np.arange(held[0], held[-1] + 1)
+    highest = level - max(_BELOW * level, _NOISE * noise)
+    sides = slice(held[0], None, -1), slice(held[-1], None)
+    lines = [_branch(time[side], force[side], highest) for side in sides]
+    count = 0
+    while held.size >= _FEW and held.size != count:
+        count, level = held.size, np.median(force[held])
+        begin, end = (t + rate * level for t, rate in lines)
+        held = held[(time[held] >= begin) & (time[held] <= end)]
+    if held.size < _FEW or _moves(time[held], force[held]):
+        return None
+    # The error of a median is 1.25 σ/√N.
+    error = 1.25 * noise / np.sqrt(held.size) * sum(abs(rate) for _, rate in lines)
+    return held if np.ptp(time[held]) > _CERTAIN * error else None
+
+
+def _branch(time, force, highest):
+    """Time and its rate per force of a straight line through forces below the `highest`, away from a hold.
+
+    The line of a record without such samples is at the first time.
+    """
+    low = force < _LOWEST * highest
+    part = slice(0, int(np.argmax(low)) if low.any() else force.size)
+    t, F = time[part][force[part] < highest], force[part][force[part] < highest]
+    if F.size < 2:
+        return time[0], 0.0
+    slope, start = np.polyfit(t - time[0], F, 1)
+    return time[0] - start / slope, 1 / slope
+
+
+def _moves(time, force):
+    """Whether a force rises or falls beyond its noise, or first rises and then falls."""
+    t = (time - time[0]) / max(np.ptp(time), 1e-300)
+    for degree in (1, 2):
+        coefficients, errors = _line(np.vander(t, degree + 1), force)
+        # How far the force moves between the ends, and the arc of the parabola is above its chord.
+        change = abs(coefficients[0]) / (1, 4)[degree - 1]
+        if abs(coefficients[0]) > _SIGNIFICANT * errors[0] and change > _STILL * np.median(force):
+            return True
+    return False
 
 
 def _line(columns, values):
@@ -94,6 +149,11 @@ def sentence(share):
         f"the depth creeps at the start of the unloading: ḣ/|Ṗ| at the end of the hold is "
         f"{100 * share:.2g} % of 1/S; the stiffness is corrected for it (Feng and Ngan)"
     )
+
+
+def sentence_of_hold(length):
+    """A remark on the hold whose end gives the rate."""
+    return f"the force is held for {engineering(length, 's')} before the unloading"
 
 
 def sentence_of_rise(rise):

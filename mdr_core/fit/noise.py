@@ -30,7 +30,7 @@ def tests_of_noise(solved, i):
     """Remarks on the residuals of curve i of a `Solution`."""
     for check in (_jitter, _misfit, _few):
         yield from check(solved, i)
-    size = np.sqrt(np.mean((solved.minimum.residual[i] * solved.noise[i]) ** 2))
+    size = np.sqrt(np.mean(solved.deviation[i] ** 2))
     # Smaller ones are those of the arithmetic.
     if size > _EXACT * solved.curves.load[i, 0]:
         yield from _outliers(solved, i)
@@ -72,7 +72,7 @@ def _misfit(solved, i):
     curves, residual = solved.curves, solved.minimum.residual[i]
     freedom, chi = solved.minimum.freedom, solved.reduced_chi_square[i]
     correlation = autocorrelation(residual[solved.orders[i]])
-    size = np.sqrt(np.mean((residual * solved.noise[i]) ** 2)) / curves.load[i, 0]
+    size = np.sqrt(np.mean(solved.deviation[i] ** 2)) / curves.load[i, 0]
     largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
     if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
         letters = [f"({letter})" for letter, name in CLASSES.items() if name in curves.constants]

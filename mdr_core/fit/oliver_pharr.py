@@ -93,7 +93,8 @@ def oliver_pharr(
     Ngan, J. Mater. Res. 17, 2002, 660). `uncorrected` has the results without it. For made records with
     −ḣ/Ṗ of 20 % of 1/S, E* is then within 1 % instead of 14 or 15 % too large, where the unloading takes
     no longer than the hold; where it takes four times as long, and the rate falls meanwhile, E* is up to
-    3 % too small.
+    3 % too small. A remark gives the length of the hold. It is the time between straight lines through the
+    force before and after, at the force that is held, so that the tip of a triangle is no hold.
 
     Examples
     --------
@@ -249,6 +250,7 @@ def _with_creep(profile, depth, force, time, constants, contact):
     share = creeping.share_of_compliance(creep.rate, corrected[0, 0], force, time, creep.end)
     if rise or share > creeping.COUNTS:
         notes.append(creeping.sentence(share))
+    notes.append(creeping.sentence_of_hold(creep.length))
     return (corrected, uncorrected), notes
 
 

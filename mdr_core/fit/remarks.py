@@ -81,7 +81,7 @@ def _units(solved, i):
     if "E_star" not in curves.free:
         return
     depth, force, E = curves.depth[i], curves.force[i], values["E_star"][i, 0]
-    squares = np.sum((solved.minimum.residual[i] * solved.noise[i]) ** 2)
+    squares = np.sum(solved.deviation[i] ** 2)
     variance = np.sum((force - force.mean()) ** 2)
     line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
     straight = not curves.adhesive and line < 1.1 * squares

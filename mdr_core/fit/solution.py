@@ -59,6 +59,12 @@ class Solution:
         return self.curves.noise(self.values_and_states[1].slope)
 
     @cached_property
+    def deviation(self):
+        """Residuals (N) at all samples (R, N), 0 at those that are left out of the fit."""
+        used = self.curves.sigma < np.sqrt(NO_WEIGHT) * self.curves.sigma.min(axis=1, keepdims=True)
+        return np.where(used, self.minimum.residual * self.noise, 0.0)
+
+    @cached_property
     def reduced_chi_square(self):
         """Sum of squares over the degrees of freedom (R,)."""
         return self.minimum.squares / self.minimum.freedom

@@ -142,7 +142,8 @@ class Row:
         if self.medium.inverse_to_radius or depth <= start:
             return [depth]
         # Between the ends of a ramp the plastic depth is taken as linear: an error of second order in 1/n.
-        shares = (np.arange(self.n // 4 + 1) / (self.n // 4)) ** 2
+        count = max(self.n // 4, 1)
+        shares = (np.arange(count + 1) / count) ** 2
         ends = start + (depth - start) * shares
         return [*ends[(ends > self.depth) & (ends < depth)].tolist(), depth]
 

@@ -203,7 +203,7 @@ def _passage(profile, medium, inertia, kinetic_energy, low, turn, kinks, breaks)
     node, weight = gauss_legendre(_NODES)
     low, turn, *cuts = np.broadcast_arrays(low, turn, *kinks, *breaks)
     node, weight = (each.reshape(-1, *(1,) * low.ndim) for each in (node, weight))
-    cuts = np.clip(np.reshape(cuts, (-1, *low.shape)), low, turn)
+    cuts = np.clip(np.reshape(cuts, (len(cuts), *low.shape)), low, turn)
     order = np.argsort(cuts, axis=0)
     edges = np.concatenate([low[None], np.take_along_axis(cuts, order, axis=0), turn[None]])
     # The last kink below each piece, or the tip.

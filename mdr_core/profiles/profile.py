@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .. import _check
+from .. import _check, _read_only
 from .._check import Array, ArrayLike
 from ..numerics.roots import increasing_root
 from .shape_check import is_own, sound_range
@@ -24,7 +24,8 @@ class Profile(_check.Parameters, ABC):
     """Profile of a rigid axisymmetric indenter, with its tip at the origin and its height growing outward.
 
     A profile of your own is a frozen dataclass with the first three functions below. They are not checked:
-    they take an array of lengths (m), none negative, and return an array of its shape. Besides
+    they take an array of lengths (m), none negative, which they must not change, and return an array of its
+    shape. Besides
     its parameters solvers ask a profile for ten names; a shape gives those that differ from the base::
 
         height_at(r)          height z (m) at radii r (m)
@@ -100,6 +101,7 @@ class Profile(_check.Parameters, ABC):
                     f"{cls.__name__} gives {old}, a former name of a function of a shape: call it {new}; a "
                     f"shape gives {', '.join(_FORMER.values())}, the last one only in closed form"
                 )
+        _read_only.guard_methods(cls, _FORMER.values())
 
     @cached_property
     def known_depth(self):

@@ -25,7 +25,7 @@ _SAME = 1e-3
 #: Radii at which each indenter of an ensemble is checked below its contact radius, over so many decades;
 #: pairs of radii at which its g′ is compared with g, and their distance over the larger one; indenters that
 #: are checked at a time.
-_COUNT, _DECADES, _PAIRS, _STEP, _ROWS = 24, 6, 12, 0.01, 4096
+_COUNT, _DECADES, _PAIRS, _STEP, _ROWS = 200, 6, 12, 0.01, 512
 #: What is wrong, and what to do about it.
 _ENDS = "mend its functions, or give known_depth and known_radius, or wall, where the shape ends"
 _RADIUS = "mend radius_at(depth), or leave it out"
@@ -149,6 +149,8 @@ def _values(profile, x):
     """g (m) and g′ at radii (m), and whether g or z is not finite, or g′ not a number, there."""
     try:
         reduced, slope, height = functions_at(profile, x)
+    except _check.InvalidArgument:
+        raise
     except (ValueError, ArithmeticError):
         if x.size == 1:
             return np.full(1, np.nan), np.full(1, np.nan), np.ones(1, bool)
@@ -215,7 +217,7 @@ def check_slopes(profile, depth):
 
 
 def _in_blocks(profile, depth):
-    """Indenters of a class that a user wrote, and their depths (m), some thousands at a time.
+    """Indenters of a class that a user wrote, and their depths (m), some hundreds at a time.
 
     One profile comes at once with all depths. Those that are infinite or not positive are left out.
     """

@@ -111,6 +111,8 @@ class Smooth(Profile):
 
         try:
             series = Chebyshev.interpolate(mean_slope, _DEGREE, [low, high])
+        except _check.InvalidArgument:
+            raise
         except ValueError:
             return None
         rough = np.abs(series.coef[-2:]).max() > _RESOLVED * np.abs(series.coef).max()

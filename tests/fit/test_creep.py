@@ -76,6 +76,36 @@ def test_without_a_hold_nothing_is_corrected():
     assert result.E_star == result.uncorrected.E_star
 
 
+def triangle(count, noise, seed):
+    """Times, depths and forces of a triangle of the depth, with noise of the force, without a hold."""
+    depth = 200e-9 * np.minimum(np.linspace(0, 2, count), np.linspace(2, 0, count))
+    force = mdr.indent(TIP, mdr.Medium(4.7e9, hardness=0.3e9), depth).force
+    noisy = force + noise * force.max() * np.random.default_rng(seed).normal(size=count)
+    return np.linspace(0, 10, count), depth, noisy
+
+
+@pytest.mark.parametrize("count", [400, 2000])
+@pytest.mark.parametrize("noise", [1e-3, 4e-3, 1e-2])
+def test_the_tip_of_a_triangle_is_no_hold(count, noise):
+    """However many samples lie within the noise of the largest force."""
+    for seed in range(3):
+        time, depth, force = triangle(count, noise, seed)
+        result = mdr.oliver_pharr(TIP, depth, force, time=time)
+        assert result.E_star == result.uncorrected.E_star
+        assert any("no hold" in remark for remark in result.remarks)
+
+
+@pytest.mark.parametrize("noise", [0.0, 4e-3])
+def test_the_hold_that_is_taken_is_said(noise):
+    """A hold of 10 s, sampled each 0.1 s, of which a share of the noise on both sides is left out."""
+    time, depth, force = record(0.2, "viscous")
+    force = force + noise * PEAK * np.random.default_rng(1).normal(size=force.size)
+    result = mdr.oliver_pharr(TIP, depth, force, time=time)
+    (said,) = (remark for remark in result.remarks if "is held for" in remark)
+    assert float(said.split()[5]) == approx(10.0, abs=0.3)
+    assert result.E_star == approx(E, rel=0.02 + 3 * noise)
+
+
 def test_the_noise_of_the_rate_is_in_the_error():
     """Root mean square of 30 pulls with 0.5 nm of noise of the depth, known to 13 %: at most 1.5."""
     time, depth, force = record(0.1, "viscous")

@@ -197,3 +197,12 @@ def test_bad_arguments_are_refused():
         foundation.advance(math.nan)
     with pytest.raises(TypeError, match="profile must be"):
         mdr.Foundation(0.3, MEDIUM, 10, 1e-6)
+
+
+@pytest.mark.filterwarnings("error")
+def test_two_elements_of_a_constant_hardness():
+    """One element on each side, which yields at u_c = π a H/(2E*), with no division by 0."""
+    medium = mdr.Medium(1.0, hardness=0.1)
+    foundation = mdr.Foundation(mdr.Cone(1.0), medium, 2, half_width=1.0).advance(1.0).advance(1.5)
+    a = mdr.Cone(1.0).contact_radius(1.5)
+    assert foundation.elastic.max() == approx(np.pi * a * 0.1 / 2, rel=1e-12)

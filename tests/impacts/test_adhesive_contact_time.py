@@ -106,3 +106,10 @@ def test_across_kinks(tip, speed):
     assert hit.contact_time == approx(expected, rel=2e-8)
     many = mdr.impact(tip, MEDIUM, MASS, [speed, 0.1, 0.25, 0.3])
     assert many.contact_time[0] == approx(hit.contact_time, rel=1e-10)
+
+
+@pytest.mark.parametrize("tip", TIPS, ids=name)
+def test_of_no_impacts_there_are_no_times(tip):
+    none = mdr.impact(tip, MEDIUM, MASS, np.zeros((3, 0)))
+    assert none.contact_time.shape == none.restitution.shape == (3, 0)
+    assert "Impact" in str(none)

@@ -272,3 +272,58 @@ def test_an_error_in_a_shape_is_no_limit_of_the_fast_limit():
     object.__setattr__(hit.profile, "end", 1.0001 * float(deep.contact_radius))
     with pytest.raises(ValueError, match="a mistake in the shape"):
         _ = hit.limits
+
+
+class TestNearTheAxis:
+    """Of a sharp tip the pressure grows as a logarithm for r → 0, from radii where g is tiny."""
+
+    shape = Pencil(slope=0.1, radius=1e-6)
+
+    @pytest.mark.parametrize("r", [1e-300, 1e-200, 1e-20])
+    def test_elastic_stress(self, r):
+        state = mdr.indent(self.shape, mdr.Medium(1e9), 2e-8)
+        a = state.contact_radius
+        # p = (E*/π) ∫ g′(x) dx/√(x² − r²) from r to a; ln(2a/r) is arccosh(a/r) for r ≪ a.
+        cone = np.pi / 2 * 0.1 * (np.log(2 * a) - np.log(r))
+        expected = 1e9 / np.pi * (cone + 2 / 1e-6 * np.sqrt(a**2 - r**2))
+        assert state.pressure(r) == approx(expected, rel=1e-12)
+        assert state.stress(r, 0.0).zz == approx(-expected, rel=1e-12)
+
+
+@dataclass(frozen=True)
+class Sharp(OneLength):
+    """`Pencil` with one length, as a shape of the library has it: L = s R, H = s² R."""
+
+    __module__ = "mdr_core.profiles.sharp"
+
+    slope: float
+    radius: float
+
+    _length = property(lambda self: self.slope * self.radius)
+    _depth = property(lambda self: self.slope**2 * self.radius)
+
+    @staticmethod
+    def _Z(u):
+        return u + u**2 / 2
+
+    @staticmethod
+    def _G(u):
+        return np.pi / 2 * u + u**2
+
+    @staticmethod
+    def _G_slope(u):
+        return np.pi / 2 + 2 * u
+
+
+@pytest.mark.parametrize("share", [1e-280, 1e-12, 1e-3, 1.0, 1e6])
+def test_a_sharp_shape_of_one_length(share):
+    """Its table begins at the tip, where g is a line: against the same shape without a table."""
+    sharp, pencil = Sharp(0.1, 1e-6), Pencil(0.1, 1e-6)
+    depth = share * 1e-8
+    # 1/(π/4) of the depth at the tip, and the root of the parabola.
+    b = np.pi / 2 * 0.1
+    expected = 2 * depth / (b + np.sqrt(b**2 + 4 * depth / 1e-6))
+    assert sharp.radius_at(np.asarray(depth)) == approx(expected, rel=1e-14)
+    if share >= 1e-12:
+        force = mdr.indent(sharp, mdr.Medium(1e9), depth).force
+        assert force == approx(mdr.indent(pencil, mdr.Medium(1e9), depth).force, rel=1e-12)

@@ -170,3 +170,60 @@ def test_warnings_of_a_shape_are_seen(call):
     with pytest.warns(RuntimeWarning, match="divide by zero"):
         seen = CALLS[call](Careless())
     np.testing.assert_allclose(seen, CALLS[call](mdr.Cone(SLOPE)), rtol=1e-9)
+
+
+@dataclass(frozen=True)
+class InPlace(mdr.Profile):
+    """A paraboloid that squares its argument in place, or returns a view of it, a cone."""
+
+    radius: float
+    squared: bool
+
+    def height_at(self, r):
+        return r**2 / (2 * self.radius)
+
+    def reduced_at(self, x):
+        if not self.squared:
+            return x[...]
+        x **= 2
+        return x / self.radius
+
+    def reduced_slope_at(self, x):
+        return 2 * x / self.radius if self.squared else np.ones_like(x)
+
+
+def test_a_shape_cannot_change_its_argument():
+    with pytest.raises(ValueError, match=r"InPlace\.reduced_at changes its argument in place"):
+        mdr.indent(InPlace(1e-6, True), mdr.Medium(1e9), 1e-8)
+    with pytest.raises(ValueError, match="slope dz/dr changes its argument in place"):
+        mdr.indent(mdr.Smooth(lambda r: np.multiply(r, 2e6, out=r)), mdr.Medium(1e9), 1e-8)
+    assert mdr.indent(InPlace(1e-6, False), mdr.Medium(1e9), 1e-8).force == approx(1e9 * 1e-16, rel=1e-12)
+
+
+@dataclass(frozen=True)
+class Dipped(mdr.Profile):
+    """A paraboloid whose g has a narrow dip at a share of R."""
+
+    radius: float
+    place: float
+
+    def height_at(self, r):
+        return r**2 / (2 * self.radius)
+
+    def reduced_at(self, x):
+        u = (x / self.radius / self.place - 1) / 0.06
+        return x**2 / self.radius * (1 - 0.5 * np.exp(-(u**2)))
+
+    def reduced_slope_at(self, x):
+        u = (x / self.radius / self.place - 1) / 0.06
+        dip = 0.5 * np.exp(-(u**2))
+        x_over_R = x / self.radius
+        return 2 * x_over_R * (1 - dip) + x_over_R**2 * dip * 2 * u / (0.06 * self.place)
+
+
+@pytest.mark.parametrize("place", [0.02, 0.03, 0.05])
+def test_each_indenter_is_looked_at_as_closely_as_one(place):
+    medium = mdr.Medium(1e9)
+    for radius in (1e-6, np.array([1e-6, 1.01e-6])):
+        with pytest.raises(ValueError, match="has fallen"):
+            mdr.impact(Dipped(radius, place), medium, 1e-12, 0.05)
