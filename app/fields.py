@@ -3,6 +3,8 @@
 from functools import partial
 from typing import Any
 
+from markupsafe import Markup
+
 from mdr_core.files.text import decoded
 from mdr_core.show.units import UNITS, Unit, fitting, written
 
@@ -13,7 +15,7 @@ from .plot import View
 from .quantities import QUANTITIES, Quantity
 from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, regions, used_by
 from .tip import Uploaded, read_tip
-from .ui import LAYOUT, linked, marked, symbol
+from .ui import LAYOUT, as_html, linked, marked, symbol
 from .units import entry, read
 
 #: Option of the list of shapes that asks for a file.
@@ -98,19 +100,20 @@ def _told(known: Quantity) -> dict[str, Any]:
     """What is said of a number."""
     low, high = (written(bound, known.kind, 2) for bound in known.bounds)
     units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
-    rows = [linked(known.help), f"<em>{linked(known.equation)}</em>" if known.equation else ""]
-    rows.append(f"Usual: {marked(known.typical)}." if known.typical else "")
+    rows = [linked(known.help)]
+    rows.append(Markup("<em>{}</em>").format(linked(known.equation)) if known.equation else "")
+    rows.append(Markup("Usual: {}.").format(marked(known.typical)) if known.typical else "")
     rows.append(f"From {low} to {high}" + (f"; units {units}." if units else "."))
     return {
-        "label": f"{symbol(known.symbol)} {marked(known.label)}",
-        "spoken": f"{known.symbol}, {known.label}",
-        "about": "".join(f"<p>{row}</p>" for row in rows if row),
+        "label": Markup("{} {}").format(symbol(known.symbol), marked(known.label)),
+        "spoken": as_html(f"{known.symbol}, {known.label}"),
+        "about": Markup("").join(Markup("<p>{}</p>").format(row) for row in rows if row),
         "span": known.span,
     }
 
 
 def title(text_: str) -> Part:
-    return text(text_, f"<h2>{text_}</h2>", "title")
+    return text(text_, Markup("<h2>{}</h2>").format(text_), "title")
 
 
 class Form:
@@ -132,7 +135,9 @@ class Form:
         notes = [extra.notes(view) for extra in EXTRAS.values()]
 
         def note(place: str, before: str = "") -> Part:
-            return text(f"note {place}", before + "".join(each.get(place, "") for each in notes))
+            return text(
+                f"note {place}", Markup("").join((before, *(each.get(place, "") for each in notes)))
+            )
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
         # What differs from the preset is not folded.

@@ -8,7 +8,9 @@ from .fit import page as measurement
 #: Loaded here, so that the first visitor does not wait, and that the server does not start if one fails.
 LOADED = (extras, page, measurement)
 
-private.prompt_messages()
+private.no_components()
+private.headers()
+private.websockets()
 
 
 def on_server_loaded(server_context):

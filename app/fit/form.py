@@ -4,11 +4,12 @@ from collections.abc import Callable
 from typing import Any
 
 import panel as pn
+from markupsafe import Markup
 
 from mdr_core.reading import SIZES
 from mdr_core.show.units import UNITS, fitting
 
-from ..ui import WIDE, html, indexed, show
+from ..ui import WIDE, html, show
 from ..units import entry, read
 from . import words
 from .setting import CORRECTIONS, IN_TIME, MEDIA, NUMBERS, TIPS, Number, Setting, parameter
@@ -47,7 +48,7 @@ class Typed:
         self._text = ""
         self.field = field(pn.widgets.TextInput, "typed", label="", placeholder="type a value")
         self.said = html("", "note")
-        self.label = html(f"<label><i>{indexed(known.symbol)}</i> {known.label}</label>", "name")
+        self.label = html(Markup("<label>{}</label>").format(words.name_html(known)), "name")
         self.row = pn.Row(self.label, self.field, css_classes=["fields"], **WIDE)
         self.view = pn.Column(self.row, self.said, css_classes=["typed-number"], **WIDE)
         self.field.param.watch(self._typed, "value")
@@ -78,7 +79,7 @@ class Typed:
 
 def heading(text: str) -> Any:
     """A heading of a part of the column."""
-    return html(f"<h2>{text}</h2>", "title")
+    return html(Markup("<h2>{}</h2>").format(text), "title")
 
 
 class Form:
@@ -172,7 +173,6 @@ class Form:
         self._rows: dict[str, Any] = {}
         for name in (*names, "tilt", *CORRECTIONS):
             typed = Typed(name, parameter(name), lambda value, name=name: self._page.hold(name, value))
-            typed.label.object = words.name_html(name)
             self.held[name] = typed
             free = pn.widgets.Checkbox(label="free", css_classes=["free"], margin=0, width=48)
             free.param.watch(lambda event, name=name: self._page.free(name, event.new), "value")

@@ -3,7 +3,6 @@
 import shutil
 from collections.abc import Callable
 from functools import partial
-from html import escape
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ import panel as pn
 from bokeh.document import Document
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
+from markupsafe import Markup
 
 from mdr_core.files.text import decoded
 from mdr_core.fit.indentation import IndentationFit
@@ -56,8 +56,8 @@ class Measurement(Source):
         self._address = pn.widgets.TextInput(visible=False)
         self._address.jscallback(value="history.replaceState(null, '', source.value)")
         header = (
-            html("<h1>Measurement</h1>", "name", sizing_mode="stretch_width"),
-            html('<a href="?">Indentation explorer</a>', "links", sizing_mode=None),
+            html(Markup("<h1>Measurement</h1>"), "name", sizing_mode="stretch_width"),
+            html(Markup('<a href="?">Indentation explorer</a>'), "links", sizing_mode=None),
         )
         columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **WIDE)
         self.view = pn.Column(
@@ -80,7 +80,9 @@ class Measurement(Source):
             self._take(EXAMPLES[name].name, EXAMPLES[name].read(), asked, name)
             return
         if asked.file:
-            self.about = f"This link was made with <b>{escape(asked.file)}</b>: drop that file here."
+            self.about = Markup("This link was made with <b>{}</b>: drop that file here.").format(
+                asked.file
+            )
         self.show()
 
     def close(self) -> None:

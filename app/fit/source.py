@@ -3,9 +3,10 @@
 import re
 import tempfile
 from collections.abc import Callable
-from html import escape
 from pathlib import Path
 from typing import Any
+
+from markupsafe import Markup
 
 from mdr_core.measured_curve import MeasuredCurve
 
@@ -140,7 +141,7 @@ class Source:
     def _of_file(self) -> str:
         curve = self.curve
         of = f", curve {self.setting.curve + 1} of {self.count}" if self.count > 1 else ""
-        return f"<b>{escape(self.setting.file)}</b>{of}: {len(curve)} samples"
+        return Markup("<b>{}</b>{}: {} samples").format(self.setting.file, of, len(curve))
 
     def _place(self) -> None:
         """Take the samples of the curve without what is subtracted."""

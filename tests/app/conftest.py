@@ -63,10 +63,10 @@ window.explorer = {
 
 
 class Server:
-    """`panel serve app` from the project root, or a copy of it, on a free port, with its log."""
+    """`panel serve app`, or another program, from the project root or a copy, on a free port; its log."""
 
-    def __init__(self, *options, port=0, root=ROOT):
-        command = [sys.executable, "-m", "panel", "serve", "app", *options, "--port", str(port)]
+    def __init__(self, *options, port=0, root=ROOT, program=("-m", "panel", "serve", "app")):
+        command = [sys.executable, *program, *options, "--port", str(port)]
         self.lines, self._ready = [], threading.Event()
         output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
         self.process = subprocess.Popen(command, cwd=root, start_new_session=True, **output)
