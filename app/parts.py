@@ -50,9 +50,11 @@ def button(
     return Part("button", label, look, lambda message: None if disabled else act())
 
 
-def upload(label: str, accept: str, take: Callable[[Uploaded], None], refused: str = "") -> Part:
-    """A field for a file, with why the last one was refused."""
-    look = {"label": as_html(label), "accept": accept, "most": MAX_BYTES, "refused": refused}
+def upload(
+    label: str, accept: str, take: Callable[[Uploaded], None], refused: str = "", busy: str = ""
+) -> Part:
+    """A field for a file, with why the last one was refused, or what is done with it."""
+    look = {"label": as_html(label), "accept": accept, "most": MAX_BYTES, "refused": refused, "busy": busy}
     return Part("file", label, look, lambda message: take(Uploaded(**message)))
 
 

@@ -39,8 +39,8 @@ class NoComponents(RequestHandler):
 def no_components() -> None:
     """Answer 404 to what is asked for below /components/, before anything is imported.
 
-    Panel imports the module that such an address names, whichever it is: `unittest.__main__` ends the server.
-    The page asks for none. Routes are built from this name once the app is loaded.
+    Panel imports the module that such an address names, whichever it is: `unittest.__main__` ends the
+    server. The page asks for none. Routes are built from this name once the app is loaded.
     """
     if _end("panel.io.server", "ComponentResourceHandler"):
         import_module("panel.io.server").ComponentResourceHandler = NoComponents
@@ -65,17 +65,17 @@ _LOOPBACK = ("127.0.0.1", "::1", "localhost")
 
 
 def is_own(origin: str, host: str, port: int) -> bool:
-    """Whether an origin is the host of its request, and that a loopback address at the port that is served."""
+    """Whether an origin is the host of its request, and that one of this machine, at the served port."""
     place = urlsplit(f"//{host}")
     same = urlsplit(origin).netloc.lower() == host.lower()
     return same and place.hostname in _LOOPBACK and (place.port or 80) == port
 
 
 def websockets() -> None:
-    """Have the websocket refuse other origins, send each part of a message at once, and one after the other.
+    """Have websockets refuse other origins, and send each part of a message at once, one after the other.
 
-    A page at any name may connect to that name (Host = Origin) without a question of tornado 6.6, though the
-    name is not allowed: bound to 127.0.0.1 it reaches the server of a person (DNS rebinding).
+    A page at a name that is not allowed may connect to that name (Host = Origin): tornado 6.6 asks nothing
+    then. Bound to 127.0.0.1, the name reaches the server of a person (DNS rebinding).
 
     A message has three parts. With Nagle's algorithm the second one waits for the acknowledgement of the
     first one, which browsers delay by up to 40 ms in a drag: with a client that does so a move is answered

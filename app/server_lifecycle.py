@@ -3,11 +3,13 @@
 import gc
 
 from . import extras, page, private
+from .fit import folders
 from .fit import page as measurement
 
 #: Loaded here, so that the first visitor does not wait, and that the server does not start if one fails.
 LOADED = (extras, page, measurement)
 
+folders.clear()
 private.no_components()
 private.headers()
 private.websockets()

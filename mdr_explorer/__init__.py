@@ -8,9 +8,9 @@ _HERE = Path(__file__).parent
 #: The folder that is served: in the wheel it is in this package, in the tree beside it.
 APP = next(path for path in (_HERE / "app", _HERE.parent / "app") if (path / "main.py").is_file())
 
-#: What a server that is open to all needs; an option that is given holds instead of the one here. A message has at
-#: most 8 MB. A page has ten minutes to connect, and a session without its page ends after the same time. Of the
-#: request its page is told the host: headers and cookies may have the secrets of a single sign-on.
+#: What a server that is open to all needs; an option that is given holds instead of the one here. A message
+#: has at most 8 MB. A page has ten minutes to connect, and a session without its page ends after the same
+#: time. A page is told the host of its request alone: cookies and headers may have secrets of a sign-on.
 OPTIONS = (
     "--include-headers", "Host", "--include-cookies", "none", "--websocket-max-message-size", "8000000",
     "--session-token-expiration", "600", "--check-unused-sessions", "15000",

@@ -258,13 +258,17 @@ class Results:
         show(self.map_file, visible=done)
         self._show_list(done)
 
+    def show_busy(self) -> None:
+        """Show what is being done."""
+        show(self.headline, object=_WAITING.format(self._page.busy))
+
     def show_progress(self) -> None:
         """Show how many curves of a file are fitted."""
         page = self._page
         running = bool(page.busy) and bool(page.rows)
         show(self.progress, visible=running, max=max(page.count, 1), value=len(page.rows))
         if running:
-            show(self.headline, object=_WAITING.format(page.busy))
+            self.show_busy()
         found = [row[1] for row in page.rows if row[1] is not None]
         text = ""
         if page.rows:

@@ -7,14 +7,15 @@ import struct
 import zipfile
 from html import unescape
 from io import BytesIO
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import mdr_core as mdr
 from app import link
+from app.fit.dropper import CHUNK, MAX_BYTES, Dropper
 from app.fit.explorer import explorer_query, rounded
-from app.fit.form import CHUNK, MAX_BYTES, Dropper
 from app.fit.measurement import modulus_of_sample
 from app.fit.page import Measurement
 from app.fit.setting import MEDIA, Setting
@@ -324,17 +325,28 @@ def test_parts_of_a_file_are_below_the_message_that_the_documented_line_allows()
     text = (ASSETS / "docs" / "explorer.md").read_text(encoding="utf-8")
     assert f"Measured curves are limited to {MAX_BYTES / 1e6:g} MB" in " ".join(text.split())
     assert f"up to {MAX_BYTES / 1e6:g} MB" in page_of().form.drop.label
-    drop = Dropper()
+    taken, begun = [], []
+    drop = Dropper(lambda name, data: taken.append((name, data)), lambda: begun.append(1), MAX_BYTES)
 
-    class Event:
-        event_name = "upload_event"
+    def part(name, k, of, data):
+        told = {"name": name, "chunk": k, "total_chunks": of, "data": data, "type": "text/csv"}
+        drop._process_event(SimpleNamespace(event_name="upload_event", data=told))
 
-        def __init__(self, k):
-            self.data = {"name": "a", "chunk": k, "total_chunks": 10**6, "data": bytes(CHUNK), "type": ""}
-
-    for k in range(1, 60):
-        drop._process_event(Event(k))
-    assert sum(map(len, drop._file_buffer["a"])) <= MAX_BYTES
+    # Files that never end, each under a new name: together they keep no more than one.
+    for name in "abc":
+        for k in range(1, 60):
+            part(name, k, 10**6, bytes(CHUNK))
+            assert drop.kept <= MAX_BYTES
+        part(name, 1, 10**6, bytes(CHUNK))
+    assert drop.kept == CHUNK
+    assert not taken
+    # A whole one is taken as it is, and not kept.
+    for k in (1, 2, 3):
+        part("run.csv", k, 3, b"%d\n" % k)
+    assert taken == [("run.csv", b"1\n2\n3\n")]
+    assert drop.kept == 0
+    assert not drop.value
+    assert len(begun) == 7
 
 
 def test_the_files_of_a_fit_have_its_numbers():
