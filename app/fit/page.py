@@ -34,6 +34,8 @@ _LANDMARKS = {
     "asked": ("complementary", "Curve, tip and sample"),
     "found": ("main", "Result"),
 }
+#: What has the plots in it.
+_BOTH = {"sizing_mode": "stretch_both", "margin": 0}
 _OVER = "addEventListener('dragenter', () => { over.tags = ['file'] }, { once: true })"
 _NAMES = Path(__file__).with_name("names.js").read_text(encoding="utf-8")
 
@@ -62,10 +64,10 @@ class Measurement(Source):
             html(Markup("<h1>Measurement</h1>"), "name", sizing_mode="stretch_width"),
             html(Markup('<a href="?">Indentation explorer</a>'), "links", sizing_mode=None),
         )
-        columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **WIDE)
+        columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **_BOTH)
         self.view = pn.Column(
             pn.Row(*header, self._address, css_classes=["fit-header"], **WIDE), columns,
-            css_classes=["fit-page"], **WIDE,
+            css_classes=["fit-page"], **_BOTH,
         )  # fmt: skip
         # The address restores what was told when the session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))

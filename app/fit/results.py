@@ -63,7 +63,7 @@ class Results:
         self.curve = pn.Column(
             pn.pane.Bokeh(self.plots.force, **_BOTH),
             pn.pane.Bokeh(self.plots.residual, **_BOTH),
-            css_classes=["plots-of-fit"], visible=False, **WIDE,
+            css_classes=["plots-of-fit"], visible=False, **_BOTH,
         )  # fmt: skip
         self.why, self.remarks = html("", "note", "why"), html("", "note", "remarks")
         left = pn.Column(self.headline, self.not_fitted, self.tools, **WIDE)
@@ -72,7 +72,7 @@ class Results:
         self.view = pn.Column(
             pn.Row(left, right, css_classes=["top-of-found"], **WIDE),
             self.why, self.remarks, self.several, self.range, self.curve,
-            css_classes=["found"], **WIDE,
+            css_classes=["found"], **_BOTH,
         )  # fmt: skip
 
     # The parts.

@@ -39,7 +39,15 @@ _SECONDS = _given("MDR_EXPLORER_SECONDS", 120)
 _REST, _NICE = 300.0, 5
 #: Most characters of a message, which may quote a file.
 _MESSAGE = 2000
-_ROOT = Path(__file__).parents[2]
+_APP = Path(__file__).parents[1]
+#: The program of a process. The package is made bare, of this folder: its own file loads the explorer, with
+#: which a start takes 2.5 s of computing and 125 MB instead of 1.1 s and 83 MB.
+_PROGRAM = """import sys, types
+app = sys.modules["app"] = types.ModuleType("app")
+app.__path__ = [sys.argv[1]]
+from app.fit.worker import main
+main()
+"""
 #: What is said when a process has gone.
 ENDED = (
     "The process that reads and fits has ended, because of a damaged file or too little memory; "
@@ -172,12 +180,12 @@ class Worker:
         self._job += 1
 
     def _start(self) -> None:
-        # One thread of the linear algebra: the other core is for those who look at the explorer. `-P`: a
-        # folder `app` where the server was started is not this one.
-        own = {"PYTHONPATH": os.pathsep.join([str(_ROOT), *filter(None, sys.path)])}
+        # One thread of the linear algebra: the other core is for those who look at the explorer. `-P`: no
+        # modules of the folder in which the server was started.
+        own = {"PYTHONPATH": os.pathsep.join([str(_APP.parent), *filter(None, sys.path)])}
         own |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "TMPDIR": str(folders.own())}
         pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
-        command = [sys.executable, "-P", "-m", "app.fit.worker"]
+        command = [sys.executable, "-P", "-c", _PROGRAM, str(_APP)]
         self._process = subprocess.Popen(command, env=os.environ | own, **pipes)
         self._turns.having.append(self)
         threading.Thread(target=self._listen, args=(self._process,), daemon=True).start()
@@ -321,7 +329,3 @@ def main() -> None:
                 pickle.dump((job, kind, answer), output)
                 output.flush()
                 _limit_time()
-
-
-if __name__ == "__main__":
-    main()

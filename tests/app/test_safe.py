@@ -4,14 +4,21 @@ import ast
 import re
 from contextlib import closing
 from http.client import HTTPConnection
+from pathlib import Path
+from urllib.parse import quote
 
+import numpy as np
 import pytest
 from bokeh.util.token import get_token_payload
 
-from app import ui
+from app import changes, ui
+from app.extras.scene_file import scene_file
 from app.private import is_own
+from app.state import preset_state
 
 from .conftest import CHROMIUM, FLAGS, ROOT, Explorer, Server
+from .states import view_of
+from .test_measurement_served import READY
 
 PROGRAM = ("-c", "import mdr_explorer; mdr_explorer.main()")
 SECRET = "of-a-single-sign-on"
@@ -176,3 +183,111 @@ def test_the_page_works_at_both_of_its_addresses(command, browser):
             explorer = Explorer(context.new_page(), url)
             explorer.change(explorer.type, "d_max", "5 nm")
             assert explorer.problems == []
+
+
+#: A link to a sample with its tip.
+GEL = "fit&file=Gel,+AFM,+colloid+of+10+µm.csv&tip=paraboloid&radius=1e-05&medium=gel"
+
+
+def children(server):
+    """Processes that a server has started."""
+    listed = Path(f"/proc/{server.process.pid}/task").glob("*/children")
+    return [int(child) for each in listed for child in each.read_text().split()]
+
+
+@pytest.fixture(scope="module")
+def fresh(browser, tmp_path_factory):
+    """A server whose temporary folder has nothing else, where the log says what is logged."""
+    folder = tmp_path_factory.mktemp("temporary")
+    server = Server(program=PROGRAM, environment={"TMPDIR": str(folder)})
+    server.folder = folder
+    yield server
+    server.stop()
+    # Nothing of a file is left.
+    assert [*folder.iterdir()] == []
+
+
+def test_a_request_alone_starts_no_process_and_keeps_no_file(fresh):
+    """Also of a link to a sample; a page that has connected gets it."""
+    for query in (
+        "fit",
+        GEL,
+        "",
+    ):
+        path = "/app?" + quote(query, safe="&=,+")
+        for _ in range(5):
+            assert get(fresh, path)[0] == 200
+    assert children(fresh) == []
+    assert [*fresh.folder.iterdir()] == []
+    # Warnings of the page's own parts are no news for those who read the log.
+    assert "sizing_mode" not in fresh.log
+    assert "WARNING" not in fresh.log
+
+
+def test_a_link_to_a_sample_is_read_once_the_page_is_there(fresh, context):
+    opened = Explorer(
+        context.new_page(),
+        f"{fresh.url}?{GEL}",
+        READY,
+    )
+    opened.page.locator(".big output", has_text="kPa").wait_for()
+    assert len(children(fresh)) == 1
+    assert opened.problems == []
+    opened.page.close()
+
+
+def drop(page, name, data):
+    field = page.locator('.filepond--browser, input[type="file"]').first
+    field.set_input_files({"name": name, "mimeType": "text/csv", "buffer": data})
+
+
+def test_hostile_names_run_nothing(fresh, context):
+    """Of files, their columns and sheets, of tips, and of all that a link names."""
+    opened = Explorer(context.new_page(), f"{fresh.url}?fit", READY)
+    page = opened.page
+
+    def quiet():
+        assert page.evaluate("window.run") is None
+        assert page.locator("img[src=x], svg[onload]").count() == 0
+
+    for k, text in enumerate(HOSTILE):
+        # A browser sends the name without its folders.
+        name = text.replace("/", "_") + ".csv"
+        column = text.replace('"', "'")
+        drop(page, name, f'"{column} h (nm)","{column} F"\n0,0\n1,1\n2,3\n'.encode())
+        shown = " ".join(name.split())[:60]
+        page.locator(".refusal p", has_text=shown).first.wait_for()
+        quiet()
+        page.get_by_label("Column of depth").locator("option").nth(1).wait_for(state="attached")
+        drop(page, name, b"h (nm), F (mN)\n0, 0\n1, 1\n2, 3\n")
+        page.get_by_text("3 samples").wait_for()
+        quiet()
+        if k:
+            continue
+        page.get_by_label("Tip", exact=True).select_option(label="Measured tip, from a file")
+        page.locator('.filepond--browser, input[type="file"]').nth(1).set_input_files(
+            {"name": name, "mimeType": "text/csv", "buffer": f"{text}\n".encode()}
+        )
+        page.get_by_text(re.compile("no samples|expected|header")).first.wait_for()
+        quiet()
+        page.get_by_label("Tip", exact=True).select_option(index=0)
+    names = "file", "tip", "depth_column", "radius", "curve"
+    query = "&".join(f"{name}={quote(HOSTILE[0])}" for name in names)
+    page.goto(f"{fresh.url}?fit&{query}")
+    page.get_by_text("This link was made with").wait_for()
+    quiet()
+    assert opened.problems == []
+    page.close()
+
+
+def test_a_saved_scene_ends_no_script_of_its_own(opened, tmp_path):
+    """A tip with a hostile name, in the file of a scene."""
+    r = np.linspace(0, 1e-6, 20)
+    state = changes.take_tip(preset_state(), (r, r**2 / 1e-5), f"20 samples of {''.join(HOSTILE)}")
+    path = tmp_path / "scene.html"
+    path.write_text(scene_file(view_of(state)), encoding="utf-8")
+    page = opened(path).page
+    assert page.evaluate("window.run") is None
+    assert page.locator("img[src=x], svg[onload]").count() == 0
+    page.get_by_text("Inputs and their sources").click()
+    page.get_by_text(HOSTILE[0]).first.wait_for()

@@ -10,7 +10,7 @@ import pytest
 
 from app.fit import folders
 from app.fit.measurement import without_folders
-from app.fit.worker import Turns, Worker, waiting
+from app.fit.worker import LATE, Turns, Worker, waiting
 
 from .conftest import ROOT
 
@@ -52,6 +52,7 @@ def read(worker, path=SILICA):
     return heard
 
 
+@pytest.mark.slow
 def test_one_at_rest_gives_way_and_reads_its_file_again(sessions):
     turns, (first, second, third, _) = sessions
     for each in (first, second):
@@ -65,6 +66,7 @@ def test_one_at_rest_gives_way_and_reads_its_file_again(sessions):
     assert turns.having == [third, first]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="a pipe with a name is needed to hold a job")
 def test_who_waits_is_told_how_many_are_before(sessions, tmp_path):
     turns, (first, second, third, fourth) = sessions
@@ -103,6 +105,7 @@ def test_a_start_ahead_takes_nobodys_place(sessions):
     assert turns.having == workers[:2]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "SIGXCPU"), reason="the system has no bound of processor time")
 def test_a_job_that_computes_too_long_is_stopped_and_says_so(monkeypatch, tmp_path):
     """Two million rows take more than a second, which is the bound here."""
@@ -144,7 +147,8 @@ def test_messages_have_no_folder_of_the_server():
 
 def test_folders_of_a_killed_server_are_cleared_at_the_next_start_and_others_stay(tmp_path):
     """One process is killed, one goes on; a third one starts."""
-    code = "from app.fit import folders; folders.Files().keep(b'1'); print('kept', flush=True); input()"
+    load = "import runpy; made = runpy.run_path('app/fit/folders.py'); "
+    code = load + "made['Files']().keep(b'1'); print('kept', flush=True); input()"
     own = os.environ | {"TMPDIR": str(tmp_path)}
     begun = [
         subprocess.Popen(
@@ -158,8 +162,9 @@ def test_folders_of_a_killed_server_are_cleared_at_the_next_start_and_others_sta
         assert len([*tmp_path.iterdir()]) == 2
         begun[0].kill()
         begun[0].wait(20)
-        code = "from app.fit import folders; folders.clear()"
-        subprocess.run([sys.executable, "-c", code], cwd=ROOT, env=own, check=True, timeout=120)
+        subprocess.run(
+            [sys.executable, "-c", load + "made['clear']()"], cwd=ROOT, env=own, check=True, timeout=120
+        )
         (left,) = tmp_path.iterdir()
         assert [*left.rglob("file 1")]
         # At an orderly end nothing is left.
