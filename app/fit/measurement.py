@@ -29,8 +29,8 @@ from ..tip import read_tip
 
 #: Most samples that are fitted and drawn: of more, one in two, three … is taken.
 MOST = 2000
-#: Most characters of the name of a column that are shown.
-_HEAD = 80
+#: Most characters of the name of a column, and of a remark, which may quote the file, that are shown.
+_HEAD, _REMARK = 80, 500
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,9 @@ def read(path: str, given: dict[str, Any], number: int) -> Any:
         if number >= len(curves):
             raise ValueError(f"the file has {len(curves)} curves, and no curve {number + 1}")
         curve = curves[number]
-        return replace(curve, table=curve.table and Heads.of(curve.table)), len(curves)
+        heads = curve.table and Heads.of(curve.table)
+        remarks = tuple(each[:_REMARK] for each in curve.remarks)
+        return replace(curve, table=heads, remarks=remarks), len(curves)
     except UnknownColumns as error:
         return Heads.of(error.table), 0
     except (ValueError, ImportError, MemoryError):

@@ -47,7 +47,7 @@ def get(server, path, headers=None, host=None):
 #: What runs where it is taken for HTML, in an attribute, a script or a text.
 HOSTILE = (
     "<img src=x onerror=\"window.run = 1\">", "\"><svg onload='window.run = 1'>",
-    "</script><script>window.run = 1</script>", "<b onclick=window.run=1>d_c</b>",
+    "</script><script>window.run = 1</script>", "<b onclick=window.run=1>bold</b>",
     "' autofocus onfocus='window.run = 1",
 )  # fmt: skip
 

@@ -28,6 +28,11 @@ class Heard:
             self.answers.append((kind, answer))
             self._any.notify_all()
 
+    def first(self, seconds=600):
+        with self._any:
+            assert self._any.wait_for(lambda: self.answers, seconds)
+            return self.answers[0]
+
     def wait(self, kind, seconds=120):
         with self._any:
             assert self._any.wait_for(lambda: any(each[0] == kind for each in self.answers), seconds), (
@@ -103,6 +108,36 @@ def test_a_start_ahead_takes_nobodys_place(sessions):
     for each in workers:
         each.start()
     assert turns.having == workers[:2]
+
+
+#: Lines at which a pattern that goes back and forth takes minutes; what each is, and the line.
+LONG = {
+    "a title of blanks": "Title" + " " * 9_990 + "x",
+    "words": "depth " * 2_000 + "(nm",
+    "a number without end": "1" * 10_000 + "e",
+    "brackets": "h " + "(" * 5_000 + "[" * 5_000,
+    "units": "F (" + "N/m·" * 2_500 + ")",
+    "cells": "," * 10_000,
+}
+
+
+@pytest.mark.slow
+@pytest.mark.few(2)
+@pytest.mark.parametrize("what", LONG)
+def test_an_answer_comes_to_each_line(what, tmp_path):
+    """As a curve and as a tip; that it comes is all that counts."""
+    path, worker = tmp_path / "long.csv", Worker(Turns(1))
+    try:
+        for rows in ("1, 2\n3, 4\n", f"{LONG[what]}\n" * 5):
+            path.write_text(f"{LONG[what]}\n{rows}", encoding="utf-8")
+            for job in (("read", str(path), {}, 0), ("tip", str(path), "long.csv")):
+                heard = Heard()
+                worker.ask(*job, tell=heard)
+                kind, answer = heard.first()
+                assert kind in ("done", "refused", "ended")
+                assert kind == "done" or len(answer) <= 2000
+    finally:
+        worker.stop()
 
 
 @pytest.mark.slow
