@@ -136,9 +136,8 @@ class Form:
         notes = [extra.notes(view) for extra in EXTRAS.values()]
 
         def note(place: str, before: str = "") -> Part:
-            return text(
-                f"note {place}", Markup("").join((before, *(each.get(place, "") for each in notes)))
-            )
+            found = (each.get(place, "") for each in notes)
+            return text(f"note {place}", Markup("").join((before, *found)))
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
         # What differs from the preset is not folded.

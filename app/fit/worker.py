@@ -57,6 +57,7 @@ LATE = (
     f"This takes more than {_SECONDS} s of computing, and was stopped; nothing else is lost. "
     "Try fewer samples, or hold more parameters"
 )
+NONE = "The server has no room for a process that reads and fits. Try again later"
 #: Called with the kind of an answer, "waiting", "part", "done", "refused" or "ended", and the answer.
 Tell = Callable[[str, Any], None]
 
@@ -78,8 +79,7 @@ class Turns:
         told = []
         while self.waiting and self._room():
             first = self.waiting.pop(0)
-            first.begin()
-            told += first.waits(None)
+            told += first.waits(None) + first.begin()
         for before, each in enumerate(self.waiting):
             told += each.waits(before)
         return told
@@ -111,19 +111,16 @@ class Worker:
         self._timer: threading.Timer | None = None
 
     def start(self) -> None:
-        """Start the process, which takes half a second, before there is a job, if there is room for it."""
+        """Start the process, which takes a second, before there is a job, if there is room for it."""
         turns = self._turns
-        with self._lock:
+        with self._lock, suppress(OSError):
             if self._process is None and not turns.waiting and len(turns.having) < turns.most:
                 self._start()
                 self._rest()
 
     def ask(self, name: str, *arguments: Any, tell: Tell) -> None:
-        """Do a job of `measurement.JOBS`; `tell` is called in another thread, unless it is stopped.
-
-        Of what is asked it must have files by their paths: a pipe takes 64 kB before the process reads.
-        """
-        turns = self._turns
+        """Do a job of `measurement.JOBS`; `tell` is called in another thread, unless it is stopped."""
+        turns, told = self._turns, []
         with self._lock:
             had, waits = self._process is not None, self in turns.waiting
             if had and (self.busy or self._process.poll() is not None):
@@ -134,11 +131,11 @@ class Worker:
             self._before = None
             self._rest(None)
             if self._process is not None:
-                self.begin()
+                told += self.begin()
             elif not waits:
                 # Who replaces a job keeps the turn.
                 turns.waiting.insert(0 if had else len(turns.waiting), self)
-            told = turns.next()
+            told += turns.next()
         _call(told)
 
     def stop(self) -> None:
@@ -153,13 +150,18 @@ class Worker:
 
     # Called where the turns are locked.
 
-    def begin(self) -> None:
-        """Do what was asked."""
-        if self._process is None:
-            self._start()
-        with suppress(BrokenPipeError):
-            pickle.dump((self._job, *self._asked), self._process.stdin)
-            self._process.stdin.flush()
+    def begin(self) -> list[Callable[[], None]]:
+        """Do what was asked, or return what tells that there is no process for it."""
+        try:
+            if self._process is None:
+                self._start()
+        except OSError:
+            self.busy = False
+            return [partial(self._tell, "ended", NONE)]
+        # In a thread: a pipe takes 64 kB before the process reads, and it may take a second to start.
+        sent = self._process, pickle.dumps((self._job, *self._asked))
+        threading.Thread(target=_send, args=sent, daemon=True).start()
+        return []
 
     def waits(self, before: int | None) -> list[Callable[[], None]]:
         """What tells how many wait before this one, None once it is its turn, if it is not known yet."""
@@ -241,6 +243,13 @@ class Worker:
             tell = self._tell
         tell(kind, answer)
         _call(told)
+
+
+def _send(process: subprocess.Popen[bytes], data: bytes) -> None:
+    # A process that has ended reads nothing.
+    with suppress(OSError, ValueError):
+        process.stdin.write(data)
+        process.stdin.flush()
 
 
 def _call(told: list[Callable[[], None]]) -> None:

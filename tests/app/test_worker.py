@@ -10,7 +10,7 @@ import pytest
 
 from app.fit import folders
 from app.fit.measurement import without_folders
-from app.fit.worker import LATE, Turns, Worker, waiting
+from app.fit.worker import LATE, NONE, Turns, Worker, waiting
 
 from .conftest import ROOT
 
@@ -101,6 +101,22 @@ def test_who_waits_is_told_how_many_are_before(sessions, tmp_path):
         "Waiting for a free process, one person is before you",
         "Waiting for a free process, 2 people are before you",
     ]
+
+
+def test_a_server_without_room_for_a_process_says_so(monkeypatch):
+    """As where the bound of tasks of the service is reached."""
+
+    def none(*arguments, **options):
+        raise BlockingIOError(11, "Resource temporarily unavailable")
+
+    turns = Turns(1)
+    worker = Worker(turns)
+    with monkeypatch.context() as patched:
+        patched.setattr(subprocess, "Popen", none)
+        worker.start()
+        assert read(worker).answers == [("ended", NONE)]
+    assert not worker.busy
+    assert turns.having == turns.waiting == []
 
 
 def test_a_start_ahead_takes_nobodys_place(sessions):
