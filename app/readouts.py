@@ -1,6 +1,7 @@
 """Readouts: numbers of a course, with their units and explanations."""
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -64,6 +65,7 @@ def heads(numbers: dict[Readout, Any]) -> Markup:
     return _STRIP.format(Markup("").join(map(head, numbers)))
 
 
+@cache
 def head(readout: Readout) -> Markup:
     about = f"{lowered(readout.help)} {lowered(readout.equation)}".strip()
     return _ABOUT.format(about, symbol(readout.symbol), readout.long_name)

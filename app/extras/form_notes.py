@@ -1,5 +1,6 @@
 """Notes in the form: formulas of the shape, the law of the hardness, the energy, sources of a preset."""
 
+from functools import cache
 from math import atan, degrees
 
 import numpy as np
@@ -21,11 +22,7 @@ _GRAVITY = 9.80665
 def notes(view: View) -> dict[str, str]:
     """Notes (HTML) by the places of the form."""
     state, course = view.state, view.course
-    preset, shape, made = PRESETS[state.preset], state.chosen("shape"), course.scene.medium
-    sources = Markup("").join(
-        Markup("<dt>{}</dt><dd>{}</dd>").format(marked(with_symbol(name, preset.values[name])), source)
-        for name, source in preset.sources.items()
-    )
+    shape, made = state.chosen("shape"), course.scene.medium
     head = "Altered. " * bool(altered(state)) + "Where the preset's numbers come from, "
     head += "and which of them are illustrative:"
     energy = written(state.mass * state.speed**2 / 2, "energy")
@@ -42,8 +39,17 @@ def notes(view: View) -> dict[str, str]:
         ),
         "medium": marked(law_of_hardness(course)),
         "more": linked(f"η = {eta}, τ = 4η/E* = {tau} (1){idle}") if made.eta > 0 else "",
-        "sources": Markup("<p>{}</p><dl>{}</dl>").format(head, sources),
+        "sources": Markup("<p>{}</p><dl>{}</dl>").format(head, _sources(state.preset)),
     }
+
+
+@cache
+def _sources(preset: str) -> Markup:
+    """Numbers of a preset, and where each comes from."""
+    known = PRESETS[preset]
+    row = Markup("<dt>{}</dt><dd>{}</dd>")
+    symbols = (marked(with_symbol(name, known.values[name])) for name in known.sources)
+    return Markup("").join(map(row.format, symbols, known.sources.values()))
 
 
 def law_of_hardness(course: Course) -> str:
