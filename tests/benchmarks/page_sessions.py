@@ -224,7 +224,7 @@ class Uploader(Visitor):
         event = {"type": "event", "name": "upload_event", "values": values}
         await self._event(f"upload {n}", event)
         content = ""
-        while "of the unloading" not in content and "from the unloading" not in content:
+        while not re.search(r"Effective modulus|No E\* to quote|No fit|cannot be read", content):
             _, content = await self._message()
         return time.perf_counter() - begin
 
