@@ -1,12 +1,11 @@
 """The board on the right: plots in frames with title, formula and legend, and the list of other plots."""
 
-import re
 from dataclasses import replace
 from functools import partial
-from html import escape
 from typing import Any
 
 import panel as pn
+from markupsafe import Markup, escape
 
 from .draw import drawn, legend, picture_of
 from .extra import EXTRAS
@@ -21,11 +20,6 @@ from .ui import FULL, marked, show
 def opened(state: State, name: str) -> State:
     """With an optional plot, or none, in the place of the one that is shown."""
     return state.replace(tiles=(name,) if name else ())
-
-
-def _plain(html: str) -> str:
-    """The text of HTML, for an attribute."""
-    return re.sub(r"<[^>]*>", "", html).replace('"', "&quot;")
 
 
 class Card:
@@ -44,14 +38,15 @@ class Card:
         kept = self._legend if view.kept else {}
         self._legend = kept | drawn(view, plot)
         law = plot.formula_of(view.course)
-        formula = f'<h3>{plot.title}</h3><span title="{escape(law)}">{marked(law)}</span>'
+        formula = Markup('<h3>{}</h3><span title="{}">{}</span>').format(plot.title, law, marked(law))
         buttons = (each.on_plots(page, plot, view) for each in EXTRAS.values())
         key = text("key", legend(plot, self._legend), "key")
         controls = [self._control(name) for name in plot.controls]
         close = [button("Close", partial(page.apply, partial(opened, name="")))] * bool(plot.tab)
-        found = plot.note_of(view)
+        found = escape(plot.note_of(view))
         # In one line, which shows the rest when it is pointed at, or large.
-        note = text("note", f'<span title="{_plain(found)}">{found}</span>', "note found")
+        shown = Markup('<span title="{}">{}</span>').format(found.striptags(), found)
+        note = text("note", shown, "note found")
         first = text("formula", formula, "formula")
         self.head.show([first, *controls, *filter(None, buttons), *close, key, note])
 

@@ -8,6 +8,7 @@ import bokeh.models as bk
 import numpy as np
 from bokeh.core.properties import field
 from bokeh.plotting import figure
+from markupsafe import Markup
 
 from mdr_core.show.figures import Axis
 
@@ -162,12 +163,13 @@ def drawn(view: View, plot: Plot) -> dict[str, str]:
     return {row.name: row.called(states[0][row.name]) for row in rows}
 
 
-def legend(plot: Plot, shown: dict[str, str]) -> str:
+def legend(plot: Plot, shown: dict[str, str]) -> Markup:
     """Legend of the visible rows of a plot, as HTML."""
-    text = ""
+    rows = []
     for row in rows_of(plot):
         if row.legend and row.name in shown:
             hatch = "hatch" * (row.look.get("hatch_pattern", " ") != " ")
             look = " ".join((row.kind, hatch, row.look.get("line_dash", ""), row.look.get("marker", "")))
-            text += f'<span class="{row.role}"><i class="{look}"></i>{marked(shown[row.name])}</span>'
-    return text
+            one = Markup('<span class="{}"><i class="{}"></i>{}</span>')
+            rows.append(one.format(row.role, look, marked(shown[row.name])))
+    return Markup("").join(rows)

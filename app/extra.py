@@ -77,10 +77,10 @@ class Extra:
     service: Callable[[Any], Service] | None = None
     #: Files to download, each with its label, its name, and its text of a view.
     files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
-    #: Notes (HTML) by their places: in the form the "first" line, "drive", "shape", "medium", the "more" of
-    #: it and "sources"; "below" the player a function that returns it, called when the input rests.
+    #: Notes, texts or HTML, by their places: in the form the "first" line, "drive", "shape", "medium", the
+    #: "more" of it and "sources"; "below" the player a function that returns it, called at the next rest.
     notes: Callable[[View], dict[str, str | Callable[[], str]]] = lambda view: {}
-    #: Titles and texts (HTML) that a saved scene has of it.
+    #: Titles and texts, or HTML, that a saved scene has of it.
     told: Callable[[View], list[tuple[str, str]]] = lambda view: []
 
 

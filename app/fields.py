@@ -3,17 +3,19 @@
 from functools import partial
 from typing import Any
 
-from mdr_core.files.text import decoded
+from markupsafe import Markup
+
 from mdr_core.show.units import UNITS, Unit, fitting, written
 
 from . import changes
 from .extra import EXTRAS
+from .fit.tips import Tips
 from .parts import Part, Parts, button, text, upload
 from .plot import View
 from .quantities import QUANTITIES, Quantity
 from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, regions, used_by
-from .tip import Uploaded, read_tip
-from .ui import LAYOUT, linked, marked, symbol
+from .tip import Uploaded, in_line
+from .ui import LAYOUT, as_html, linked, marked, symbol
 from .units import entry, read
 
 #: Option of the list of shapes that asks for a file.
@@ -98,19 +100,20 @@ def _told(known: Quantity) -> dict[str, Any]:
     """What is said of a number."""
     low, high = (written(bound, known.kind, 2) for bound in known.bounds)
     units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
-    rows = [linked(known.help), f"<em>{linked(known.equation)}</em>" if known.equation else ""]
-    rows.append(f"Usual: {marked(known.typical)}." if known.typical else "")
+    rows = [linked(known.help)]
+    rows.append(Markup("<em>{}</em>").format(linked(known.equation)) if known.equation else "")
+    rows.append(Markup("Usual: {}.").format(marked(known.typical)) if known.typical else "")
     rows.append(f"From {low} to {high}" + (f"; units {units}." if units else "."))
     return {
-        "label": f"{symbol(known.symbol)} {marked(known.label)}",
-        "spoken": f"{known.symbol}, {known.label}",
-        "about": "".join(f"<p>{row}</p>" for row in rows if row),
+        "label": Markup("{} {}").format(symbol(known.symbol), marked(known.label)),
+        "spoken": as_html(f"{known.symbol}, {known.label}"),
+        "about": Markup("").join(Markup("<p>{}</p>").format(row) for row in rows if row),
         "span": known.span,
     }
 
 
 def title(text_: str) -> Part:
-    return text(text_, f"<h2>{text_}</h2>", "title")
+    return text(text_, Markup("<h2>{}</h2>").format(text_), "title")
 
 
 class Form:
@@ -118,8 +121,9 @@ class Form:
 
     def __init__(self, page: Any):
         self._page, self._open = page, {"more": False, "tip": False}
-        # Why the last file of a tip was refused.
-        self._tip_refused = ""
+        # Why the last file of a tip was refused, or that it is being read.
+        self._tip_refused = self._tip_busy = ""
+        self._tips: Tips | None = None
         self.view = Parts("form", stylesheets=LAYOUT)
 
     def show(self, view: View) -> None:
@@ -132,7 +136,8 @@ class Form:
         notes = [extra.notes(view) for extra in EXTRAS.values()]
 
         def note(place: str, before: str = "") -> Part:
-            return text(f"note {place}", before + "".join(each.get(place, "") for each in notes))
+            found = (each.get(place, "") for each in notes)
+            return text(f"note {place}", Markup("").join((before, *found)))
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
         # What differs from the preset is not folded.
@@ -144,7 +149,7 @@ class Form:
         for choice in FOLDED_CHOICES if opened else ():
             names = (name for name in used_by(state, choice) if name in folded)
             more += [page.choice(choice), *(page.number(name, depth) for name in names)]
-        with_tip = self._open["tip"] or state.shape == "sampled" or self._tip_refused
+        with_tip = self._open["tip"] or state.shape == "sampled" or self._tip_refused or self._tip_busy
         parts = [
             note("first", _FIRST),
             page.choice("drive"), *numbers["drive"], note("drive"),
@@ -176,15 +181,22 @@ class Form:
     def tip(self) -> Part:
         """The field for the file of a measured tip, with what was refused in the last one."""
         label = "CSV file of a measured tip: r, z"
-        return upload(label, ".csv,.txt,text/csv", self._take_tip, self._tip_refused)
+        return upload(label, ".csv,.txt,text/csv", self._take_tip, self._tip_refused, self._tip_busy)
 
     def _take_tip(self, file: Uploaded) -> None:
-        self._tip_refused = ""
+        try:
+            data = file.read()
+        except ValueError as error:
+            self._have_tip("refused", str(error))
+            return
+        self._tips = self._tips or Tips(self._page.document)
+        self._tips.read(in_line(file.name), data, self._have_tip)
 
-        def take(state):
-            return changes.take_tip(state, *read_tip(decoded(file.read()), file.name))
-
-        self._page.apply(take, self._refuse_tip)
+    def _have_tip(self, kind: str, answer: Any) -> None:
+        self._tip_refused = answer if kind == "refused" else ""
+        self._tip_busy = answer if kind == "busy" else ""
+        if kind == "done":
+            self._page.apply(lambda state: changes.take_tip(state, *answer), self._refuse_tip)
         self._page.refresh()
 
     def _refuse_tip(self, text: str) -> None:

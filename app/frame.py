@@ -4,6 +4,7 @@ from functools import partial
 from typing import Any
 
 import panel as pn
+from markupsafe import Markup
 
 from . import readouts
 from .extra import EXTRAS, Side
@@ -12,7 +13,7 @@ from .parts import Part, Parts, button, text
 from .player import player
 from .plot import View
 from .state import State
-from .ui import FULL, LAYOUT, WIDE, html, show
+from .ui import FULL, LAYOUT, WIDE, as_html, html, show
 
 #: Roles and names of the parts of the page, by their classes.
 LANDMARKS = {
@@ -21,7 +22,7 @@ LANDMARKS = {
     "results": ("main", "Numbers and plots"),
     "share": ("region", "Share"),
 }
-_TITLE = text("name", "<h1>Indentation explorer</h1>", "name")
+_TITLE = text("name", Markup("<h1>Indentation explorer</h1>"), "name")
 
 
 def _turned(state: State) -> State:
@@ -88,7 +89,7 @@ class Frame:
         self.more.show([*filter(None, more), dark])
         numbers = readouts.line(view.course)
         heads = text("heads", readouts.heads(numbers), "heads")
-        page.messages.words = readouts.values(numbers, view.course.now)
+        page.messages.words = as_html(readouts.values(numbers, view.course.now))
         self.line.show([heads, Part("words", "words", {})])
         self.player.show([player(view, page.move), page.board.others(view)])
         for name, part in self.parts.items():
@@ -104,4 +105,4 @@ class Frame:
     def rest(self, view: View) -> None:
         """Show texts that wait while a slider moves, because a changed one causes a new layout."""
         found = (extra.notes(view).get("below") for extra in EXTRAS.values())
-        show(self.below, object="".join(made() for made in found if made))
+        show(self.below, object=Markup("").join(made() for made in found if made))

@@ -4,7 +4,6 @@ import logging
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from html import escape
 from time import perf_counter
 from typing import Any
 
@@ -26,7 +25,7 @@ from .plot import View
 from .quantities import in_words
 from .scales import Scales
 from .state import VIEW, State, as_shown, preset_state
-from .ui import JS, Messages, landmarks
+from .ui import JS, Messages, landmarks, notice
 
 _LOG = logging.getLogger(__name__)
 Change = Callable[[State], State]
@@ -183,8 +182,7 @@ class Page:
     def notify(self, text: str) -> None:
         """Show a notice, once the browser is ready; its text may contain user input."""
         if pn.state.notifications is not None:
-            # Screen readers are told the text itself, in which quotation marks need no escape.
-            tell = partial(pn.state.notifications.error, escape(text, quote=False), duration=7000)
+            tell = partial(pn.state.notifications.error, notice(text), duration=7000)
             pn.state.onload(tell)
 
     def refusal(self, error: Exception, state: State | None = None) -> str:

@@ -16,7 +16,7 @@ from .changes import option, options
 from .quantities import CHOICES
 from .state import PRESETS, State, altered
 from .tip import MAX_BYTES, Uploaded
-from .ui import JS, WIDE, linked, show
+from .ui import JS, WIDE, as_html, linked, show
 
 #: Letters of all options of a choice below which it is shown as radio buttons, else as a list.
 _SHORT = 48
@@ -38,8 +38,8 @@ class Part:
 
 
 def text(name: str, html: str, classes: str = "note") -> Part:
-    """A text (HTML)."""
-    return Part("text", name, {"object": html, "classes": classes})
+    """A text, or HTML."""
+    return Part("text", name, {"object": as_html(html), "classes": classes})
 
 
 def button(
@@ -50,9 +50,11 @@ def button(
     return Part("button", label, look, lambda message: None if disabled else act())
 
 
-def upload(label: str, accept: str, take: Callable[[Uploaded], None], refused: str = "") -> Part:
-    """A field for a file, with why the last one was refused."""
-    look = {"label": label, "accept": accept, "most": MAX_BYTES, "refused": refused}
+def upload(
+    label: str, accept: str, take: Callable[[Uploaded], None], refused: str = "", busy: str = ""
+) -> Part:
+    """A field for a file, with why the last one was refused, or what is done with it."""
+    look = {"label": as_html(label), "accept": accept, "most": MAX_BYTES, "refused": refused, "busy": busy}
     return Part("file", label, look, lambda message: take(Uploaded(**message)))
 
 
@@ -75,7 +77,7 @@ def _about(name: str) -> dict[str, Any]:
     known = CHOICES[name]
     radio = sum(len(each.label) for each in known.options.values()) < _SHORT
     classes = f"of-{name.replace('.', '-')}"
-    return {"label": known.label, "about": linked(known.help), "radio": radio, "classes": classes}
+    return {"label": as_html(known.label), "about": linked(known.help), "radio": radio, "classes": classes}
 
 
 class Parts(pn.custom.JSComponent):

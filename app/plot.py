@@ -69,7 +69,7 @@ class Plot:
         return self.places(view, i)
 
     def note_of(self, view: "View") -> str:
-        """A note above the plot (HTML; `ui.marked` makes it of a text with indices as in d_c)."""
+        """A note above the plot (a text, or HTML as `ui.marked` makes it of indices as in d_c)."""
         return ""
 
     def options_of(self, state: State, control: str) -> list[str]:

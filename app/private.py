@@ -11,6 +11,9 @@ from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
 from typing import Any
+from urllib.parse import urlsplit
+
+from tornado.web import HTTPError, RequestHandler
 
 from .ui import JS
 
@@ -19,15 +22,60 @@ _LOG = logging.getLogger(__name__)
 #: before all other scripts.
 _HEAD = f"""{{% block postamble %}}
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<script>{{% raw %}}{JS["private"]}{{% endraw %}}</script>
+<script>{{% raw %}}{JS["private"]}{JS["refused"]}{{% endraw %}}</script>
 <link rel="modulepreload" href="app/static/parts.js">{{% endblock %}}"""
 _WITHOUT_WEBGL = """{% block js_resources %}
 {% for line in bokeh_js.splitlines() if "bokeh-gl" not in line %}{{ line }}
 {% endfor %}{% endblock %}"""
 
 
-def prompt_messages() -> None:
-    """Have the websocket send each part of a message at once, and one message after the other.
+class NoComponents(RequestHandler):
+    """404, whatever is asked for."""
+
+    def prepare(self):
+        raise HTTPError(404)
+
+
+def no_components() -> None:
+    """Answer 404 to what is asked for below /components/, before anything is imported.
+
+    Panel imports the module that such an address names, whichever it is: `unittest.__main__` ends the
+    server. The page asks for none. Routes are built from this name once the app is loaded.
+    """
+    if _end("panel.io.server", "ComponentResourceHandler"):
+        import_module("panel.io.server").ComponentResourceHandler = NoComponents
+
+
+#: Types are not guessed, and no other site is told the address, which has the scene or the name of a file.
+_HEADERS = {"X-Content-Type-Options": "nosniff", "Referrer-Policy": "same-origin"}
+
+
+def headers() -> None:
+    """Send headers with each answer: by options of Panel there are none, and tornado asks its handlers."""
+
+    def set_default_headers(self):
+        for name, value in _HEADERS.items():
+            self.set_header(name, value)
+
+    RequestHandler.set_default_headers = set_default_headers
+
+
+#: Hosts to which no name of another site can be bound.
+_LOOPBACK = ("127.0.0.1", "::1", "localhost")
+
+
+def is_own(origin: str, host: str, port: int) -> bool:
+    """Whether an origin is the host of its request, and that one of this machine, at the served port."""
+    place = urlsplit(f"//{host}")
+    same = urlsplit(origin).netloc.lower() == host.lower()
+    return same and place.hostname in _LOOPBACK and (place.port or 80) == port
+
+
+def websockets() -> None:
+    """Have websockets refuse other origins, and send each part of a message at once, one after the other.
+
+    A page at a name that is not allowed may connect to that name (Host = Origin): tornado 6.6 asks nothing
+    then. Bound to 127.0.0.1, the name reaches the server of a person (DNS rebinding).
 
     A message has three parts. With Nagle's algorithm the second one waits for the acknowledgement of the
     first one, which browsers delay by up to 40 ms in a drag: with a client that does so a move is answered
@@ -38,14 +86,29 @@ def prompt_messages() -> None:
     dispatch = _end("panel.io.document", "dispatch_tornado")
     if patterns and handler:
         # The first pattern that matches is used.
-        patterns.insert(0, (r"/ws", prompt_handler(handler, dispatch)))
+        patterns.insert(0, (r"/ws", websocket(handler, dispatch)))
 
 
-def prompt_handler(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
-    """A class of Panel's websockets that sends promptly."""
+def websocket(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
+    """A class of Panel's websockets that is for allowed origins only, and sends promptly."""
 
-    class PromptHandler(handler):
-        """Websocket that sends each part of a message at once."""
+    class Websocket(handler):
+        """Websocket that asks for the origin, and sends each part of a message at once."""
+
+        async def prepare(self):
+            origin = self.request.headers.get("Origin")
+            # Programs other than browsers send none.
+            if origin is not None and not self.check_origin(origin):
+                raise HTTPError(403)
+            await super().prepare()
+
+        def check_origin(self, origin):
+            address = self.request.connection.stream.socket.getsockname()
+            try:
+                return is_own(origin, self.request.host, address[1]) or super().check_origin(origin)
+            except ValueError:
+                # No address at all, as "http://[".
+                return False
 
         def open(self, *args, **kwargs):
             self.set_nodelay(True)
@@ -64,8 +127,8 @@ def prompt_handler(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
             await asyncio.gather(*dispatch(self.connection, msg=message))
 
     if dispatch:
-        PromptHandler.send_message = send_message
-    return PromptHandler
+        Websocket.send_message = send_message
+    return Websocket
 
 
 def template() -> str:

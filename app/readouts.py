@@ -1,10 +1,11 @@
 """Readouts: numbers of a course, with their units and explanations."""
 
 from collections.abc import Callable
-from html import escape
+from functools import cache
 from typing import Any
 
 import numpy as np
+from markupsafe import Markup
 
 from mdr_core.show.units import KINDS, written
 
@@ -47,30 +48,33 @@ def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
     return written(float(value), KINDS[readout.unit], count)
 
 
-def values(numbers: dict[Readout, Any], i: int) -> str:
+_STRIP = Markup('<div class="strip">{}</div>')
+_CELL = Markup('<output data-name="{}">{}</output>')
+_ABOUT = Markup('<span class="name" title="{}">{} {}</span>')
+_EXPLAINED = Markup("<dt>{} {}</dt><dd>{} <em>{}</em></dd>")
+
+
+def values(numbers: dict[Readout, Any], i: int) -> Markup:
     """Cells of the line in state i, as HTML."""
-    cells = (
-        f'<output data-name="{each.name}">{text(each, value, i)}</output>'
-        for each, value in numbers.items()
-    )
-    return f'<div class="strip">{"".join(cells)}</div>'
+    cells = (_CELL.format(each.name, text(each, value, i)) for each, value in numbers.items())
+    return _STRIP.format(Markup("").join(cells))
 
 
-def heads(numbers: dict[Readout, Any]) -> str:
+def heads(numbers: dict[Readout, Any]) -> Markup:
     """Heads of the line, as HTML; pointed at they say what they are, as the notes do."""
-    return f'<div class="strip">{"".join(map(head, numbers))}</div>'
+    return _STRIP.format(Markup("").join(map(head, numbers)))
 
 
-def head(readout: Readout) -> str:
-    about = escape(f"{lowered(readout.help)} {lowered(readout.equation)}".strip())
-    return f'<span class="name" title="{about}">{symbol(readout.symbol)} {readout.long_name}</span>'
+@cache
+def head(readout: Readout) -> Markup:
+    about = f"{lowered(readout.help)} {lowered(readout.equation)}".strip()
+    return _ABOUT.format(about, symbol(readout.symbol), readout.long_name)
 
 
-def explained(numbers: dict[Readout, Any], link: Callable[[str], str] = linked) -> str:
+def explained(numbers: dict[Readout, Any], link: Callable[[str], Markup] = linked) -> Markup:
     """What each number is, with its equation, as HTML; `link` is what makes HTML of a text."""
     rows = (
-        f"<dt>{symbol(each.symbol)} {each.long_name}</dt>"
-        f"<dd>{link(each.help)} <em>{link(each.equation)}</em></dd>"
+        _EXPLAINED.format(symbol(each.symbol), each.long_name, link(each.help), link(each.equation))
         for each in numbers
     )
-    return f"<dl>{''.join(rows)}</dl>"
+    return Markup("<dl>{}</dl>").format(Markup("").join(rows))

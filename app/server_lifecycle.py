@@ -3,12 +3,16 @@
 import gc
 
 from . import extras, page, private
+from .fit import folders
 from .fit import page as measurement
 
 #: Loaded here, so that the first visitor does not wait, and that the server does not start if one fails.
 LOADED = (extras, page, measurement)
 
-private.prompt_messages()
+folders.clear()
+private.no_components()
+private.headers()
+private.websockets()
 
 
 def on_server_loaded(server_context):

@@ -1,8 +1,8 @@
 """Style sheet, scripts, texts as HTML, and what server and browser tell each other."""
 
 import re
-from html import escape
 from pathlib import Path
+from typing import Any
 
 import panel as pn
 from bokeh.core.properties import AnyRef, Bool, List, Nullable, String
@@ -10,6 +10,7 @@ from bokeh.document import Document
 from bokeh.events import DocumentReady
 from bokeh.model import DataModel
 from bokeh.models import CustomJS
+from markupsafe import Markup, escape
 
 HERE = Path(__file__).parent
 JS = {path.stem: path.read_text(encoding="utf-8") for path in (HERE / "js").glob("*.js")}
@@ -34,29 +35,52 @@ class Messages(DataModel):
     words = String("")
 
 
-def indexed(text):
-    """HTML with subscripts in symbols such as d_c, and in their differentials such as dd_c."""
-    return re.sub(r"(\b[a-zA-Z]|(?<=\bd)[a-zA-Z]|[α-ω])_([a-zA-Z0-9]+)", r"<i>\1</i><sub>\2</sub>", text)
+# HTML is a `Markup`: a literal of the page, into which `format` and `join` escape what they are given. All
+# else is a text of somebody, which is escaped where it is shown: no name, link or file is taken for HTML.
 
 
-def marked(text):
-    return indexed(escape(text))
+def as_html(text: str) -> str:
+    """What the browser is given to show: HTML as it is, a text escaped."""
+    return str(escape(text))
 
 
-def symbol(text):
+def notice(text: str) -> str:
+    """A text for a notice: screen readers are told it itself, in which quotation marks need no escape."""
+    return as_html(text).replace("&#34;", '"').replace("&#39;", "'")
+
+
+def own_html(path: Path) -> Markup:
+    """A file of the page with HTML."""
+    return Markup(path.read_text(encoding="utf-8"))
+
+
+def replaced(pattern: str, html: str, text: Markup) -> Markup:
+    """HTML with other HTML in the place of what matches, as in `re.sub`."""
+    return Markup(re.sub(pattern, html, str(text)))
+
+
+def marked(text: str) -> Markup:
+    """HTML of a text, with subscripts in symbols such as d_c, and in their differentials such as dd_c."""
+    of_symbol = r"(\b[a-zA-Z]|(?<=\bd)[a-zA-Z]|[α-ω])_([a-zA-Z0-9]+)"
+    return replaced(of_symbol, r"<i>\1</i><sub>\2</sub>", escape(text))
+
+
+def symbol(text: str) -> Markup:
     """A symbol as HTML, also a ratio such as d/d_c."""
-    return "/".join(marked(each) if "_" in each else f"<i>{escape(each)}</i>" for each in text.split("/"))
+    parts = (marked(each) if "_" in each else Markup("<i>{}</i>").format(each) for each in text.split("/"))
+    return Markup("/").join(parts)
 
 
-def linked(text):
+def linked(text: str) -> Markup:
     """HTML of a text, with links from equations, (11), and sections, § 9, to the page of the theory."""
     led = r'<a href="?theory={}-\1" target="theory">\g<0></a>'
-    html = re.sub(r"\(([1-9]\d?)\)", led.format("eq"), marked(text))
-    return re.sub(r"§ (\d+)", led.format("section"), html)
+    html = replaced(r"\(([1-9]\d?)\)", led.format("eq"), marked(text))
+    return replaced(r"§ (\d+)", led.format("section"), html)
 
 
-def html(text="", *classes, **options):
-    return pn.pane.HTML(text, css_classes=[*(classes or ["note"])], **WIDE | options)
+def html(text: str = "", *classes: str, **options: Any) -> Any:
+    """A text, or HTML, as a part of the page."""
+    return pn.pane.HTML(as_html(text), css_classes=[*(classes or ["note"])], **WIDE | options)
 
 
 def landmarks(document: Document, parts: dict[str, tuple[str, str]], to: str = "", label: str = "") -> None:
@@ -69,7 +93,9 @@ def landmarks(document: Document, parts: dict[str, tuple[str, str]], to: str = "
 
 
 def show(part, **values):
-    """Set parameters of a widget that have changed: setting is slow."""
+    """Set parameters of a widget that have changed: setting is slow. `object` is a text, or HTML."""
+    if "object" in values:
+        values["object"] = as_html(values["object"])
     news = {name: value for name, value in values.items() if getattr(part, name) != value}
     if news:
         part.param.update(**news)

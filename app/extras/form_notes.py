@@ -1,9 +1,10 @@
 """Notes in the form: formulas of the shape, the law of the hardness, the energy, sources of a preset."""
 
-from html import escape
+from functools import cache
 from math import atan, degrees
 
 import numpy as np
+from markupsafe import Markup
 
 from mdr_core.show.units import digits, written
 
@@ -21,27 +22,34 @@ _GRAVITY = 9.80665
 def notes(view: View) -> dict[str, str]:
     """Notes (HTML) by the places of the form."""
     state, course = view.state, view.course
-    preset, shape, made = PRESETS[state.preset], state.chosen("shape"), course.scene.medium
-    sources = ""
-    for name, source in preset.sources.items():
-        value = marked(with_symbol(name, preset.values[name]))
-        sources += f"<dt>{value}</dt><dd>{escape(source)}</dd>"
+    shape, made = state.chosen("shape"), course.scene.medium
     head = "Altered. " * bool(altered(state)) + "Where the preset's numbers come from, "
     head += "and which of them are illustrative:"
     energy = written(state.mass * state.speed**2 / 2, "energy")
     height = written(state.speed**2 / (2 * _GRAVITY), "length")
     slope = getattr(course.scene.profile, "slope", None)
     angle = f"Half-angle {digits(degrees(atan(1 / slope)))}°" if slope else ""
+    of_tip = state.tip_note if state.shape == "sampled" else angle
     eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
     idle = "" if course.dashpots else "; no effect here, where pressing is quasi-static"
     return {
         "drive": f"Energy {energy}; equivalent drop height {height}" * (state.drive == "impact"),
-        "shape": f"<figcaption>{marked(shape.height)}<br>{marked(shape.reduced)}</figcaption>"
-        + marked(state.tip_note if state.shape == "sampled" else angle),
+        "shape": Markup("<figcaption>{}<br>{}</figcaption>{}").format(
+            marked(shape.height), marked(shape.reduced), marked(of_tip)
+        ),
         "medium": marked(law_of_hardness(course)),
         "more": linked(f"η = {eta}, τ = 4η/E* = {tau} (1){idle}") if made.eta > 0 else "",
-        "sources": f"<p>{head}</p><dl>{sources}</dl>",
+        "sources": Markup("<p>{}</p><dl>{}</dl>").format(head, _sources(state.preset)),
     }
+
+
+@cache
+def _sources(preset: str) -> Markup:
+    """Numbers of a preset, and where each comes from."""
+    known = PRESETS[preset]
+    row = Markup("<dt>{}</dt><dd>{}</dd>")
+    symbols = (marked(with_symbol(name, known.values[name])) for name in known.sources)
+    return Markup("").join(map(row.format, symbols, known.sources.values()))
 
 
 def law_of_hardness(course: Course) -> str:

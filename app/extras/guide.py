@@ -1,13 +1,13 @@
 """Guided scenes, steps with a state and a text; and help: keys, and what the page is."""
 
 import json
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlencode
 
 import panel as pn
+from markupsafe import Markup
 
 from .. import link
 from ..courses import Course
@@ -16,12 +16,12 @@ from ..plot import View
 from ..readouts import readings, text
 from ..shared.widgets import button, field, tools
 from ..state import State
-from ..ui import WIDE, html, linked, show
+from ..ui import WIDE, html, linked, own_html, replaced, show
 
 #: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
 TOURS = json.loads(Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))
 #: Keys, and what the page is.
-_HELP = Path(__file__).with_suffix(".html").read_text(encoding="utf-8")
+_HELP = own_html(Path(__file__).with_suffix(".html"))
 
 _INTRO = "Guided scenes, each of a few steps. Next starts the scene; Undo undoes a step."
 _LEFT = "The scene has been changed since this step. Back and Next continue."
@@ -51,9 +51,9 @@ def step_text(step: dict[str, Any], course: Course) -> str:
     return step["says"].format_map(numbers)
 
 
-def _marked(text: str) -> str:
+def _marked(text: str) -> Markup:
     """HTML of a text with links, powers as W^(2/3), and *words*; no letter follows the asterisk of E*."""
-    return re.sub(r"\*(\w+)\*", r"<i>\1</i>", re.sub(r"\^\((.*?)\)", r"<sup>\1</sup>", linked(text)))
+    return replaced(r"\*(\w+)\*", r"<i>\1</i>", replaced(r"\^\((.*?)\)", r"<sup>\1</sup>", linked(text)))
 
 
 class Guide:
@@ -89,7 +89,8 @@ class Guide:
         show(self.next, disabled=self.at == count - 1)
         if self.at >= 0 and not self._going:
             words = self._text if course.scene == self._scene else _LEFT
-            show(self.words, object=f'<p role="status">{self.at + 1} of {count}. {words}</p>')
+            said = Markup('<p role="status">{} of {}. {}</p>').format(self.at + 1, count, words)
+            show(self.words, object=said)
 
 
 EXTRA = Extra(

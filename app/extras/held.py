@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import panel as pn
+from markupsafe import Markup
 
 from mdr_core.show import figures
 from mdr_core.show.figures import NOTHING, Axis, both, line
@@ -206,8 +207,8 @@ OVERLAYS = (
 # The table and the button.
 
 
-def _dash(k: int) -> str:
-    return f'<span class="{ROLES[k]}"><i class="lines {DASHES[k]}"></i></span>'
+def _dash(k: int) -> Markup:
+    return Markup('<span class="{}"><i class="lines {}"></i></span>').format(ROLES[k], DASHES[k])
 
 
 class Table:
@@ -225,15 +226,18 @@ class Table:
         held = scenes(view)
         for k, row in enumerate(self._rows):
             show(row, visible=k < len(held))
-            show(row[0], object=f"{_dash(k)}{marked(held[k].name)}" if k < len(held) else "")
+            show(row[0], object=_dash(k) + marked(held[k].name) if k < len(held) else "")
         columns = [numbers(course) for course in (view.course, *(each.course for each in held))]
-        rows = [["at d<sub>max</sub>", "now", *map(_dash, range(len(held)))]]
+        rows = [[Markup("at d<sub>max</sub>"), "now", *map(_dash, range(len(held)))]]
         found = [[name, *(each.get(name, "–") for each in columns)] for name in columns[0]]
         # Numbers that differ; what is the same need not be read twice.
         rows += [[symbol(name), *texts] for name, *texts in found if len({*texts}) > 1]
         same = "All numbers are the same: change the shape, the medium or a number." * (len(rows) == 1)
-        cells = "".join(f"<tr><th>{head}</th><td>{'</td><td>'.join(row)}</td></tr>" for head, *row in rows)
-        show(self._numbers, object=same or f"<table>{cells}</table>")
+        cells = (
+            Markup("<tr><th>{}</th><td>{}</td></tr>").format(head, Markup("</td><td>").join(row))
+            for head, *row in rows
+        )
+        show(self._numbers, object=same or Markup("<table>{}</table>").format(Markup("").join(cells)))
 
 
 def compare(page: Any, view: View) -> Part:
@@ -260,8 +264,12 @@ class Holding(Searching):
         self.find_exact([each.course for each in scenes(view)])
 
 
+def _paragraph(held: Held) -> Markup:
+    return Markup("<p>{}.</p>").format(marked(held.name))
+
+
 def told(view: View) -> list[tuple[str, str]]:
-    return [("Held scenes", "".join(f"<p>{marked(each.name)}.</p>" for each in scenes(view)))]
+    return [("Held scenes", Markup("").join(map(_paragraph, scenes(view))))]
 
 
 EXTRA = Extra(

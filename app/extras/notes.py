@@ -4,6 +4,8 @@ from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
+from markupsafe import Markup
+
 from mdr_core.show.units import written
 
 from .. import readouts
@@ -49,25 +51,29 @@ def _own_words(limit: Any, state: State) -> str:
     return _OF_INCOMPRESSIBLE.get(limit.what, "") if state.elasticity == "modulus" else ""
 
 
-def below(view: View) -> str:
+_SENTENCE = Markup('<span class="{}">{}</span>')
+
+
+def below(view: View) -> Markup:
     """Exceeded assumptions as HTML; the others fold, with what the numbers and the plots are."""
-    exceeded, others = "", ""
+    exceeded, others = Markup(""), Markup("")
     for level, sentence in limits(view.course, view.state):
-        html = f'<span class="{level}">{linked(sentence)}</span>'
+        html = _SENTENCE.format(level, linked(sentence))
         exceeded += html * (level == "beyond")
         others += html * (level != "beyond")
     others += readouts.explained(readouts.line(view.course))
     laws = [(plot.title, linked(plot.formula_of(view.course))) for plot in visible(view)]
-    plots = (f"<dt>{title}</dt><dd><em>{law}</em></dd>" for title, law in laws)
-    return f"{exceeded}<details><summary>{_HEAD}</summary>{others}<dl>{''.join(plots)}</dl></details>"
+    plots = Markup("").join(Markup("<dt>{}</dt><dd><em>{}</em></dd>").format(*each) for each in laws)
+    folded = Markup("<details><summary>{}</summary>{}<dl>{}</dl></details>").format(_HEAD, others, plots)
+    return exceeded + folded
 
 
 def told(view: View) -> list[tuple[str, str]]:
     """All of them as HTML, without links to pages of the server."""
     sentences = limits(view.course, view.state)
-    html = (f'<span class="{level}">{marked(sentence)}</span>' for level, sentence in sentences)
+    html = (_SENTENCE.format(level, marked(sentence)) for level, sentence in sentences)
     numbers = readouts.explained(readouts.line(view.course), marked)
-    return [("Assumptions and notes", "".join(html)), ("What the numbers are", numbers)]
+    return [("Assumptions and notes", Markup("").join(html)), ("What the numbers are", numbers)]
 
 
 EXTRA = Extra("notes", order=30, notes=lambda view: {"below": partial(below, view)}, told=told)

@@ -1,11 +1,9 @@
 """A scene as a file: one HTML that plays in a browser without a server and without a network."""
 
 import json
-import re
 from base64 import b64encode
 from collections.abc import Iterator
 from datetime import UTC, datetime
-from html import escape
 from math import isclose
 from pathlib import Path
 from zlib import compress
@@ -16,6 +14,7 @@ from bokeh.embed import file_html
 from bokeh.events import DocumentReady
 from bokeh.models import CustomJS
 from bokeh.resources import Resources
+from markupsafe import Markup
 
 import mdr_core as mdr
 from mdr_core.show.units import written
@@ -30,7 +29,7 @@ from ..quantities import CHOICES, QUANTITIES
 from ..shared.dragging import DRAGGED, TOUCH, let_drag, path
 from ..shared.summary import summary
 from ..state import MEDIUM_CHOICES, PRESETS, State, altered, as_shown, used, yield_constant
-from ..ui import CSS, HERE, JS, Messages, marked, symbol
+from ..ui import CSS, HERE, JS, Messages, as_html, marked, symbol
 
 _HERE = Path(__file__)
 _TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")
@@ -64,21 +63,20 @@ def scene_file(view: View) -> str:
         picture.show(picture.columns(view, course.now), view)
         document.add_root(picture.figure)
     readout = readouts.values(numbers, course.now)
-    _connect(document, view, pictures, Messages(words=readout))
+    _connect(document, view, pictures, Messages(words=as_html(readout)))
     words = {
         "style": CSS,
         "private": JS["private"],
         # Of Bokeh alone what draws; file_html adds a script of Panel's server.
         "bokeh": Resources(mode="inline", components=["bokeh"]).js_raw[0],
         "dark": str(state.dark).lower(),
-        "heading": escape(title),
+        "heading": title,
         "scene": marked(summary(state)),
-        # Links of explanations lead to pages of the server.
-        "heads": re.sub(r"</?a\b[^>]*>", "", readouts.heads(numbers)),
+        "heads": readouts.heads(numbers),
         "readout": readout,
         "plots": [_card(view, picture.plot) for picture in pictures],
         "folded": list(_folded(view)),
-        "link": escape(address(state)),
+        "link": address(state),
         "made": f"{datetime.now(UTC):%d %B %Y}, mdr_core {mdr.__version__}. Equations: {_PAPER}.",
     }
     return file_html(document, "inline", title, template=_TEMPLATE, template_variables=words)
@@ -118,15 +116,16 @@ def _connect(document: Document, view: View, pictures: list[Picture], messages: 
 def _folded(view: View) -> Iterator[tuple[str, str]]:
     """Titles and texts (HTML) below the plots."""
     yield from (each for extra in EXTRAS.values() for each in extra.told(view) if each[1])
-    rows = ("".join(f"<td>{cell}</td>" for cell in row) for row in _inputs(view.state))
-    yield "Inputs and their sources", f"<table>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
+    row = Markup("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>")
+    rows = Markup("").join(row.format(*cells) for cells in _inputs(view.state))
+    yield "Inputs and their sources", Markup("<table>{}</table>").format(rows)
 
 
 def _inputs(state: State) -> Iterator[tuple[str, str, str, str]]:
-    """Symbol, name, value and source of all inputs, as HTML."""
+    """Symbol, name, value and source of all inputs, as texts or HTML."""
     preset, shape = PRESETS[state.preset], state.chosen("shape")
     note = state.tip_note if state.shape == "sampled" else f"{shape.height},  {shape.reduced}"
-    yield "", "indenter", escape(shape.label), marked(note)
+    yield "", "indenter", shape.label, marked(note)
     for choice in (*MEDIUM_CHOICES, "drive"):
         yield "", CHOICES[choice].label.lower(), marked(state.chosen(choice).label), ""
     given = used(state)
@@ -135,7 +134,7 @@ def _inputs(state: State) -> Iterator[tuple[str, str, str, str]]:
         source = "set on the page" if name in given else "from the numbers above"
         if name in preset.sources and isclose(value, preset.values[name]):
             source = preset.sources[name]
-        yield symbol(known.symbol), known.label, written(value, known.kind, 5), escape(source)
+        yield symbol(known.symbol), known.label, written(value, known.kind, 5), source
 
 
 EXTRA = Extra("scene_file", order=19, files=(("Scene as a file", "scene.html", scene_file),))

@@ -13,6 +13,7 @@ from ..plot import View
 from ..readouts import readings
 from ..shared.summary import summary
 from ..shared.widgets import field, tools
+from ..tables import as_csv
 from ..ui import JS, WIDE, html, show
 
 
@@ -45,8 +46,7 @@ def _table(view: View, title: str, columns: dict[str, Any]) -> str:
     """Columns in SI, with the scene in a header."""
     head = f"mdr_core {mdr.__version__}: {title}\n{summary(view.state)}\n{view.course.scene.to_python()}"
     rows = zip(*(np.asarray(column, float).tolist() for column in columns.values()), strict=True)
-    lines = [*(f"# {line}".rstrip() for line in head.splitlines()), ",".join(columns)]
-    return "\n".join([*lines, *(",".join(map(repr, row)) for row in rows)]) + "\n"
+    return as_csv(head.splitlines(), [columns, *rows])
 
 
 class Share:

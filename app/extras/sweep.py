@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from markupsafe import Markup
 
 import mdr_core as mdr
 from mdr_core.show.figures import NOTHING, line, mark
@@ -214,7 +215,7 @@ def found(course, sweep: Sweep):
         rows = {name: (numbers, np.where(row > 0, row, np.nan)) for name, (_, row) in rows.items()}
     visible = inside and (present > 0 or not y.log)
     rows["present value"] = (np.array([sweep.present]), np.array([present])) if visible else NOTHING
-    return Found(rows, [x, y], " ".join(_notes(sweep, numbers, values, classes, inside)))
+    return Found(rows, [x, y], Markup(" ").join(_notes(sweep, numbers, values, classes, inside)))
 
 
 def _axes(sweep, values, present):
@@ -242,7 +243,7 @@ def _power(sweep):
     if not (ends > 0).all():
         return ""
     slope = round(float(np.log(ends[1] / ends[0]) / np.log(pair[1] / pair[0])), 6)
-    return f"{marked(known(sweep.swept).symbol)}<sup>{digits(slope, 3)}</sup>"
+    return Markup("{}<sup>{}</sup>").format(marked(known(sweep.swept).symbol), digits(slope, 3))
 
 
 def _told(row, sweep):
@@ -250,19 +251,21 @@ def _told(row, sweep):
     constant = QUANTITIES[CLASSES[row][1]]
     value = in_full(sweep.state[constant.name], constant.kind)
     told = [marked(f"{row.split()[0]} {constant.symbol} = {value}"), sweep.low > 0 and _power(sweep)]
-    return ", ".join(part for part in told if part)
+    return Markup(", ").join(part for part in told if part)
 
 
 def _notes(sweep, numbers, values, classes, inside):
     quantity = known(sweep.swept)
     if not inside:
         shown = in_full(sweep.present, quantity.kind)
-        yield f"The present value, {marked(f'{quantity.symbol} = {shown}')}, is outside the range."
+        value = marked(f"{quantity.symbol} = {shown}")
+        yield Markup("The present value, {}, is outside the range.").format(value)
     elif sweep.low > 0 and (power := _power(sweep)):
-        yield f"At the present value {marked(RESULTS[sweep.against].symbol)} ∝ {power}."
+        result = marked(RESULTS[sweep.against].symbol)
+        yield Markup("At the present value {} ∝ {}.").format(result, power)
     if classes:
         told = [_told(row, each) for row, each in classes.items()]
-        yield f"Through the same point: {'; '.join(told)}."
+        yield Markup("Through the same point: {}.").format(Markup("; ").join(told))
     elif inside and not sweep.yields:
         yield "Nothing yields at the present value."
     refused = numbers[np.isnan(values)]

@@ -1,8 +1,6 @@
 """A fit as a file: JSON with the samples, and CSV of its numbers, in SI."""
 
-import csv
 import json
-from io import StringIO
 from typing import Any
 
 import numpy as np
@@ -11,6 +9,7 @@ import mdr_core as mdr
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.parameters import PARAMETERS
 
+from .. import tables
 from .setting import CORRECTIONS, Setting
 from .words import in_page_words
 
@@ -90,26 +89,23 @@ def _finite(value: Any) -> Any:
 
 def as_csv(setting: Setting, fit: IndentationFit, told: dict[str, Any]) -> str:
     """The numbers of the fit as a table; a number without a standard error was held or measured."""
-    found, text = contents(setting, fit, told), StringIO()
+    found = contents(setting, fit, told)
     samples = "samples {first} to {last} of {of}, {fitted} fitted".format(**found["samples"])
     lines = [f"{found['version']}: fit to {found['file']}, {samples}", *found["remarks"], *found["limits"]]
-    text.writelines(f"# {line}\n" for line in lines)
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["name", "quantity", "symbol", "value", "standard error", "unit"])
+    rows = [["name", "quantity", "symbol", "value", "standard error", "unit"]]
     for name, each in found["numbers"].items():
-        shown = [each["value"], each.get("standard_error")]
-        cells = ["" if value is None else repr(float(value)) for value in shown]
-        writer.writerow([name, each["long_name"], each["symbol"], *cells, each["units"]])
-    return text.getvalue()
+        shown = map(_float, (each["value"], each.get("standard_error")))
+        rows.append([name, each["long_name"], each["symbol"], *shown, each["units"]])
+    return tables.as_csv(lines, rows)
+
+
+def _float(value: Any) -> float | None:
+    return None if value is None else float(value)
 
 
 def map_csv(file: str, rows: list[tuple[Any, ...]]) -> str:
     """E* and its error of each curve of a map as a table."""
-    text = StringIO()
-    text.write(f"# mdr_core {mdr.__version__}: curves of {file}\n")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["curve", "E* (Pa)", "standard error (Pa)", "source, or why there is no number"])
+    written = [["curve", "E* (Pa)", "standard error (Pa)", "source, or why there is no number"]]
     for number, value, error, reason in rows:
-        cells = ["" if each is None else repr(float(each)) for each in (value, error)]
-        writer.writerow([number + 1, *cells, in_page_words(reason)])
-    return text.getvalue()
+        written.append([number + 1, _float(value), _float(error), in_page_words(reason)])
+    return tables.as_csv([f"mdr_core {mdr.__version__}: curves of {file}"], written)

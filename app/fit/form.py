@@ -4,17 +4,18 @@ from collections.abc import Callable
 from typing import Any
 
 import panel as pn
+from markupsafe import Markup
 
 from mdr_core.reading import SIZES
 from mdr_core.show.units import UNITS, fitting
 
-from ..ui import WIDE, html, indexed, show
+from ..tip import MAX_BYTES as TIP_BYTES
+from ..ui import WIDE, html, show
 from ..units import entry, read
 from . import words
+from .dropper import MAX_BYTES, Dropper
 from .setting import CORRECTIONS, IN_TIME, MEDIA, NUMBERS, TIPS, Number, Setting, parameter
 
-#: Most bytes of a file, and of a part in which it comes: with a third more as text below 8 MB of a message.
-MAX_BYTES, CHUNK = 50_000_000, 2_000_000
 #: The option for no column, and for one that is still to be chosen.
 _NONE, _ASK = "none", "choose"
 #: Units of numbers that have no value yet.
@@ -29,15 +30,6 @@ def field(kind: Any, *classes: str, **options: Any) -> Any:
     return kind(css_classes=["choice", *classes], **WIDE | options)
 
 
-class Dropper(pn.widgets.FileDropper):
-    """A field for a file, dropped or chosen, that comes in parts; one that is too large is left out."""
-
-    def _process_event(self, event: Any) -> None:
-        so_far = sum(map(len, self._file_buffer.get(event.data.get("name"), ())))
-        if so_far + len(event.data.get("data") or b"") <= MAX_BYTES:
-            super()._process_event(event)
-
-
 class Typed:
     """A number that is typed with its unit; a refusal stands below it."""
 
@@ -47,7 +39,7 @@ class Typed:
         self._text = ""
         self.field = field(pn.widgets.TextInput, "typed", label="", placeholder="type a value")
         self.said = html("", "note")
-        self.label = html(f"<label><i>{indexed(known.symbol)}</i> {known.label}</label>", "name")
+        self.label = html(Markup("<label>{}</label>").format(words.name_html(known)), "name")
         self.row = pn.Row(self.label, self.field, css_classes=["fields"], **WIDE)
         self.view = pn.Column(self.row, self.said, css_classes=["typed-number"], **WIDE)
         self.field.param.watch(self._typed, "value")
@@ -78,7 +70,7 @@ class Typed:
 
 def heading(text: str) -> Any:
     """A heading of a part of the column."""
-    return html(f"<h2>{text}</h2>", "title")
+    return html(Markup("<h2>{}</h2>").format(text), "title")
 
 
 class Form:
@@ -94,7 +86,7 @@ class Form:
         self._moduli()
         parts = [
             heading("1 · Curve"), self.drop, self.samples, self.about, self.refused, self.reader,
-            heading("2 · Tip"), self.tip, self.tip_file, self.numbers["radius"].view,
+            heading("2 · Tip"), self.tip, self.tip_file, self.of_tip, self.numbers["radius"].view,
             self.numbers["half_angle"].view,
             heading("3 · Sample"), self.medium, self.parameters, self.more,
         ]  # fmt: skip
@@ -103,23 +95,14 @@ class Form:
     # The parts.
 
     def _file(self) -> None:
-        limit = f"{MAX_BYTES / 1e6:g}MB"
-        self.drop = Dropper(
-            label=f"Drop a file of depth and force here (up to {MAX_BYTES / 1e6:g} MB)",
-            max_file_size=limit,
-            chunk_size=CHUNK, multiple=False, layout="compact", css_classes=["drop"], **WIDE,
-        )  # fmt: skip
-        self.drop.param.watch(self._dropped, "value")
+        label = f"Drop a file of depth and force here (up to {MAX_BYTES / 1e6:g} MB)"
+        self.drop = Dropper(self._page.take_file, self._page.worker.start, MAX_BYTES, label=label)
         self.samples = pn.Row(css_classes=["tools"], **WIDE)
         for label, name in (("Sample: fused silica", "silica"), ("Sample: gel by AFM", "gel")):
             button = pn.widgets.Button(label=label, css_classes=["button"], margin=0)
             button.on_click(lambda event, name=name: self._page.take_sample(name))
             self.samples.append(button)
         self.about, self.refused = html("", "note"), html("", "note", "refusal")
-
-    def _dropped(self, event: Any) -> None:
-        for name, data in list(event.new.items())[-1:]:
-            self._page.take_file(name, data.encode() if isinstance(data, str) else data)
 
     def _reader(self) -> None:
         """What a file lacks: spring constant, sensitivity, columns and their units."""
@@ -152,15 +135,9 @@ class Form:
         options = {"choose the tip": ""} | {tip.label: name for name, tip in TIPS.items()}
         self.tip = field(pn.widgets.Select, label="Tip", options=options)
         self.tip.param.watch(lambda event: self._change(lambda s: s.replace(tip=event.new)), "value")
-        self.tip_file = Dropper(
-            label="Drop the file of the tip, radii and heights, here", max_file_size="5MB",
-            chunk_size=CHUNK, multiple=False, layout="compact", visible=False, css_classes=["drop"], **WIDE,
-        )  # fmt: skip
-        self.tip_file.param.watch(self._tip_dropped, "value")
-
-    def _tip_dropped(self, event: Any) -> None:
-        for name, data in list(event.new.items())[-1:]:
-            self._page.take_tip(name, data.encode() if isinstance(data, str) else data)
+        label = "Drop the file of the tip, radii and heights, here"
+        self.tip_file = Dropper(self._page.take_tip, lambda: None, TIP_BYTES, label=label, visible=False)
+        self.of_tip = html("", "note")
 
     def _medium(self) -> None:
         options = {"choose the kind of sample": ""} | {kind.label: name for name, kind in MEDIA.items()}
@@ -172,7 +149,6 @@ class Form:
         self._rows: dict[str, Any] = {}
         for name in (*names, "tilt", *CORRECTIONS):
             typed = Typed(name, parameter(name), lambda value, name=name: self._page.hold(name, value))
-            typed.label.object = words.name_html(name)
             self.held[name] = typed
             free = pn.widgets.Checkbox(label="free", css_classes=["free"], margin=0, width=48)
             free.param.watch(lambda event, name=name: self._page.free(name, event.new), "value")
@@ -234,6 +210,7 @@ class Form:
         show(self.refused, object=page.refused)
         show(self.tip, value=setting.tip)
         show(self.tip_file, visible=setting.tip == "measured")
+        show(self.of_tip, object=page.of_tip, visible=setting.tip == "measured")
         show(self.medium, value=setting.medium)
         asked = TIPS[setting.tip].numbers if setting.tip else ()
         for name, typed in self.numbers.items():

@@ -4,9 +4,10 @@ Arguments and answers are numbers, texts, arrays and objects of `mdr_core`, whic
 """
 
 import logging
+import re
 import warnings
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
+from mdr_core.files.text import decoded
 from mdr_core.fit.classes import HardnessVerdict
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.noise import jitter
@@ -23,8 +25,12 @@ from mdr_core.measured_curve import MeasuredCurve, MeasuredCurves
 from mdr_core.reading import UnknownColumns
 from mdr_core.show.units import written
 
+from ..tip import read_tip
+
 #: Most samples that are fitted and drawn: of more, one in two, three … is taken.
 MOST = 2000
+#: Most characters of the name of a column, and of a remark, which may quote the file, that are shown.
+_HEAD, _REMARK = 80, 500
 
 
 @dataclass(frozen=True)
@@ -85,20 +91,46 @@ def opened(path: str, given: dict[str, Any]) -> MeasuredCurves:
     return _curves(path, tuple(given.items()))
 
 
+@dataclass(frozen=True)
+class Heads:
+    """What the page shows of a table: names of its columns, and their first three numbers."""
+
+    heads: dict[int, str]
+    values: dict[int, list[float]]
+
+    @classmethod
+    def of(cls, table: Any) -> "Heads":
+        heads = {column: head[:_HEAD] for column, head in table.heads.items()}
+        return cls(heads, {column: list(numbers[:3]) for column, numbers in table.values.items()})
+
+
 def read(path: str, given: dict[str, Any], number: int) -> Any:
-    """One curve of a file and how many it has, or the table whose columns are to be told."""
+    """One curve of a file and how many it has, or the heads of the table whose columns are to be told."""
     try:
         curves = opened(path, given)
         if number >= len(curves):
             raise ValueError(f"the file has {len(curves)} curves, and no curve {number + 1}")
-        return curves[number], len(curves)
+        curve = curves[number]
+        heads = curve.table and Heads.of(curve.table)
+        remarks = tuple(each[:_REMARK] for each in curve.remarks)
+        return replace(curve, table=heads, remarks=remarks), len(curves)
     except UnknownColumns as error:
-        return error.table, 0
+        return Heads.of(error.table), 0
     except (ValueError, ImportError, MemoryError):
         raise
     except Exception as error:
         # What packages raise about a damaged file.
         raise ValueError(f"{Path(path).name} cannot be read: {type(error).__name__}, {error}") from error
+
+
+def tip(path: str, name: str) -> tuple[tuple[Any, Any], str]:
+    """Radii and heights (m) of a tip in a file, and a note."""
+    return read_tip(decoded(Path(path).read_bytes()), name)
+
+
+def without_folders(text: str) -> str:
+    """A message without the folders of the server, in which the paths of files begin."""
+    return re.sub(r"(?<![\w.)])(?:[A-Za-z]:)?[/\\](?:[^/\\\s'\":]+[/\\]+)+", "", text)
 
 
 @dataclass(frozen=True)
@@ -191,7 +223,7 @@ def _refuse_range(arguments: dict[str, Any], taken: dict[str, Any]) -> None:
 
 
 #: By their names, as they are asked.
-JOBS = {"read": read, "fit": fit, "fit_all": fit_all}
+JOBS = {"read": read, "fit": fit, "fit_all": fit_all, "tip": tip}
 
 
 def quiet() -> None:

@@ -1,9 +1,7 @@
 """The page of one person for a measurement: a file in, the number to quote out."""
 
-import shutil
 from collections.abc import Callable
 from functools import partial
-from html import escape
 from io import StringIO
 from pathlib import Path
 from typing import Any
@@ -12,12 +10,12 @@ import numpy as np
 import panel as pn
 from bokeh.document import Document
 from bokeh.events import ConnectionLost, DocumentReady
-from bokeh.models import CustomJS
+from bokeh.models import ColumnDataSource, CustomJS
+from markupsafe import Markup
 
-from mdr_core.files.text import decoded
 from mdr_core.fit.indentation import IndentationFit
 
-from ..tip import in_line, read_tip
+from ..tip import in_line
 from ..ui import JS, WIDE, html, landmarks
 from . import words
 from .files import as_csv, as_json
@@ -26,8 +24,9 @@ from .measurement import Told, first_and_last, modulus_of_sample
 from .results import Results
 from .samples import EXAMPLES, example_named
 from .setting import MEDIA, Setting
-from .source import ENDED, Source
-from .worker import Here, Worker
+from .source import Source
+from .tips import Tips
+from .worker import Here, Worker, in_session, waiting
 
 #: Roles and names of the parts of the page, by their classes.
 _LANDMARKS = {
@@ -35,6 +34,9 @@ _LANDMARKS = {
     "asked": ("complementary", "Curve, tip and sample"),
     "found": ("main", "Result"),
 }
+#: What has the plots in it.
+_BOTH = {"sizing_mode": "stretch_both", "margin": 0}
+_OVER = "addEventListener('dragenter', () => { over.tags = ['file'] }, { once: true })"
 _NAMES = Path(__file__).with_name("names.js").read_text(encoding="utf-8")
 
 
@@ -52,41 +54,58 @@ class Measurement(Source):
         #: Of each curve of a map its number, E*, error and reason, once all are asked for.
         self.rows: list[tuple[Any, ...]] = []
         self._job = 0
+        # What is said below the file of the tip.
+        self.of_tip = ""
+        self._tips = Tips(self.document)
         self.form, self.results = Form(self), Results(self)
         self._address = pn.widgets.TextInput(visible=False)
         self._address.jscallback(value="history.replaceState(null, '', source.value)")
         header = (
-            html("<h1>Measurement</h1>", "name", sizing_mode="stretch_width"),
-            html('<a href="?">Indentation explorer</a>', "links", sizing_mode=None),
+            html(Markup("<h1>Measurement</h1>"), "name", sizing_mode="stretch_width"),
+            html(Markup('<a href="?">Indentation explorer</a>'), "links", sizing_mode=None),
         )
-        columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **WIDE)
+        columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **_BOTH)
         self.view = pn.Column(
             pn.Row(*header, self._address, css_classes=["fit-header"], **WIDE), columns,
-            css_classes=["fit-page"], **WIDE,
+            css_classes=["fit-page"], **_BOTH,
         )  # fmt: skip
         # The address restores what was told when the session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
         landmarks(self.document, _LANDMARKS, "found", "Skip to the result")
         self.document.js_on_event(DocumentReady, CustomJS(code=_NAMES))
+        # The process starts while a file is still dragged over the page.
+        over = ColumnDataSource()
+        over.on_change("tags", lambda attr, old, new: self.worker.start())
+        self.document.add_root(over)
+        self.document.js_on_event(DocumentReady, CustomJS(args={"over": over}, code=_OVER))
         if self.document.session_context is not None:
             self.document.on_session_destroyed(lambda context: self.close())
         self._begin()
 
     def _begin(self) -> None:
-        """Show what a link asks for: an example at once, another file by its name."""
-        self.worker.start()
+        """Show what a link asks for: an example once the page is there, another file by its name."""
         asked = self.setting
-        if name := example_named(asked.file):
-            self._take(EXAMPLES[name].name, EXAMPLES[name].read(), asked, name)
+        name = example_named(asked.file)
+        if name and self.document.session_context is None:
+            self._open_example(name)
             return
-        if asked.file:
-            self.about = f"This link was made with <b>{escape(asked.file)}</b>: drop that file here."
+        if name:
+            # A process is for a page that has connected, which a request alone has not.
+            self.document.on_event(DocumentReady, lambda event: self._path or self._open_example(name))
+            self.busy = f"Reading {asked.file}"
+        elif asked.file:
+            about = Markup("This link was made with <b>{}</b>: drop that file here.")
+            self.about = about.format(asked.file)
         self.show()
+
+    def _open_example(self, name: str) -> None:
+        """Read an example with the setting of the link."""
+        self._take(EXAMPLES[name].name, EXAMPLES[name].read(), self.setting, name)
 
     def close(self) -> None:
         """End the process and remove the file."""
         self.worker.stop()
-        shutil.rmtree(self._folder, ignore_errors=True)
+        self._files.clear()
 
     # What is set.
 
@@ -115,15 +134,16 @@ class Measurement(Source):
 
     def take_tip(self, name: str, data: bytes) -> None:
         """Take a measured tip from a file."""
-        try:
-            (r, z), _ = read_tip(decoded(data), name)
-        except ValueError as error:
-            self._refuse(str(error))
-            self.show()
-            return
-        self.refused = ""
-        columns = tuple(map(tuple, (r, z)))
-        self.change(lambda s: s.replace(tip="measured", tip_samples=columns, tip_name=in_line(name)))
+        self._tips.read(in_line(name), data, partial(self._have_tip, in_line(name)))
+
+    def _have_tip(self, name: str, kind: str, answer: Any) -> None:
+        self.of_tip = words.refused(answer.rstrip(".") + ".") if kind == "refused" else answer
+        if kind == "done":
+            columns, self.of_tip = answer
+            samples = tuple(map(tuple, columns))
+            self.change(lambda s: s.replace(tip="measured", tip_samples=samples, tip_name=name))
+        else:
+            self.form.show(self.setting)
 
     def hold(self, name: str, value: float) -> None:
         """Hold a parameter at a value, or correct the depth by one."""
@@ -221,8 +241,7 @@ class Measurement(Source):
             self.fit, self.told = answer[0], Told(**answer[1])
             self._find_modulus()
         else:
-            text = answer if kind == "refused" else ENDED
-            self.not_fitted = words.refused(text.rstrip(".") + ".")
+            self.not_fitted = words.refused(answer.rstrip(".") + ".")
         self.show()
 
     def _find_modulus(self) -> None:
@@ -258,7 +277,7 @@ class Measurement(Source):
             return
         self.busy = ""
         if kind != "done":
-            self.not_fitted = words.refused((answer if kind == "refused" else ENDED) + ".")
+            self.not_fitted = words.refused(answer + ".")
         self.show()
 
     def cancel(self) -> None:
@@ -273,16 +292,17 @@ class Measurement(Source):
     def _tell(self, heard: Callable[[str, Any], None]) -> Callable[[str, Any], None]:
         """What a worker calls in its thread: `heard` is called where the page may be changed."""
         self._job += 1
-        job = self._job
+        job, doing = self._job, self.busy
 
         def told(kind: str, answer: Any) -> None:
             # An answer that was on its way when something else was asked is nobody's.
-            if job == self._job:
+            if job == self._job and kind == "waiting":
+                self.busy = doing if answer is None else waiting(answer)
+                self.results.show_busy()
+            elif job == self._job:
                 heard(kind, answer)
 
-        if self.document.session_context is None:
-            return told
-        return lambda kind, answer: self.document.add_next_tick_callback(partial(told, kind, answer))
+        return in_session(self.document, told)
 
     # What is shown and saved.
 

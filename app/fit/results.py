@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import panel as pn
+from markupsafe import Markup
 
 from mdr_core.show.units import written
 
@@ -23,17 +24,28 @@ _BOTH = {"sizing_mode": "stretch_both", "margin": 0}
 #: Most curves of a file that are listed.
 _LISTED = 300
 _PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
-_WELCOME = (
-    '<p class="big none">A curve in, E* out</p><p class="of">Drop a file of depth and force, or open '
-    "a sample; choose the tip and the kind of sample. The fit runs at once.</p>"
+_HEAD = Markup('<p class="big none">{}</p><p class="of">{}</p>')
+_WELCOME = _HEAD.format(
+    "A curve in, E* out",
+    "Drop a file of depth and force, or open a sample; choose the tip and the kind of sample. "
+    "The fit runs at once.",
 )
+_OF_POISSON = Markup('<p class="of">Give ν on the left for Young’s modulus E of the sample.</p>')
+_WAITING = Markup('<p class="waiting" role="status">{} …</p>')
+_CURVES = Markup(
+    "<table><tr><th>curve</th><td>E*</td><td class='reason'>source, or why there is no number</td></tr>{}"
+    "</table>{}"
+)
+_CURVE = Markup("<tr><th>{}</th><td>{}</td><td class='reason'>{}</td></tr>")
 
 
-def _folded(items: str) -> str:
+def _folded(items: list[Markup]) -> Markup:
     """Remarks as a list that is folded, with their number (HTML)."""
-    count = items.count("<li>")
-    name = f"{count} remark{'s' * (count > 1)} on this fit"
-    return f"<details><summary>{name}</summary><ul>{items}</ul></details>" if count else ""
+    if not items:
+        return Markup("")
+    name = f"{len(items)} remark{'s' * (len(items) > 1)} on this fit"
+    listed = Markup("").join(Markup("<li>{}</li>").format(each) for each in items)
+    return Markup("<details><summary>{}</summary><ul>{}</ul></details>").format(name, listed)
 
 
 class Results:
@@ -51,7 +63,7 @@ class Results:
         self.curve = pn.Column(
             pn.pane.Bokeh(self.plots.force, **_BOTH),
             pn.pane.Bokeh(self.plots.residual, **_BOTH),
-            css_classes=["plots-of-fit"], visible=False, **WIDE,
+            css_classes=["plots-of-fit"], visible=False, **_BOTH,
         )  # fmt: skip
         self.why, self.remarks = html("", "note", "why"), html("", "note", "remarks")
         left = pn.Column(self.headline, self.not_fitted, self.tools, **WIDE)
@@ -60,7 +72,7 @@ class Results:
         self.view = pn.Column(
             pn.Row(left, right, css_classes=["top-of-found"], **WIDE),
             self.why, self.remarks, self.several, self.range, self.curve,
-            css_classes=["found"], **WIDE,
+            css_classes=["found"], **_BOTH,
         )  # fmt: skip
 
     # The parts.
@@ -166,32 +178,32 @@ class Results:
         if fit is not None:
             text = words.headline(fit, page.told, page.E)
             if page.setting.poisson is None and fit.quoted.value is not None:
-                text += '<p class="of">Give ν on the left for Young’s modulus E of the sample.</p>'
+                text += _OF_POISSON
         elif page.busy:
-            text = f'<p class="waiting" role="status">{page.busy} …</p>'
+            text = _WAITING.format(page.busy)
         elif page.curve is not None and page.setting.missing:
-            text = f'<p class="big none">Give {page.setting.missing}</p>'
-            text += '<p class="of">Then the fit runs at once.</p>'
+            text = _HEAD.format(f"Give {page.setting.missing}", "Then the fit runs at once.")
         elif page.refused and page.wants:
-            text = '<p class="big none">The curve is not read yet</p>'
-            text += '<p class="of">Give the missing information on the left.</p>'
+            text = _HEAD.format("The curve is not read yet", "Give the missing information on the left.")
         elif page.refused:
-            text = '<p class="big none">This file cannot be read</p>'
-            text += '<p class="of">The reason is on the left. Drop another file, or mend this one.</p>'
+            text = _HEAD.format(
+                "This file cannot be read",
+                "The reason is on the left. Drop another file, or mend this one.",
+            )
         elif page.not_fitted:
-            text = '<p class="big none">No fit</p>'
+            text = Markup('<p class="big none">No fit</p>')
         show(self.headline, object=text)
         show(self.not_fitted, object=page.not_fitted)
         show(self.cancel, visible=bool(page.busy))
         show(self.saved, visible=fit is not None)
         show(self.why, object=words.why(fit) if fit is not None else "")
-        remarks = words.remarks(fit, (*page.told.remarks, *page.curve.remarks)) if fit is not None else ""
+        remarks = words.remarks(fit, (*page.told.remarks, *page.curve.remarks)) if fit is not None else []
         show(self.remarks, object=_folded(remarks))
         if fit is not None:
             show(self._report, value=words.report(page.setting, fit, page.told, page.E))
             try:
                 query = explorer_query(page.setting, fit)
-                text = f'<a href="?{query}">Tip and medium in the explorer</a>'
+                text = Markup('<a href="?{}">Tip and medium in the explorer</a>').format(query)
             except ValueError:
                 text = ""
             show(self.explorer, object=text)
@@ -246,13 +258,17 @@ class Results:
         show(self.map_file, visible=done)
         self._show_list(done)
 
+    def show_busy(self) -> None:
+        """Show what is being done."""
+        show(self.headline, object=_WAITING.format(self._page.busy))
+
     def show_progress(self) -> None:
         """Show how many curves of a file are fitted."""
         page = self._page
         running = bool(page.busy) and bool(page.rows)
         show(self.progress, visible=running, max=max(page.count, 1), value=len(page.rows))
         if running:
-            show(self.headline, object=f'<p class="waiting" role="status">{page.busy} …</p>')
+            self.show_busy()
         found = [row[1] for row in page.rows if row[1] is not None]
         text = ""
         if page.rows:
@@ -266,10 +282,14 @@ class Results:
         """The curves as a table, those without a number first."""
         rows = sorted(self._page.rows, key=lambda row: (row[1] is not None, row[0])) if done else []
         cells = [
-            f"<tr><th>{number + 1}</th><td>{'–' if v is None else words.amount(v, error, 'Pa')}</td>"
-            f"<td class='reason'>{marked(words.in_page_words(reason))}</td></tr>"
+            _CURVE.format(
+                number + 1,
+                "–" if v is None else words.amount(v, error, "Pa"),
+                marked(words.in_page_words(reason)),
+            )
             for number, v, error, reason in rows[:_LISTED]
         ]
-        head = "<tr><th>curve</th><td>E*</td><td class='reason'>source, or why there is no number</td></tr>"
-        more = f"<p>{len(rows) - _LISTED} more are in the CSV.</p>" if len(rows) > _LISTED else ""
-        show(self.list, visible=done, object=f"<table>{head}{''.join(cells)}</table>{more}" if rows else "")
+        beyond = len(rows) - _LISTED
+        more = Markup("<p>{} more are in the CSV.</p>").format(beyond) if beyond > 0 else ""
+        table = _CURVES.format(Markup("").join(cells), more)
+        show(self.list, visible=done, object=table if rows else "")

@@ -1,16 +1,17 @@
 """The file of a measurement: taking it, and reading the curve that is in it."""
 
 import re
-import tempfile
 from collections.abc import Callable
-from html import escape
 from pathlib import Path
 from typing import Any
+
+from markupsafe import Markup
 
 from mdr_core.measured_curve import MeasuredCurve
 
 from ..tip import in_line
 from . import words
+from .folders import NOT_KEPT, Files
 from .measurement import Samples, samples
 from .samples import EXAMPLES
 from .setting import Setting
@@ -18,11 +19,6 @@ from .worker import Here, Worker
 
 #: Beginnings of the suffixes of files that are no tables.
 _AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
-#: What is said when the process has gone.
-ENDED = (
-    "The process that reads and fits has ended, because of a damaged file or too little memory; "
-    "nothing else is lost. Try another file, or fewer samples"
-)
 
 
 class Source:
@@ -41,8 +37,8 @@ class Source:
         # What is said below the file; what a refused file needs.
         self.about, self.refused = "", ""
         self.wants: set[str] = set()
-        self._folder = Path(tempfile.mkdtemp(prefix="measurement-"))
-        self._path, self._files, self._example = "", 0, ""
+        self._files = Files()
+        self._path, self._example = "", ""
 
     def take_sample(self, name: str) -> None:
         """Open a measured example with its tip and sample."""
@@ -65,14 +61,15 @@ class Source:
         self.curve = self.taken = self.fit = self.table = self.E = None
         self.count, self.rows, self._example = 0, [], example
         self.about = self.refused = self.not_fitted = ""
+        self.setting = setting.replace(file=name)
         suffix = re.sub(r"[^\w.-]", "", Path(name).suffix)[:20] if "\0" not in name else ""
-        # A new name each time: the process keeps the curves of the last one.
-        self._files += 1
-        path = self._folder / f"file {self._files}{suffix}"
-        for old in self._folder.iterdir():
-            old.unlink()
-        path.write_bytes(data)
-        self._path, self.setting = str(path), setting.replace(file=name)
+        try:
+            self._path = self._files.keep(data, suffix)
+        except OSError:
+            self._path = ""
+            self._refuse(NOT_KEPT)
+            self.show()
+            return
         self._read()
 
     def reread(self, **given: Any) -> None:
@@ -125,8 +122,7 @@ class Source:
                 "choose them below"
             )
         else:
-            text = answer if kind == "refused" else ENDED
-            text = text.replace(Path(self._path).name, self.setting.file)
+            text = answer.replace(Path(self._path).name, self.setting.file)
             self.wants = {
                 name for name in ("spring constant", "sensitivity")
                 if re.search(name.replace(" ", "."), text)
@@ -140,7 +136,7 @@ class Source:
     def _of_file(self) -> str:
         curve = self.curve
         of = f", curve {self.setting.curve + 1} of {self.count}" if self.count > 1 else ""
-        return f"<b>{escape(self.setting.file)}</b>{of}: {len(curve)} samples"
+        return Markup("<b>{}</b>{}: {} samples").format(self.setting.file, of, len(curve))
 
     def _place(self) -> None:
         """Take the samples of the curve without what is subtracted."""

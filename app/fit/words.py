@@ -1,21 +1,23 @@
 """What is said of a measurement: the number to quote, parameters, classes, remarks, refusals."""
 
 import re
-from html import escape
 
 import numpy as np
+from markupsafe import Markup
 
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.parameters import PARAMETERS
 from mdr_core.fit.report import with_error
 from mdr_core.show.units import KINDS, written
 
-from ..ui import indexed, marked
+from ..ui import marked
 from .measurement import Told
-from .setting import CLASS_NAMES, CORRECTIONS, Setting, parameter
+from .setting import CLASS_NAMES, CORRECTIONS, Number, Setting, parameter
 
 #: Ratio of misfits from which another class is taken to fit clearly better.
 CLEARLY = 5.0
+#: Most characters of a message that is shown; those of packages may quote a file.
+_MOST = 2000
 #: Words for what is code in messages of the reader and of the fit.
 _WORDS = {
     r"give columns=\{.*?\}, numbers and units": "choose its columns and their units below",
@@ -61,38 +63,39 @@ def value_of(fit: IndentationFit, name: str) -> str:
     return amount(float(values[name]), fit.standard_errors.get(name), unit)
 
 
-def headline(fit: IndentationFit, told: Told, E: tuple[float, float] | None) -> str:
+_LARGE = Markup('<p class="big">E* = <output>{}</output></p><p class="of">Effective modulus, {}.</p>')
+_NONE = Markup('<p class="big none">No E* to quote</p><p class="of">{}.</p>')
+_YOUNG = Markup('<p class="second">E = <output>{}</output>, Young’s modulus of the sample</p>')
+_HARDNESS = Markup('<p class="second">H = <output>{}</output>, hardness by Oliver and Pharr</p>')
+
+
+def headline(fit: IndentationFit, told: Told, E: tuple[float, float] | None) -> Markup:
     """The number to quote, large, and of what it is (HTML)."""
     quoted = fit.quoted
     if quoted.source is None:
         reason = in_page_words(quoted.reason)
-        reason = marked(reason[:1].upper() + reason[1:])
-        return f'<p class="big none">No E* to quote</p><p class="of">{reason}.</p>'
+        return _NONE.format(marked(reason[:1].upper() + reason[1:]))
     number = amount(quoted.value, quoted.standard_error, "Pa")
     source = {"unloading": "from the unloading, by Oliver and Pharr", "fit": "from the fit"}[quoted.source]
-    parts = [f'<p class="big">E* = <output>{escape(number)}</output></p>']
-    parts.append(f'<p class="of">Effective modulus, {source}.</p>')
+    found = _LARGE.format(number, source)
     if E is not None:
-        parts.append(
-            f'<p class="second">E = <output>{amount(*E, "Pa")}</output>, Young’s modulus of the sample</p>'
-        )
+        found += _YOUNG.format(amount(*E, "Pa"))
     if (result := told.unloading) is not None:
         H = amount(float(result.hardness), float(result.standard_errors["hardness"]), "Pa")
-        parts.append(f'<p class="second">H = <output>{H}</output>, hardness by Oliver and Pharr</p>')
-    return "".join(parts)
+        found += _HARDNESS.format(H)
+    return found
 
 
-def why(fit: IndentationFit) -> str:
+def why(fit: IndentationFit) -> Markup:
     """One sentence on the E* of the model where another one is quoted (HTML)."""
     if fit.quoted.source != "unloading":
-        return ""
-    numbers = f"E*, {escape(value_of(fit, 'E_star'))}, is"
+        return Markup("")
+    numbers = f"E*, {value_of(fit, 'E_star')}, is"
     if "hardness" in fit.standard_errors:
-        numbers = f"E*, {escape(value_of(fit, 'E_star'))}, and H, {escape(value_of(fit, 'hardness'))}, are"
-    return (
-        f"<p>The model’s own {numbers} not to be quoted: its contact radius is that of an elastic "
-        "contact.</p>"
-    )
+        numbers = f"E*, {value_of(fit, 'E_star')}, and H, {value_of(fit, 'hardness')}, are"
+    return Markup(
+        "<p>The model’s own {} not to be quoted: its contact radius is that of an elastic contact.</p>"
+    ).format(numbers)
 
 
 def verdict(fit: IndentationFit, told: Told) -> tuple[str, dict[str, float]]:
@@ -117,25 +120,26 @@ def better(misfits: dict[str, float], own: str) -> str:
     return best if clearly else ""
 
 
-def classes_table(misfits: dict[str, float], own: str) -> str:
+_CLASS = Markup("<tr class='{}'><th>({}) {}</th><td>{:.2g} %</td><td>{}</td></tr>")
+_CLASSES = Markup(
+    "<table><tr><th>class of hardness</th><td>misfit, of the largest force</td><td></td></tr>{}</table>"
+)
+
+
+def classes_table(misfits: dict[str, float], own: str) -> Markup:
     """Misfit of each class (HTML)."""
     rows = []
     for letter, misfit in misfits.items():
-        chosen = " class='own'" if letter == own else ""
-        mark = "fitted" if letter == own else ""
-        rows.append(
-            f"<tr{chosen}><th>({letter}) {CLASS_NAMES[letter]}</th>"
-            f"<td>{100 * misfit:.2g} %</td><td>{mark}</td></tr>"
-        )
-    head = "<tr><th>class of hardness</th><td>misfit, of the largest force</td><td></td></tr>"
-    return f"<table>{head}{''.join(rows)}</table>"
+        look, mark = ("own", "fitted") if letter == own else ("", "")
+        rows.append(_CLASS.format(look, letter, CLASS_NAMES[letter], 100 * misfit, mark))
+    return _CLASSES.format(Markup("").join(rows))
 
 
-def remarks(fit: IndentationFit, remarked: tuple[str, ...]) -> str:
+def remarks(fit: IndentationFit, remarked: tuple[str, ...]) -> list[Markup]:
     """Remarks on the fit and on the reading of the file, and assumptions that are exceeded (HTML)."""
     texts = [*remarked, *(each.sentence for each in fit.path.limits if each.exceeded)]
-    told = [marked(in_page_words(text)) for text in texts]
-    return "".join(f"<li>{text[:1].upper() + text[1:]}</li>" for text in told)
+    told = [in_page_words(text) for text in texts]
+    return [marked(text[:1].upper() + text[1:]) for text in told]
 
 
 def report(setting: Setting, fit: IndentationFit, told: Told, E: tuple[float, float] | None) -> str:
@@ -156,17 +160,16 @@ def report(setting: Setting, fit: IndentationFit, told: Told, E: tuple[float, fl
     return "\n".join(lines)
 
 
-def _plain(html: str) -> str:
-    text = re.sub(r"</p>", "; ", html)
-    return re.sub(r"<[^>]+>", "", text).strip("; ")
+def _plain(html: Markup) -> str:
+    return html.replace(Markup("</p>"), "; ").striptags().strip("; ")
 
 
-def refused(text: str) -> str:
+def refused(text: str) -> Markup:
     """A refusal (HTML)."""
-    return f'<p class="refused" role="alert">{marked(in_page_words(text))}</p>' if text else ""
+    said = marked(in_page_words(text[:_MOST]))
+    return Markup('<p class="refused" role="alert">{}</p>').format(said) if text else said
 
 
-def name_html(name: str) -> str:
-    """Symbol and name of a parameter (HTML)."""
-    known = parameter(name)
-    return f"<i>{indexed(escape(known.symbol))}</i> {escape(known.label)}"
+def name_html(known: Number) -> Markup:
+    """Symbol and name of a number (HTML)."""
+    return Markup("<i>{}</i> {}").format(marked(known.symbol), known.label)

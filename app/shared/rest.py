@@ -27,7 +27,7 @@ _KEPT = 64
 
 @dataclass(frozen=True)
 class Found:
-    """What a search has found for a plot: rows (SI) with their axes, and a note as HTML."""
+    """What a search has found for a plot: rows (SI) with their axes, and a note, a text or HTML."""
 
     rows: dict[str, Any]
     axes: list[Axis]

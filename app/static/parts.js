@@ -140,8 +140,8 @@ const KINDS = {
       // Else a file of the same name is not read again.
       input.value = ""
     })
-    return [el, ({ refused }) => {
-      if (said.textContent !== refused) said.textContent = refused
+    return [el, ({ refused, busy }) => {
+      if (said.textContent !== (refused || busy)) said.textContent = refused || busy
       input.setAttribute("aria-invalid", String(refused !== ""))
     }]
   },

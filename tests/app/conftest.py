@@ -62,13 +62,19 @@ window.explorer = {
 """
 
 
-class Server:
-    """`panel serve app` from the project root, or a copy of it, on a free port, with its log."""
+MODULE = ("-m", "panel")
 
-    def __init__(self, *options, port=0, root=ROOT):
-        command = [sys.executable, "-m", "panel", "serve", "app", *options, "--port", str(port)]
+
+class Server:
+    """`panel serve app`, or another program, from the project root or a copy, on a free port; its log."""
+
+    def __init__(
+        self, *options, port=0, root=ROOT, program=("-m", "panel", "serve", "app"), environment=()
+    ):
+        command = [sys.executable, *program, *options, "--port", str(port)]
         self.lines, self._ready = [], threading.Event()
         output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+        output["env"] = os.environ | dict(environment)
         self.process = subprocess.Popen(command, cwd=root, start_new_session=True, **output)
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()

@@ -2,19 +2,22 @@
 
 import csv
 import json
+import pickle
 import re
 import struct
 import zipfile
 from html import unescape
 from io import BytesIO
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import mdr_core as mdr
 from app import link
+from app.fit.dropper import CHUNK, MAX_BYTES, Dropper
 from app.fit.explorer import explorer_query, rounded
-from app.fit.form import CHUNK, MAX_BYTES, Dropper
 from app.fit.measurement import modulus_of_sample
 from app.fit.page import Measurement
 from app.fit.setting import MEDIA, Setting
@@ -316,6 +319,64 @@ def test_files_that_are_none_are_refused_in_words_and_the_next_one_is_read():
     assert page.refused == ""
 
 
+def test_a_full_disk_is_said_on_the_page(monkeypatch):
+    """The curve before it is gone; nothing else is."""
+
+    def full(self, data):
+        raise OSError(28, "No space left on device")
+
+    page = opened(curve_file())
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "write_bytes", full)
+        page.take_file("other.csv", curve_file())
+        assert "its disk is full" in plain(page.refused)
+        page.take_tip("tip.csv", b"r (nm), z (nm)\n0, 0\n1, 1\n")
+        assert "its disk is full" in plain(page.of_tip)
+    page.take_file("other.csv", curve_file())
+    assert page.fit is not None
+
+
+def test_a_refusal_names_the_file_and_no_folder_of_the_server():
+    page = page_of()
+    for name in (
+        "damaged.jpk-force",
+        "damaged.xlsx",
+        "damaged.ibw",
+        "damaged.h5",
+        "damaged.zip",
+        "damaged.csv",
+    ):
+        page.take_file(name, b"PK\x03\x04 \0\xff" * 20)
+        text = plain(page.refused)
+        assert "damaged" in text
+        assert not re.search(r"mdr-explorer-|/tmp|file \d", text), text
+
+
+def test_what_comes_back_of_a_table_is_what_is_shown_of_it():
+    """Heads and three rows, of a table whose columns are known and of one that asks for them."""
+    rows = "".join(f"{k},{2 * k}\n" for k in range(1000))
+    for head in ("h (nm),F (mN)", f"{'x' * 500},y"):
+        page = page_of()
+        page.take_file("run.csv", f"{head}\n{rows}".encode())
+        assert list(map(len, page.table.values.values())) == [3, 3]
+        assert max(map(len, page.table.heads.values())) <= 80
+        assert len(pickle.dumps(page.table)) < 1000
+
+
+def test_a_tip_is_read_from_a_file():
+    r = np.linspace(0, 1e-6, 30)
+    page = opened(curve_file(), tip="measured")
+    assert page.setting.missing == "the file of the tip"
+    page.take_tip("<b>tip.csv", table({"r (nm)": 1e9 * r, "z (nm)": 1e9 * r**2 / 1e-5}).encode())
+    assert plain(page.of_tip) == "30 samples, as in the file"
+    assert page.setting.tip_name == "<b>tip.csv"
+    page.take_tip("<b>tip.csv", b"nothing")
+    assert "<b>tip.csv" in plain(page.of_tip)
+    assert "<b>" not in page.of_tip
+    # The tip before it stays.
+    assert page.setting.tip_samples
+
+
 def test_parts_of_a_file_are_below_the_message_that_the_documented_line_allows():
     """As text a part has a third more; what comes beyond the limit is left out and keeps no memory."""
     options = deployed(5006)
@@ -324,17 +385,28 @@ def test_parts_of_a_file_are_below_the_message_that_the_documented_line_allows()
     text = (ASSETS / "docs" / "explorer.md").read_text(encoding="utf-8")
     assert f"Measured curves are limited to {MAX_BYTES / 1e6:g} MB" in " ".join(text.split())
     assert f"up to {MAX_BYTES / 1e6:g} MB" in page_of().form.drop.label
-    drop = Dropper()
+    taken, begun = [], []
+    drop = Dropper(lambda name, data: taken.append((name, data)), lambda: begun.append(1), MAX_BYTES)
 
-    class Event:
-        event_name = "upload_event"
+    def part(name, k, of, data):
+        told = {"name": name, "chunk": k, "total_chunks": of, "data": data, "type": "text/csv"}
+        drop._process_event(SimpleNamespace(event_name="upload_event", data=told))
 
-        def __init__(self, k):
-            self.data = {"name": "a", "chunk": k, "total_chunks": 10**6, "data": bytes(CHUNK), "type": ""}
-
-    for k in range(1, 60):
-        drop._process_event(Event(k))
-    assert sum(map(len, drop._file_buffer["a"])) <= MAX_BYTES
+    # Files that never end, each under a new name: together they keep no more than one.
+    for name in "abc":
+        for k in range(1, 60):
+            part(name, k, 10**6, bytes(CHUNK))
+            assert drop.kept <= MAX_BYTES
+        part(name, 1, 10**6, bytes(CHUNK))
+    assert drop.kept == CHUNK
+    assert not taken
+    # A whole one is taken as it is, and not kept.
+    for k in (1, 2, 3):
+        part("run.csv", k, 3, b"%d\n" % k)
+    assert taken == [("run.csv", b"1\n2\n3\n")]
+    assert drop.kept == 0
+    assert not drop.value
+    assert len(begun) == 7
 
 
 def test_the_files_of_a_fit_have_its_numbers():

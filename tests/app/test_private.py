@@ -14,6 +14,9 @@ from .conftest import ROOT, Explorer, Server
 
 #: Names that are taken away before the app is loaded: what the log says, and how it is done.
 ENDS = {
+    "panel.io.server.ComponentResourceHandler": (
+        "from panel.io import server; del server.ComponentResourceHandler"
+    ),
     "bokeh.server.urls.per_app_patterns": "from bokeh.server import urls; del urls.per_app_patterns",
     "panel.io.server.WSHandler": "from panel.io import server; del server.WSHandler",
     "panel.io.document.dispatch_tornado": "from panel.io import document; del document.dispatch_tornado",

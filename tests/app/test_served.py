@@ -17,7 +17,7 @@ from panel.io.state import set_curdoc
 from tornado.locks import Lock
 
 from app.parts import Parts
-from app.private import prompt_handler
+from app.private import websocket
 from app.state import preset_state
 
 from .conftest import ROOT, Explorer, Server, deployed, free_port
@@ -120,7 +120,7 @@ def test_an_answer_does_not_wait_until_another_message_is_written():
         session = ServerSession("session", document)
         context = SimpleNamespace(id="session", session=session)
         document._session_context = lambda: context
-        kind = prompt_handler(WSHandler, dispatch_tornado)
+        kind = websocket(WSHandler, dispatch_tornado)
         handler = kind.__new__(kind)
         handler.write_lock = Lock()
         handler.ws_connection = SimpleNamespace(is_closing=lambda: False, write_message=write_message)

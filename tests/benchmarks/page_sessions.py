@@ -1,9 +1,10 @@
 """Many people at the served page at once: opening, drags, server time of a move, memory, what stays behind.
 
 Opening is page, websocket and document, beside a plain page of Panel's that is served by the same process.
-A move is also timed while somebody else fits on the page for measurements.
+A move is also timed while somebody else fits on the page for measurements. A soak has many people who move,
+sweep and upload files for minutes.
 
-Run from the project root: python -m tests.benchmarks.page_sessions
+Run from the project root: python -m tests.benchmarks.page_sessions, or with "soak" for that alone
 """
 
 import asyncio
@@ -11,7 +12,11 @@ import json
 import os
 import re
 import statistics
+import sys
+import tempfile
 import time
+from base64 import b64encode
+from gzip import compress
 from pathlib import Path
 from urllib.request import urlopen
 
@@ -32,6 +37,8 @@ OPENED = (15, 100)
 LIFETIME = ("--check-unused-sessions", "15000", "--unused-session-lifetime", "600000")
 #: Openings of each page one after the other, people who open the page at once, and figures of a whole page.
 ALONE, CLASS, FIGURES = 10, 60, 3
+#: People of a soak: who move, who move beside a sweep, who upload; how long, and how often each acts (s).
+MOVERS, SWEEPERS, UPLOADERS, SOAK, PAUSE, PAUSE_OF_FILES = 50, 30, 20, 300.0, 4.0, 20.0
 
 
 def objects(part):
@@ -129,6 +136,10 @@ class Client(Visitor):
         """Let the player move."""
         await self._tell("play", self.player, "player", None)
 
+    async def sweep(self):
+        """Show the plot *Sweep* beside the three."""
+        await self._tell("sweep", self.player, "fourth plot", "sweep")
+
     async def move(self, n):
         """Move a slider; seconds until the server has answered with a new picture."""
         self.count += 1
@@ -189,6 +200,104 @@ class Fitter(Visitor):
             # Who changes something looks at the number first.
             await asyncio.sleep(0.5)
         return count
+
+
+class Uploader(Visitor):
+    """A person who drops a curve again and again, and waits for its number."""
+
+    figures = 2
+
+    async def open(self, url):
+        """Load the page for measurements with tip and sample, and find the field for the file."""
+        await super().open(f"{url}?fit&tip=berkovich&medium=constant")
+        fields = (each for each in objects(self.document) if str(each.get("name")).endswith("FileDropper"))
+        self.field = next(fields)["id"]
+        self.data = (Path(__file__).parents[2] / "assets" / "silica.csv").read_bytes()
+        return self
+
+    async def act(self, n):
+        """Upload; seconds until the number is there."""
+        begin = time.perf_counter()
+        # As the browser sends bytes.
+        data = {"type": "bytes", "data": b64encode(compress(self.data)).decode()}
+        told = {"name": f"run {n}.csv", "chunk": 1, "total_chunks": 1, "data": data, "type": "text/csv"}
+        entries = {"type": "map", "entries": [list(item) for item in told.items()]}
+        values = {"type": "map", "entries": [["model", {"id": self.field}], ["data", entries]]}
+        event = {"type": "event", "name": "upload_event", "values": values}
+        await self._event(f"upload {n}", event)
+        content = ""
+        while not re.search(r"Effective modulus|No E\* to quote|No fit|cannot be read", content):
+            _, content = await self._message()
+        return time.perf_counter() - begin
+
+
+async def again(act, pause, offset):
+    """Act once in a while until the soak is over; the seconds that each answer took."""
+    await asyncio.sleep(offset)
+    times, end = [], time.perf_counter() + SOAK
+    while time.perf_counter() < end:
+        begin = time.perf_counter()
+        times.append(await act(len(times) + 1))
+        await asyncio.sleep(max(begin + pause - time.perf_counter(), 0))
+    return times
+
+
+async def at_work(url):
+    """All people of a soak at work; seconds of the moves, of those beside a sweep, and of the files."""
+    movers = [await Client().open(url) for _ in range(MOVERS)]
+    sweepers = [await Client().open(url) for _ in range(SWEEPERS)]
+    for each in sweepers:
+        await each.sweep()
+    uploaders = [await Uploader().open(url) for _ in range(UPLOADERS)]
+    works = [
+        asyncio.gather(*(again(act, pause, k * pause / len(acts)) for k, act in enumerate(acts)))
+        for acts, pause in (
+            ([each.move for each in movers], PAUSE),
+            ([each.move for each in sweepers], PAUSE),
+            ([each.act for each in uploaders], PAUSE_OF_FILES),
+        )
+    ]
+    found = [[t for row in await each for t in row] for each in works]
+    for each in (*movers, *sweepers, *uploaders):
+        each.socket.close()
+    return found
+
+
+def soak():
+    """Many people for minutes: what they wait, and what is left of memory, sessions and files."""
+    short = ("--unused-session-lifetime", "2000", "--check-unused-sessions", "1000")
+    with tempfile.TemporaryDirectory() as folder:
+        server = Server("tests/benchmarks/probe.py", *short, environment={"TMPDIR": folder})
+        try:
+            url, pid = server.url.rpartition("/")[0], server.process.pid
+            asyncio.run(asyncio.wait_for(come_and_go(f"{url}/app", 5), 300))
+            time.sleep(5)
+            before = resident(pid)
+            found = asyncio.run(asyncio.wait_for(at_work(f"{url}/app"), 4 * SOAK + 600))
+            for what, times in zip(("moves", "moves beside a sweep", "files"), found, strict=True):
+                times = sorted(times)
+                p95 = times[int(0.95 * len(times))]
+                print(
+                    f"{len(times)} {what}: median {statistics.median(times):.2f} s, p95 {p95:.2f} s, "
+                    f"worst {times[-1]:.2f} s; load of the machine {os.getloadavg()[0]:.1f}",
+                    flush=True,
+                )
+            during = resident(pid)
+            time.sleep(10)
+            urlopen(f"{url}/probe").read()
+            time.sleep(1)
+            alive = re.findall("live Documents.*", server.log)[-1]
+            left = sum(len([*each.iterdir()]) - 1 for each in Path(folder).iterdir() if each.is_dir())
+            people = MOVERS + SWEEPERS + UPLOADERS
+            print(
+                f"{people} sessions for {SOAK:.0f} s: {before:.0f} MB resident before, "
+                f"{during:.0f} MB with all of them, {resident(pid):.0f} MB after they have gone; {alive}; "
+                f"{left} folders of sessions left, {len(server.faults)} characters of faults in the log",
+                flush=True,
+            )
+        finally:
+            server.stop()
+        print(f"after the server: {len([*Path(folder).iterdir()])} folders left", flush=True)
 
 
 async def beside_a_fit(url):
@@ -394,7 +503,8 @@ def main():
     # More and more, until they wait.
     next((count for count in SESSIONS if at_once(count) > ENOUGH), None)
     left_behind()
+    soak()
 
 
 if __name__ == "__main__":
-    main()
+    soak() if sys.argv[1:] == ["soak"] else main()

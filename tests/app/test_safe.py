@@ -1,0 +1,293 @@
+"""The page on a server that is open to all: hostile requests, names and links."""
+
+import ast
+import re
+from contextlib import closing
+from http.client import HTTPConnection
+from pathlib import Path
+from urllib.parse import quote
+
+import numpy as np
+import pytest
+from bokeh.util.token import get_token_payload
+
+from app import changes, ui
+from app.extras.scene_file import scene_file
+from app.private import is_own
+from app.state import preset_state
+
+from .conftest import CHROMIUM, FLAGS, ROOT, Explorer, Server
+from .states import view_of
+from .test_measurement_served import READY
+
+PROGRAM = ("-c", "import mdr_explorer; mdr_explorer.main()")
+SECRET = "of-a-single-sign-on"
+
+
+@pytest.fixture(scope="module")
+def command(browser):
+    """`mdr-explorer` as it is started by hand."""
+    server = Server(program=PROGRAM)
+    yield server
+    server.stop()
+
+
+def get(server, path, headers=None, host=None):
+    """Status, headers and body of an answer."""
+    with closing(HTTPConnection("127.0.0.1", server.port, timeout=60)) as connection:
+        connection.request(
+            "GET", path, headers={"Host": host or f"localhost:{server.port}"} | (headers or {})
+        )
+        answer = connection.getresponse()
+        # A websocket that is accepted stays open.
+        body = b"" if answer.status == 101 else answer.read()
+        return answer.status, answer.headers, body
+
+
+#: What runs where it is taken for HTML, in an attribute, a script or a text.
+HOSTILE = (
+    "<img src=x onerror=\"window.run = 1\">", "\"><svg onload='window.run = 1'>",
+    "</script><script>window.run = 1</script>", "<b onclick=window.run=1>bold</b>",
+    "' autofocus onfocus='window.run = 1",
+)  # fmt: skip
+
+
+def test_a_text_is_shown_as_it_is_and_never_taken_for_html():
+    for text in HOSTILE:
+        makers = (ui.as_html, ui.marked, ui.symbol, ui.linked, ui.notice, lambda text: ui.html(text).object)
+        for make in makers:
+            found = make(text)
+            own = re.sub(r"</?(i|sub)>", "", found)
+            assert "<" not in own
+        # In an attribute, too.
+        assert '"' not in ui.as_html(text)
+        assert "'" not in ui.as_html(text)
+
+
+def test_html_is_made_of_literals_of_the_page_alone():
+    """A text of somebody can only be formatted into HTML, which escapes it; `ui` reads own files."""
+    made = 0
+    for path in sorted((ROOT / "app").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            called = isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1]
+            if called in ("Markup", "HTML"):
+                literal = all(isinstance(each, ast.Constant) for each in node.args)
+                assert literal or path.name == "ui.py", (path.name, node.lineno)
+                made += 1
+            # What is shown goes through `show`, which escapes.
+            if isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+                assert node.attr != "object", (path.name, node.lineno)
+    assert made > 30
+
+
+def test_an_address_of_a_component_imports_nothing(command):
+    """`this` prints at its import; `unittest.__main__` ends the process that imports it."""
+    modules = ("this", "antigravity", "app.main", "mdr_core.reading", "unittest.__main__")
+    for prefix in ("", "/app"):
+        for module in modules:
+            assert get(command, f"{prefix}/components/{module}/x/y/z")[0] == 404
+    assert get(command, "/components/this")[0] == 404
+    assert get(command, "/app")[0] == 200
+    assert "Beautiful is better than ugly" not in command.log
+    assert command.faults == ""
+
+
+def test_a_prefix_moves_components_away_with_all_else():
+    server = Server("--prefix", "lab", program=PROGRAM)
+    try:
+        assert get(server, "/lab/components/unittest.__main__/x/y/z")[0] == 404
+        assert get(server, "/lab/components/this/x/y/z")[0] == 404
+        assert get(server, "/lab/app")[0] == 200
+        assert "Beautiful" not in server.log
+    finally:
+        server.stop()
+
+
+def upgraded(server, origin, host, **headers):
+    """Status of a websocket that is asked for by a page of an origin at a host."""
+    asked = {
+        "Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
+        "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==",
+    }  # fmt: skip
+    return get(server, "/app/ws", asked | headers | {"Origin": origin}, host)[0]
+
+
+def test_a_websocket_is_for_pages_of_this_server_alone(command):
+    """A name that is bound to 127.0.0.1 has the same host and origin, and is refused all the same."""
+    port = command.port
+    for host in ("localhost", "127.0.0.1", "[::1]"):
+        assert upgraded(command, f"http://{host}:{port}", f"{host}:{port}") == 101
+    for host in (
+        "evil.example",
+        f"evil.example:{port}",
+        f"127.0.0.1.evil.example:{port}",
+        f"192.0.2.1:{port}",
+    ):
+        assert upgraded(command, f"http://{host}", host) == 403
+        same = {"Sec-Fetch-Site": "same-origin"}
+        assert upgraded(command, f"http://{host}", host, **same) == 403
+    # Another server of this machine, and a page of a sandbox.
+    for origin in ("http://127.0.0.1:1", "null", "http://[", f"http://localhost:{port}@evil.example"):
+        assert upgraded(command, origin, f"127.0.0.1:{port}") == 403
+
+
+def test_own_addresses_are_those_at_the_port_that_is_served():
+    assert is_own("http://127.0.0.1", "127.0.0.1", 80)
+    assert not is_own("http://127.0.0.1:8000", "127.0.0.1:8000", 80)
+    assert not is_own("http://0.0.0.0:80", "0.0.0.0:80", 80)
+
+
+def test_a_page_at_a_name_that_is_not_allowed_says_so(command, browser):
+    """The name is bound to this machine, as that of a neighbour, or of an attacker, can be."""
+    rule = "--host-resolver-rules=MAP lab.example 127.0.0.1"
+    other = browser.browser_type.launch(executable_path=CHROMIUM, args=[*FLAGS, rule])
+    try:
+        page = other.new_page()
+        page.goto(f"http://lab.example:{command.port}/app")
+        said = f"--allow-websocket-origin lab.example:{command.port}"
+        page.get_by_role("alert").filter(has_text=said).wait_for()
+    finally:
+        other.close()
+
+
+def test_the_page_has_neither_headers_nor_cookies_of_its_request(command):
+    secrets = {"Cookie": f"session={SECRET}", "Authorization": f"Bearer {SECRET}", "X-Remote-User": SECRET}
+    for path in ("/app", "/app?fit", "/app/autoload.js?bokeh-autoload-element=1"):
+        _, _, body = get(command, path, secrets)
+        (token,) = re.findall(r'"token":"([^"]+)"', body.decode())
+        payload = get_token_payload(token)
+        assert payload["cookies"] == {}
+        assert list(payload["headers"]) == ["Host"]
+        assert SECRET not in str(payload)
+
+
+def test_each_answer_says_that_types_are_not_guessed(command):
+    for path in (
+        "/app",
+        "/app?fit",
+        "/app/static/parts.js",
+        "/static/js/bokeh.min.js",
+        "/nothing",
+        "/app/metadata",
+    ):
+        _, headers, _ = get(command, path)
+        assert headers["X-Content-Type-Options"] == "nosniff"
+        assert headers["Referrer-Policy"] == "same-origin"
+        # Lecturers embed the page.
+        assert "X-Frame-Options" not in headers
+
+
+def test_the_page_works_at_both_of_its_addresses(command, browser):
+    for url in (command.url, command.url.replace("localhost", "127.0.0.1")):
+        with browser.new_context() as context:
+            explorer = Explorer(context.new_page(), url)
+            explorer.change(explorer.type, "d_max", "5 nm")
+            assert explorer.problems == []
+
+
+#: A link to a sample with its tip.
+GEL = "fit&file=Gel,+AFM,+colloid+of+10+µm.csv&tip=paraboloid&radius=1e-05&medium=gel"
+
+
+def children(server):
+    """Processes that a server has started."""
+    listed = Path(f"/proc/{server.process.pid}/task").glob("*/children")
+    return [int(child) for each in listed for child in each.read_text().split()]
+
+
+@pytest.fixture(scope="module")
+def fresh(browser, tmp_path_factory):
+    """A server whose temporary folder has nothing else, where the log says what is logged."""
+    folder = tmp_path_factory.mktemp("temporary")
+    server = Server(program=PROGRAM, environment={"TMPDIR": str(folder)})
+    server.folder = folder
+    yield server
+    server.stop()
+    # Nothing of a file is left.
+    assert [*folder.iterdir()] == []
+
+
+def test_a_request_alone_starts_no_process_and_keeps_no_file(fresh):
+    """Also of a link to a sample; a page that has connected gets it."""
+    for query in (
+        "fit",
+        GEL,
+        "",
+    ):
+        path = "/app?" + quote(query, safe="&=,+")
+        for _ in range(5):
+            assert get(fresh, path)[0] == 200
+    assert children(fresh) == []
+    assert [*fresh.folder.iterdir()] == []
+    # Warnings of the page's own parts are no news for those who read the log.
+    assert "sizing_mode" not in fresh.log
+    assert "WARNING" not in fresh.log
+
+
+def test_a_link_to_a_sample_is_read_once_the_page_is_there(fresh, context):
+    opened = Explorer(
+        context.new_page(),
+        f"{fresh.url}?{GEL}",
+        READY,
+    )
+    opened.page.locator(".big output", has_text="kPa").wait_for()
+    assert len(children(fresh)) == 1
+    assert opened.problems == []
+    opened.page.close()
+
+
+def drop(page, name, data):
+    field = page.locator('.filepond--browser, input[type="file"]').first
+    field.set_input_files({"name": name, "mimeType": "text/csv", "buffer": data})
+
+
+def test_hostile_names_run_nothing(fresh, context):
+    """Of files, their columns and sheets, of tips, and of all that a link names."""
+    opened = Explorer(context.new_page(), f"{fresh.url}?fit", READY)
+    page = opened.page
+
+    def quiet():
+        assert page.evaluate("window.run") is None
+        assert page.locator("img[src=x], svg[onload]").count() == 0
+
+    for k, text in enumerate(HOSTILE):
+        # A browser sends the name without its folders.
+        name = text.replace("/", "_") + ".csv"
+        column = text.replace('"', "'")
+        drop(page, name, f'"{column} h (nm)","{column} F"\n0,0\n1,1\n2,3\n'.encode())
+        shown = " ".join(name.split())[:60]
+        page.locator(".refusal p", has_text=shown).first.wait_for()
+        quiet()
+        page.get_by_label("Column of depth").locator("option").nth(1).wait_for(state="attached")
+        drop(page, name, b"h (nm), F (mN)\n0, 0\n1, 1\n2, 3\n")
+        page.get_by_text("3 samples").wait_for()
+        quiet()
+        if k:
+            continue
+        page.get_by_label("Tip", exact=True).select_option(label="Measured tip, from a file")
+        page.locator('.filepond--browser, input[type="file"]').nth(1).set_input_files(
+            {"name": name, "mimeType": "text/csv", "buffer": f"{text}\n".encode()}
+        )
+        page.get_by_text(re.compile("no samples|expected|header")).first.wait_for()
+        quiet()
+        page.get_by_label("Tip", exact=True).select_option(index=0)
+    names = "file", "tip", "depth_column", "radius", "curve"
+    query = "&".join(f"{name}={quote(HOSTILE[0])}" for name in names)
+    page.goto(f"{fresh.url}?fit&{query}")
+    page.get_by_text("This link was made with").wait_for()
+    quiet()
+    assert opened.problems == []
+    page.close()
+
+
+def test_a_saved_scene_ends_no_script_of_its_own(opened, tmp_path):
+    """A tip with a hostile name, in the file of a scene."""
+    r = np.linspace(0, 1e-6, 20)
+    state = changes.take_tip(preset_state(), (r, r**2 / 1e-5), f"20 samples of {''.join(HOSTILE)}")
+    path = tmp_path / "scene.html"
+    path.write_text(scene_file(view_of(state)), encoding="utf-8")
+    page = opened(path).page
+    assert page.evaluate("window.run") is None
+    assert page.locator("img[src=x], svg[onload]").count() == 0
+    page.get_by_text("Inputs and their sources").click()
+    page.get_by_text(HOSTILE[0]).first.wait_for()

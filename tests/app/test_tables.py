@@ -1,0 +1,48 @@
+"""Files of the page as a spreadsheet and the project's own reader open them."""
+
+import csv
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+from app import tables
+from app.extras import share
+from app.fit.files import map_csv
+from app.state import preset_state
+
+from .states import view_of
+
+#: Names of files that put a formula into a cell, where cells are parted at commas or semicolons.
+NAMES = (
+    'a,=HYPERLINK("http://evil.example","x").csv', "=1+1.csv", "@SUM(A1).csv", "a;=1+1.csv", 'a","=1+1.csv',
+    "+cmd|' /C calc'!A0", "-2+3,+cmd", "a,\t=1+1",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("delimiter", [",", ";"])
+def test_no_cell_of_somebodys_text_is_a_formula(delimiter):
+    for name in NAMES:
+        rows = [(0, 1e9, 2e7, name), (1, None, None, f"no contact in {name}")]
+        text = map_csv(name, rows)
+        for row in csv.reader(text.splitlines(), delimiter=delimiter):
+            for cell in row:
+                assert not cell.startswith(("=", "+", "-", "@", "\t")), cell
+    # A number stays one.
+    assert tables.as_csv([], [[-1.5, "-1.5"]]) == "-1.5,'-1.5\n"
+
+
+def test_what_the_page_writes_is_read_back(tmp_path):
+    """States of a scene, below a header with commas and quotation marks."""
+    view = view_of(preset_state())
+    path = tmp_path / "curves.csv"
+    path.write_text(share.csv(view), encoding="utf-8")
+    curve = mdr.read_curve(path)
+    assert np.array_equal(curve.depth, view.course.states.depth)
+    assert np.array_equal(curve.force, view.course.states.force)
+    # With a name as that of a file in its header.
+    for name in NAMES:
+        header = [f"made of {name}", "d (m), F (N)"]
+        rows = zip(curve.depth.tolist(), curve.force.tolist(), strict=True)
+        path.write_text(tables.as_csv(header, [["depth d (m)", "force F (N)"], *rows]), encoding="utf-8")
+        assert np.array_equal(mdr.read_curve(path).force, curve.force)
