@@ -46,6 +46,25 @@ def no_components() -> None:
         import_module("panel.io.server").ComponentResourceHandler = NoComponents
 
 
+def no_packed_bytes() -> None:
+    """Refuse bytes that come packed in a message: unpacked they may be a thousand times as large.
+
+    Bokeh unpacks them without a bound, in the thread of the server. Browsers send bytes as buffers beside
+    the message.
+    """
+    deserializer = _end("bokeh.core.serialization", "Deserializer")
+    decode = getattr(deserializer, "_decode_bytes", None)
+    if decode is None:
+        return
+
+    def decode_bytes(self, obj):
+        if isinstance(obj["data"], str):
+            self.error("packed bytes are not taken; they are sent as a buffer")
+        return decode(self, obj)
+
+    deserializer._decode_bytes = decode_bytes
+
+
 #: Types are not guessed, and no other site is told the address, which has the scene or the name of a file.
 _HEADERS = {"X-Content-Type-Options": "nosniff", "Referrer-Policy": "same-origin"}
 

@@ -11,6 +11,7 @@ LOADED = (extras, page, measurement)
 
 folders.clear()
 private.no_components()
+private.no_packed_bytes()
 private.headers()
 private.websockets()
 

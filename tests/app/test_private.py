@@ -17,6 +17,9 @@ ENDS = {
     "panel.io.server.ComponentResourceHandler": (
         "from panel.io import server; del server.ComponentResourceHandler"
     ),
+    "bokeh.core.serialization.Deserializer": (
+        "from bokeh.core import serialization; del serialization.Deserializer"
+    ),
     "bokeh.server.urls.per_app_patterns": "from bokeh.server import urls; del urls.per_app_patterns",
     "panel.io.server.WSHandler": "from panel.io import server; del server.WSHandler",
     "panel.io.document.dispatch_tornado": "from panel.io import document; del document.dispatch_tornado",
@@ -39,6 +42,27 @@ print(private.template().count("block"))
     assert done.stderr.count(f"{end} is not there in this version") == 1
     # The template has its head in any case.
     assert int(done.stdout) == (2 if "TEMPLATE" in end else 4)
+
+
+def test_packed_bytes_of_a_message_are_not_unpacked():
+    """4 kB that would be 4 MB; the same bytes beside a message are taken. In a process of its own."""
+    code = """import base64, gzip
+from bokeh.core.serialization import Buffer, DeserializationError, Deserializer
+from app import server_lifecycle
+packed = base64.b64encode(gzip.compress(bytes(4 << 20))).decode()
+try:
+    print(len(Deserializer().decode({"type": "bytes", "data": packed})))
+except DeserializationError as error:
+    print(error)
+beside = Buffer("1", memoryview(b"own"))
+print(bytes(Deserializer().decode({"type": "bytes", "data": {"id": "1"}}, [beside])))
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    refused, taken = done.stdout.splitlines()
+    assert "packed bytes are not taken" in refused, done.stderr
+    assert taken == "b'own'"
 
 
 def test_all_private_ends_are_there_in_the_versions_that_are_installed(caplog):
