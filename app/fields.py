@@ -3,7 +3,7 @@
 from functools import partial
 from typing import Any
 
-from mdr_core.files.text import decoded
+from mdr_core.files.table import decoded
 from mdr_core.show.units import UNITS, Unit, fitting, written
 
 from . import changes

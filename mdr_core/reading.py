@@ -2,20 +2,21 @@
 
 import re
 from dataclasses import replace
-from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from . import _check
 from .files.afm import SUFFIXES, from_afm, is_afm_text, refuse_binary
-from .files.columns import SIZES, NoCurve, UnknownColumns
-from .files.curve import curve_of, curves_of
-from .files.text import decoded, read_tables
+from .files.columns import SIZES
+from .files.question import UnknownColumns
+from .files.several import curves_of_text
+from .files.split import WORDS
+from .files.table import decoded
 from .files.workbook import from_workbook
 from .measured_curve import MeasuredCurve, MeasuredCurves
 
-__all__ = ["SIZES", "UnknownColumns", "curve_of", "read_curve", "read_curves"]
+__all__ = ["SIZES", "WORDS", "UnknownColumns", "read_curve", "read_curves"]
 
 
 def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> MeasuredCurve:
@@ -66,7 +67,8 @@ def read_curves(
     *,
     spring_constant: float | None = None,
     sensitivity: float | None = None,
-    columns: dict[str, Any] | None = None,
+    columns: dict[str, Any] | list[dict[str, Any]] | None = None,
+    by: int | str | list[int | str] | None = None,
 ) -> MeasuredCurves:
     """Read all measured curves of a file of an instrument and open the file once.
 
@@ -140,11 +142,8 @@ def read_curves(
         given["spring constant"] = _check.positive_number("spring_constant", spring_constant, unit="N/m")
     if sensitivity is not None:
         given["sensitivity"] = _check.positive_number("sensitivity", sensitivity, unit="m/V")
-    options = {
-        "columns": columns,
-        "spring_constant": given.get("spring constant"),
-        "sensitivity": given.get("sensitivity"),
-    }
+    own = {"spring_constant": given.get("spring constant"), "sensitivity": given.get("sensitivity")}
+    options = {"columns": columns or None, "by": by, "given": own}
     if suffix in (".xls", ".xlsx", ".xlsm"):
         return MeasuredCurves(path.name, None, from_workbook(path, options))
     if suffix.startswith(SUFFIXES):
@@ -153,44 +152,6 @@ def read_curves(
     refuse_binary(path, data)
     text = decoded(data)
     of_nova = suffix == ".txt" and len(given) == 2 and not re.search("[A-Za-z]", text[:1000])
-    if columns is None and (of_nova or is_afm_text(text)):
+    if not columns and (of_nova or is_afm_text(text)):
         return from_afm(path, given)
-    return MeasuredCurves(path.name, None, _of_text(text, path.name, options))
-
-
-def _of_text(text, name, options):
-    """Functions that make the curves of a text: of one table, or of each where there are several."""
-    tables = read_tables(text, name)
-    if len(tables) == 1:
-        return curves_of(tables[0][1], name, **options)
-    curves, left, refused = [], [], None
-    for number, (title, table) in enumerate(tables, 1):
-        which = f"{name}, {title or f'table {number}'}"
-        try:
-            curves += curves_of(table, which, **options)
-        except NoCurve as error:
-            left.append(f"table {number}, from line {table.lines[0]} on, is left out, as it is no curve")
-            refused = error
-        except ValueError as error:
-            curve = getattr(error, "named", len(table.lines) > 1)
-            if not curve:
-                left.append(
-                    f"table {number}, from line {table.lines[0]} on, is left out: no depth and force"
-                )
-            else:
-                # It does not stop the others.
-                curves.append(partial(_refuse, error))
-            refused = error
-    if all(make.func is _refuse for make in curves):
-        raise refused
-    return [partial(_said, make, tuple(left)) for make in curves]
-
-
-def _refuse(error):
-    raise error
-
-
-def _said(make, left):
-    """A curve that also says which tables are left out."""
-    curve = make()
-    return replace(curve, remarks=(*curve.remarks, *left))
+    return MeasuredCurves(path.name, None, curves_of_text(text, path.name, options))

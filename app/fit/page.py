@@ -14,7 +14,7 @@ from bokeh.document import Document
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 
-from mdr_core.files.text import decoded
+from mdr_core.files.table import decoded
 from mdr_core.fit.indentation import IndentationFit
 
 from ..tip import in_line, read_tip

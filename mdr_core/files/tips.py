@@ -4,7 +4,7 @@ from pathlib import Path
 
 from .. import _check
 from ..profiles.samples import LENGTHS
-from .text import decoded, read_table
+from .table import decoded, read_table
 from .units import unit_named
 
 
