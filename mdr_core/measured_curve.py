@@ -65,8 +65,8 @@ class MeasuredCurve(Record):
     #: Stiffness of the cantilever (N/m) and position on the sample (m, m), None where they are not known.
     spring_constant: float | None
     position: Array | None
-    #: Number of the column in the file, from 0 on, and unit of each quantity, "−nm" for a reversed sign; "piezo"
-    #: in the place of "depth" where it is the position of a piezo. `read_curve(path, columns=…)` takes them.
+    #: Number of the column in the file, from 0 on, and unit of each quantity, "−nm" for a reversed sign;
+    #: "piezo" in the place of "depth" for the position of one. `read_curve(path, columns=…)` takes them.
     columns: dict[str, tuple[int, str] | None]
     #: Reversed signs, corrections, and lines and columns that are left out.
     remarks: tuple[str, ...]

@@ -1,4 +1,4 @@
-"""The constants of a cantilever: given, or in the header of a file; those that a curve needs, and no others."""
+"""The constants of a cantilever, given or in the header of a file: those that a curve needs, no others."""
 
 from dataclasses import dataclass
 
@@ -10,21 +10,23 @@ from .units import COLUMN_UNITS, size_of, unit_alone
 #: Names of the constants in the headers of files, and the kinds of their units.
 _NAMES = {
     "spring_constant": ({
-        "spring constant", "springconstant", "k", "federkonstante", "constante de raideur", "constante elastica",
-        "constante de resorte", "costante elastica", "弹簧常数", "弹性常数",
+        "spring constant", "springconstant", "k", "federkonstante", "constante de raideur",
+        "constante elastica", "constante de resorte", "costante elastica", "弹簧常数", "弹性常数",
     }, "stiffness"),
     "sensitivity": ({
         "sensitivity", "deflection sensitivity", "invols", "empfindlichkeit", "sensibilité", "sensibilidad",
         "sensibilità", "灵敏度",
     }, "sensitivity"),
 }  # fmt: skip
+#: Names that stand in JPK's text without a unit, N/m and m/V.
+_OF_JPK = "springconstant", "sensitivity"
 #: What is asked for.
 _GIVE = {"spring_constant": "spring_constant= (N/m)", "sensitivity": "sensitivity= (m/V)"}
 
 
 @dataclass(frozen=True)
 class Cantilever:
-    """Stiffness (N/m) and sensitivity (m/V) of a cantilever, None for what is not known; where they are from."""
+    """Stiffness (N/m) and sensitivity (m/V) of a cantilever, None if not known, and where they are from."""
 
     stiffness: float | None = None
     sensitivity: float | None = None
@@ -67,9 +69,9 @@ def constants(table, name, layout, given):
 def _refuse_unused(name, given, needed, deflection, unit):
     if given.get("spring_constant") is not None and not needed["spring_constant"]:
         raise ValueError(
-            f"{name}: spring_constant is given, and nothing uses it: the depth of the tip stays as it is, and "
-            'the force is in units of force. Leave it out, or name the column as columns={"piezo": …} if it is '
-            "the position of a piezo"
+            f"{name}: spring_constant is given, and nothing uses it: the depth of the tip stays as it is, "
+            'and the force is in units of force. Leave it out, or give the column as columns={"piezo": …} '
+            "if it is the position of a piezo"
         )
     if given.get("sensitivity") is not None and not needed["sensitivity"]:
         what = (
@@ -109,13 +111,7 @@ def constant(header, kind, names):
                 continue
             if own == kind:
                 return number * size_of(unit)
-            if (
-                not own
-                and not text
-                and line.startswith("#")
-                and normal(left) in ("springconstant", "sensitivity")
-            ):
-                # As JPK writes it, in N/m and m/V.
+            if not own and not text and line.startswith("#") and normal(left) in _OF_JPK:
                 return number
     return None
 

@@ -19,6 +19,7 @@ _KINDS = {
     "depth": ("length",), "piezo": ("length",), "force": ("force", "length", "voltage"), "time": ("time",),
     "stiffness": ("stiffness",),
 }  # fmt: skip
+_USUAL = {"depth": "nm", "piezo": "nm", "force": "mN", "time": "s", "stiffness": "N/m"}
 #: Largest force (N) below which a displacement may be that of a piezo.
 _SMALL = 1e-5
 
@@ -38,6 +39,8 @@ def taken(table, file, given, stiffness=None):
         results = guess.scatters(table, likely) if likely else not _may_be_curve(table)
         if results and likely:
             why += " Depth and force go to and fro: a table of results is no curve"
+        if not any(table.heads.values()):
+            why += " NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)"
         raise UnknownColumns(why, table, file, _merged(suggestion, given), results=results)
     columns = given | {
         each: (k[0], table.unit(k[0])) for each, k in found.items() if len(k) == 1 and each not in given
@@ -216,7 +219,7 @@ def _one(table, each, column):
     if len(numbers) != 1 or not unit or unit.lstrip("−") not in allowed:
         first = next(iter(table.heads)) if isinstance(which, list | tuple) else which
         raise ValueError(
-            f"columns: {each} = {column!r:.80} must be the number or the name of one column of {table.heads}, "
-            f"and its unit, as in ({first!r}, {allowed[2 if each != 'time' else 1]!r}), out of {', '.join(allowed)}"
+            f"columns: {each} = {column!r:.80} must be the number or the name of one column of "
+            f"{table.heads}, and its unit, as in ({first!r}, {_USUAL[each]!r}), out of {', '.join(allowed)}"
         )
     return numbers[0], unit

@@ -2,101 +2,26 @@
 
 import numpy as np
 
-from .names import TAKEN, normal
+from .names import TAKEN, may_be_symbol, normal
 from .split import at_gaps, goes_on_side, is_path, place_of, restarts, telling
 from .units import cleaned, size_of, unit_alone
 
 #: Parts of names in several languages.
 _PARTS = {
     "depth": [
-        "depth",
-        "indent",
-        "penetr",
-        "displ",
-        "disp",
-        "tief",
-        "eindr",
-        "eindring",
-        "weg",
-        "profond",
-        "enfonc",
-        "déplac",
-        "deplac",
-        "despl",
-        "prof",
-        "glub",
-        "глуб",
-        "hloub",
-        "głęb",
-        "diept",
-        "derin",
-        "深",
-        "压入",
-        "压痕",
-        "位移",
-        "変位",
-        "깊이",
-        "separ",
-        "sep",
-        "tss",
-        "tip",
-        "abstand",
-        "height",
-        "höhe",
-        "hauteur",
-        "altura",
-        "altezza",
-        "piezo",
-        "piézo",
-        "stage",
-        "ramp",
-        "sensor",
-        "zsens",
-        "extens",
-        "stroke",
-        "travel",
-        "distance",
-        "deform",
-        "compress",
-        "stauch",
-        "verform",
-        "hub",
-        "position",
-        "pos",
-        "depress",
-        "gap",
-        "pd",
-        "spost",
-        "desloc",
+        "depth", "indent", "penetr", "displ", "disp", "tief", "eindr", "weg", "profond", "enfonc", "déplac",
+        "deplac", "despl", "spost", "desloc", "prof", "glub", "глуб", "hloub", "głęb", "diept", "derin",
+        "深", "压入", "压痕", "位移", "変位", "깊이", "separ", "sep", "tss", "tip", "abstand", "height", "höhe",
+        "hauteur", "altura", "altezza", "piezo", "piézo", "stage", "ramp", "sensor", "zsens", "extens",
+        "stroke", "travel", "distance", "deform", "compress", "stauch", "verform", "hub", "position", "pos",
+        "depress", "gap", "pd",
     ],
     "force": [
-        "force",
-        "load",
-        "kraft",
-        "last",
-        "forza",
-        "fuerza",
-        "charge",
-        "carga",
-        "carico",
-        "effort",
-        "сил",
-        "нагруз",
-        "kracht",
-        "síla",
-        "siła",
-        "kuvvet",
-        "力",
-        "荷",
-        "载",
-        "하중",
-        "fn",
-        "lf",
-        "defl",
-        "fz",
+        "force", "load", "kraft", "last", "forza", "fuerza", "charge", "carga", "carico", "effort", "сил",
+        "нагруз", "kracht", "síla", "siła", "kuvvet", "力", "荷", "载", "하중", "fn", "lf", "defl", "fz",
     ],
     "time": ["time", "zeit", "temps", "tiempo", "tempo", "时间", "時間", "시간", "врем", "čas"],
-}
+}  # fmt: skip
 _LETTERS = {
     "depth": {"h", "d", "z", "δ", "u", "w", "δh", "∆h", "δd"},
     "force": {"f", "p", "l", "δf"},
@@ -104,76 +29,17 @@ _LETTERS = {
 }
 #: Parts of names of other columns.
 _OTHER = [
-    "max",
-    "peak",
-    "min",
-    "std",
-    "dev",
-    "mean",
-    "avg",
-    "average",
-    "raw",
-    "error",
-    "noise",
-    "set",
-    "target",
-    "rate",
-    "contact",
-    "plastic",
-    "residual",
-    "resid",
-    "lateral",
-    "fric",
-    "drift",
-    "offset",
-    "volt",
-    "status",
-    "temp",
-    "area",
-    "radius",
-    "x-pos",
-    "y-pos",
-    "pos_x",
-    "pos_y",
-    "squared",
-    "mittel",
-    "médi",
-    "moyen",
-    "最大",
-    "平均",
-]
+    "max", "peak", "min", "std", "dev", "mean", "avg", "average", "raw", "error", "noise", "set", "target",
+    "rate", "contact", "plastic", "residual", "resid", "lateral", "fric", "drift", "offset", "volt",
+    "status", "temp", "area", "radius", "x-pos", "y-pos", "pos_x", "pos_y", "squared", "mittel", "médi", "moyen",
+    "最大", "平均",
+]  # fmt: skip
 #: Parts of names of positions, from which the deflection of a cantilever is subtracted.
 _POSITION = [
-    "piezo",
-    "piézo",
-    "height",
-    "höhe",
-    "hauteur",
-    "altura",
-    "stage",
-    "ramp",
-    "sens",
-    "scan",
-    "z",
-    "zpos",
-    "ext",
-    "stroke",
-    "travel",
-    "pos",
-    "hub",
-    "weg",
-    "drive",
-    "motor",
-    "raw",
-    "actuator",
-    "lvdt",
-    "verfahr",
-    "stell",
-    "déplac",
-    "样品台",
-    "ピエゾ",
-    "压电",
-]
+    "piezo", "piézo", "height", "höhe", "hauteur", "altura", "stage", "ramp", "sens", "scan", "z", "zpos",
+    "ext", "stroke", "travel", "pos", "hub", "weg", "drive", "motor", "raw", "actuator", "lvdt", "verfahr",
+    "stell", "déplac", "样品台", "ピエゾ", "压电",
+]  # fmt: skip
 #: Labels of parts of one record.
 _OF_ONE = "cycle", "loop", "segment", "step", "zyklus", "zyklen", "schritt", "phase"
 #: Largest force (N) of an instrument that may have a cantilever.
@@ -181,12 +47,12 @@ _SMALL = 1e-5
 #: Beginnings of words that scale, or change, what stands beside them.
 _SCALING = (
     "pico", "piko", "nano", "micro", "mikro", "milli", "kilo", "mega", "deca", "deci", "tenth", "hundred",
-    "thousand", "million", "log", "sqrt", "squared", "norm", "scaled",
+    "thousand", "million", "log", "sqrt", "squared", "normali", "scaled", "half", "div", "double", "twice",
 )  # fmt: skip
 
 
 def columns(table, stiffness=None):
-    """Columns of depth (or piezo), force and time, as `columns=`; or a list of several such pairs; or {}."""
+    """Columns of depth (or piezo), force and time, as `columns=`; a list of several such pairs; or {}."""
     found, used = {}, set()
     for each in ("force", "depth", "time"):
         scores = {k: _score(each, table, k) for k in table.heads if k not in used}
@@ -239,7 +105,7 @@ def by(table, given, rows):
 
 
 def scaled(head):
-    """Whether a number or a prefix in a header may scale its unit: any but that of a name, as in "Test 2"."""
+    """Whether a number or a prefix in a header may scale its unit: any but that of a name, as "Test 2"."""
     words = _words(head)
     if any(_scales(word) or (word.lower().startswith(_SCALING) and not unit_alone(word)) for word in words):
         return True
@@ -268,12 +134,15 @@ def _unit_in(table, column):
     _, kind, unit = table.parted(column)
     if kind:
         return kind, unit
-    found = [unit_alone(word) for word in _words(table.heads[column])[1:] if word != "h"]
+    words = _words(table.heads[column])
+    if may_be_symbol(table.heads[column], tuple(table.heads.values())):
+        return "", ""
+    found = [unit_alone(word) for word in words[1:] if word != "h"]
     return next(filter(None, reversed(found)), ("", ""))
 
 
 def _unit(table, column, each):
-    """Plain unit of a column where it is of the kind that a quantity has and nothing scales it, else "?"."""
+    """Plain unit of a column if it is of the kind that a quantity has and nothing scales it, else "?"."""
     kind, unit = _unit_in(table, column)
     kinds = {TAKEN[each][0]} | ({"length", "voltage"} if each == "force" else set())
     return unit if kind in kinds and not scaled(table.heads[column]) else "?"
@@ -287,8 +156,9 @@ def _score(each, table, column):
     if kind and kind != wanted and not deflection:
         return 0
     first = [word.rstrip("0123456789") for word in normal(low).split()[:1]]
-    score = 4 * (kind == wanted) + 4 * (name.rstrip("0123456789 ") in TAKEN[each][1])
-    score += 3 * (not _LETTERS[each].isdisjoint(first)) + 2 * any(part in low for part in _PARTS[each])
+    exact = name.rstrip("0123456789 ") in TAKEN[each][1]
+    likely = 3 * (not _LETTERS[each].isdisjoint(first)) + 2 * any(part in low for part in _PARTS[each])
+    score = 4 * (kind == wanted) + (6 if exact else likely)
     if each == "depth" and ("defl" in low or "cantilever" in low):
         score -= 3
     other = any(part in low for part in _PARTS["force" if each == "depth" else "depth"])
@@ -308,7 +178,7 @@ def _best(scores, least, time):
 
 
 def _called(table, depth, force, stiffness):
-    """Whether a column looks like the depth of the tip, "depth", or like the position of a piezo, "piezo"."""
+    """Whether a column looks like the depth of the tip, "depth", or the position of a piezo, "piezo"."""
     name, head = table.parted(depth)[0], normal(cleaned(table.heads[depth][:200]))
     if name in TAKEN["depth"][1]:
         return "depth"

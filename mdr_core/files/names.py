@@ -10,8 +10,8 @@ from .units import cleaned, unit_alone
 
 #: Longest header that is looked at.
 _LONGEST = 80
-#: Names of the depth of the tip in the sample, of any instrument. KLA: "displacement into surface"; Optics11:
-#: "indentation"; Anton Paar: "pd", "penetration depth"; Hysitron: "depth".
+#: Names of the depth of the tip in the sample, of any instrument. KLA: "displacement into surface";
+#: Optics11: "indentation"; Anton Paar: "pd", "penetration depth"; Hysitron: "depth".
 DEPTH = {
     "depth", "indentation depth", "penetration depth", "indentation", "penetration", "pd",
     "displacement into surface", "depth of indentation", "depth of penetration", "contact displacement",
@@ -59,20 +59,28 @@ def parted(head, cell=""):
             name, _, inner = text[:-1].rpartition(opening)
             unit = unit_alone(inner)
             return (normal(name), *unit) if unit else (normal(text), "", "")
+    name, sign, unit = _ended(text)
+    return (normal(name).removesuffix(" in"), *unit) if sign else (normal(text), "", "")
+
+
+def _ended(text):
+    """Name, sign and unit of a text that ends in a sign and a plain unit; without one the text alone."""
     for sign in ("/", ",", ":", "_", " "):
         name, found, last = text.rpartition(sign)
         unit = unit_alone(last)
-        if found and unit and _ends_with_unit(name.strip(), sign, *unit):
-            return normal(name).removesuffix(" in"), *unit
-    return normal(text), "", ""
+        # "mN/s" is no time.
+        if found and unit and not (sign == "/" and (not name.split() or unit_alone(name.split()[-1]))):
+            return name, sign, unit
+    return text, "", ("", "")
 
 
-def _ends_with_unit(name, sign, kind, unit):
-    """Whether what stands behind a sign is the unit: not in "mN/s", nor in "F_N", which is a symbol."""
-    if sign == "/":
-        return bool(name) and not unit_alone(name.split()[-1])
-    symbol = sign == "_" and len(name) == 1 and len(unit) == 1 and kind in ("length", "force")
-    return not symbol
+@lru_cache(maxsize=4096)
+def may_be_symbol(head, others):
+    """Whether what ends a header may be an index, no unit, as in "F_N", as no other header has its form."""
+    name, sign, (kind, unit) = _ended(cleaned(head[:_LONGEST]).strip(" \"'#"))
+    if len(name.strip()) != 1 or len(unit) != 1 or kind not in ("length", "force"):
+        return False
+    return all(_ended(cleaned(other[:_LONGEST]))[1] != sign for other in others if other != head)
 
 
 def is_result(head):

@@ -25,8 +25,8 @@ def refuse_large(path, sheets=None):
     unpacked = sum(each.file_size for each in inside)
     if unpacked > _UNPACKED and (sheets is not None or unpacked > _RATIO * size):
         raise ValueError(
-            f"{path.name} unpacks to {unpacked / 1e9:.3g} GB, and at most {_UNPACKED / 1e9:g} GB are read: save "
-            "the curve as a CSV table"
+            f"{path.name} unpacks to {unpacked / 1e9:.3g} GB, and at most {_UNPACKED / 1e9:g} GB are read: "
+            "save the curve as a CSV table"
         )
     count = sum(each.filename.startswith("xl/worksheets/") for each in inside)
     if sheets is not None and count > sheets:

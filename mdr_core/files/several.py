@@ -31,7 +31,7 @@ def curves_of_text(text, file, options):
 
 
 def curves_of_tables(tables, file, options):
-    """Functions that make the curves of tables, each read plainly, as told, or asked about when it is taken.
+    """Functions that make the curves of tables, read plainly, as told, or asked about when they are taken.
 
     What is told holds for the tables with the heads and units of the one that is asked about: the first one
     that is not plain, or the first one that has the columns that are told by their names. Tables of results
@@ -53,7 +53,7 @@ def curves_of_tables(tables, file, options):
         if isinstance(outcome, list):
             makers += outcome
         elif any(wanted) and _no_curve(outcome):
-            left.append(f"{table.name} is left out, as it has no curve")
+            left.append(f"{table.name!r} is left out, as it has no curve")
         else:
             makers.append(partial(_refuse, _for_pasting(outcome, table, tables, first)))
     if all(make.func is _refuse for make in makers):
@@ -94,7 +94,7 @@ def _key_of_told(tables, plain, columns):
 
 
 def _for_pasting(error, table, tables, first):
-    """A question whose suggestion names the columns where their numbers would be taken for another table's."""
+    """A question whose suggestion names the columns, if their numbers would be another table's."""
     if not isinstance(error, UnknownColumns) or table.key == tables[first].key or not error.suggestion:
         return error
 

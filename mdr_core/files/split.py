@@ -67,7 +67,8 @@ def has_path(table):
     for values in table.values.values():
         good = values[np.isfinite(values)]
         steps = np.diff(good)
-        if good.size >= 2 * FEWEST and np.abs(steps).sum() <= max(_TURNS, _SCATTER * good.size) * np.ptp(good):
+        most = max(_TURNS, _SCATTER * good.size) * np.ptp(good) if good.size else 0.0
+        if good.size >= 2 * FEWEST and np.abs(steps).sum() <= most:
             paths += np.ptp(good) > 0
             bent += np.ptp(steps) > 0.1 * np.abs(steps).max() and 2 * np.unique(good).size > good.size
     return paths > 1 and bent > 0

@@ -9,11 +9,11 @@ from math import isfinite
 import numpy as np
 
 from .._check import Array
-from .names import parted
+from .names import may_be_symbol, normal, parted
 from .numbers import number_reader, numeric, with_comma
 from .units import cleaned, unit_alone
 
-#: Largest number of characters of a line, of a line that is searched for names and constants, and of columns.
+#: Most characters of a line, and of one that is searched for names and constants; most columns.
 _LONGEST_LINE, LONGEST_HEADER, _MOST_COLUMNS = 10_000, 2_000, 1_000
 #: Most lines above the rows in which names are looked for.
 _ABOVE = 8
@@ -21,9 +21,10 @@ _BRACKETS = " ()[]{}<>/"
 #: Words before the names or units of the columns.
 _LABELS = {"units", "columns", "names", "fields", "channels"}
 #: Units of other quantities, in small letters.
-_OTHER_UNITS = set(
-    "pa kpa mpa gpa nm/s µm/s um/s mn/s µn/s un/s 1/s hz khz % c °c k deg ° rad j nj µj nm^2 µm^2 um^2 - a.u.".split()
-)
+_OTHER_UNITS = {
+    "pa", "kpa", "mpa", "gpa", "nm/s", "µm/s", "um/s", "mn/s", "µn/s", "un/s", "1/s", "hz", "khz", "%", "c",
+    "°c", "k", "deg", "°", "rad", "j", "nj", "µj", "nm^2", "µm^2", "um^2", "-", "a.u.",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +50,9 @@ class Table:
 
     def parted(self, column):
         """Name of a column, and kind and name of its unit."""
-        cell = self.units.get(column, "")
-        head = self.heads[column]
+        cell, head = self.units.get(column, ""), self.heads[column]
+        if not cell and may_be_symbol(head, tuple(self.heads.values())):
+            return normal(head), "", ""
         return parted(head.removesuffix(cell).strip() if cell else head, cell)
 
     def unit(self, column):
@@ -184,17 +186,17 @@ def _cells(line):
     return [cell.strip() for cell in line.replace('"', "").split(",")]
 
 
-def _head_cells(line, width):
-    """Cells of a line of a header, `width` of them, or None."""
-    line = line.lstrip("#%/; ").rstrip(" ")
+def _head_cells(line, width, open_end=True):
+    """Cells of a line of a header, `width` of them, or None; `open_end`: rows end in a separator."""
+    line = line.lstrip("#%/ ").rstrip(" ")
     label, found, after = line.partition(":")
     if found and label.strip().lower() in _LABELS:
         line = after
     splits = [_cells(line)]
     if "," in line:
         splits.append([cell.strip() for cell in line.split(",")])
-    # Rows or header may end in a separator.
-    splits += [[*cells, ""] for cells in splits[:1] if "\t" in line or ";" in line]
+    # Where the rows end in a separator, the header need not; else a name lacks, perhaps the first one.
+    splits += [[*cells, ""] for cells in splits[:1] if open_end and ("\t" in line or ";" in line)]
     splits += [cells[:-1] for cells in splits if cells and not cells[-1]]
     if not any(sign in line for sign in "\t;,|"):
         splits.append([cell.strip(' "') for cell in line.replace("  ", "\t").split("\t") if cell.strip()])
@@ -207,11 +209,12 @@ def _table(lines, gaps, name, limit):
     """`Table` of lines."""
     width, first = _begin(lines, name)
     header = [line.text for line in lines[:first]]
-    names, units = _heads([line.text for line in lines[:first] if not line.width], width)
+    rows = _rows(lines[first:], width)
+    open_end = not any(line.cells[-1] for line in rows)
+    names, units = _heads([line.text for line in lines[:first] if not line.width], width, open_end)
     if not any(names):
         _refuse_decimal_commas(header, width, f"{name}, line {lines[first].number}")
     heads = [f"{name} {unit}".strip() for name, unit in zip(names, units, strict=True)]
-    rows = _rows(lines[first:], width)
     if len(rows) > limit:
         raise ValueError(f"{name}: more than {limit} samples; give fewer samples")
     values = np.array([line.values for line in rows])
@@ -268,11 +271,11 @@ def _has_numbers(known, column, lines):
     )
 
 
-def _heads(header, width):
+def _heads(header, width, open_end):
     """Names of the columns, and their units in a line of its own: the lines nearest to the rows."""
     near = []
     for line in [line for line in header if any(map(str.isalpha, line))][: -_ABOVE - 1 : -1]:
-        cells = _head_cells(line, width)
+        cells = _head_cells(line, width, open_end)
         if cells is not None and 2 * sum(map(numeric, cells)) <= sum(map(bool, cells)):
             near.append(cells)
     nothing = [""] * width
@@ -285,18 +288,19 @@ def _heads(header, width):
 
 
 def _are_units(cells):
-    """Whether most cells of a line are units, and one of them of more than a letter."""
+    """Whether most cells of a line are units, one of them of more than a letter; or all are."""
     cells = [cleaned(cell[:80]).strip(_BRACKETS) for cell in cells]
     cells = [cell for cell in cells if cell]
     units = [cell for cell in cells if unit_alone(cell) or cell.lower() in _OTHER_UNITS]
-    return any(len(cell) > 1 for cell in units) and 2 * len(units) >= len(cells)
+    longer = any(len(cell) > 1 for cell in units) and 2 * len(units) >= len(cells)
+    return longer or 1 < len(units) == len(cells)
 
 
 def _refuse_decimal_commas(header, width, place):
     """Refuse rows that have more cells than the header has names with units, as "1,5,2,3" has."""
     line = header[-1] if header else ""
     count = sum(bool(parted(cell.strip())[2]) for cell in line[:LONGEST_HEADER].split(","))
-    if 1 < count < width and count == line.count(",") + 1:
+    if count > 1 and width == 2 * count and count == line.count(",") + 1:
         names = "two" if count == 2 else count
         raise ValueError(
             f"{place}: expected {names} numbers, as the header names {names} units, found {width}; "

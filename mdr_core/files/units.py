@@ -1,4 +1,4 @@
-"""Plain units of columns: symbols and their English words. Nothing that scales a unit is understood here."""
+"""Plain units of columns: symbols and their English words. Nothing that scales a unit is understood."""
 
 import unicodedata
 from functools import lru_cache
@@ -43,7 +43,7 @@ _WORDS = {
 _SYMBOLS = {name: (kind, name) for kind, sizes in COLUMN_UNITS.items() for name in sizes}
 _SYMBOLS |= {name.replace("µ", "u"): known for name, known in _SYMBOLS.items()}
 _BY_WORD = {word: _SYMBOLS[name] for word, name in _WORDS.items() if name in _SYMBOLS}
-#: µ as other encodings leave it: UTF-8, GBK, Shift-JIS and EUC-KR read as Windows-1252; and as TeX and HTML.
+#: µ as other encodings leave it, UTF-8, GBK, Shift-JIS and EUC-KR read as Windows-1252; as TeX and HTML.
 _MU = ("Âµ", "Î¼", "¦Ì", "ƒÊ", "¥ì", "μ", "$\\mu$", "\\mu", "&micro;")
 _DASHES = str.maketrans("−–—‐‑", "-----")
 

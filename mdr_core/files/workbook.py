@@ -56,8 +56,8 @@ def _text(path, name, rows):
         lines.append(line)
         if line and width * len(lines) > _CELLS:
             raise _TooLarge(
-                f"{path.name}, {name}: {len(lines)} rows times {width} columns are more than {_CELLS} cells; "
-                "save the columns of the curve as a CSV table"
+                f"{path.name}, {name}: {len(lines)} rows times {width} columns are more than {_CELLS} "
+                "cells; save the columns of the curve as a CSV table"
             )
     # A row that ends in empty cells has as many as the others.
     return "\n".join(line + "\t" * (width - 1 - line.count("\t")) if line else "" for line in lines)

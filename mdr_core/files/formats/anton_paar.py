@@ -24,7 +24,8 @@ def curves(text, file, given):
     layouts = {test: layout for test, layout in tests.items() if {"depth", "force"} <= layout.keys()}
     if not layouts:
         raise LookupError("no test has depth and force")
+    source = "as Anton Paar's export has them"
     return [
-        curve_maker(trimmed(table, layout), f"{file}, {test}", layout, given, "as Anton Paar's export has them")
+        curve_maker(trimmed(table, layout), f"{file}, {test}", layout, given, source)
         for test, layout in layouts.items()
     ]  # fmt: skip

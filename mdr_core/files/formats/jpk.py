@@ -8,10 +8,10 @@ from ..units import unit_named
 
 #: Channels of the depth of the tip and of the position of the piezo, the best first, and of times.
 _PLACES = [
-    ("depth", "tipSampleSeparation"), ("depth", "smoothedTipSampleSeparation"), ("depth", "verticalTipPosition"),
-    ("piezo", "smoothedMeasuredHeight"), ("piezo", "measuredHeight"), ("piezo", "smoothedStrainGaugeHeight"),
-    ("piezo", "strainGaugeHeight"), ("piezo", "smoothedCapacitiveSensorHeight"),
-    ("piezo", "capacitiveSensorHeight"), ("piezo", "height"),
+    ("depth", "tipSampleSeparation"), ("depth", "smoothedTipSampleSeparation"),
+    ("depth", "verticalTipPosition"), ("piezo", "smoothedMeasuredHeight"), ("piezo", "measuredHeight"),
+    ("piezo", "smoothedStrainGaugeHeight"), ("piezo", "strainGaugeHeight"),
+    ("piezo", "smoothedCapacitiveSensorHeight"), ("piezo", "capacitiveSensorHeight"), ("piezo", "height"),
 ]  # fmt: skip
 _TIMES = "seriesTime", "time", "segmentTime"
 _SEGMENTS = {"extend": "approach", "retract": "retract", "pause": "hold"}

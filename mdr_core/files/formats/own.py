@@ -1,4 +1,4 @@
-"""Files that this package and its pages write, in SI: curves, and what is no curve and is refused as that."""
+"""Files that this package and its pages write, in SI: curves, and others that are refused."""
 
 import numpy as np
 
@@ -15,8 +15,8 @@ _OTHERS = {
     "fit to": "the numbers of a fit; its JSON file has the samples",
     "curves of": "the moduli of a map",
 }
-#: Names of the rows of a result in `to_pandas`, and largest depth (m) and force (N) of one: numbers in nm are
-#: larger, so that a table of others with these names is asked about.
+#: Names of the rows of a result in `to_pandas`, and largest depth (m) and force (N) of one: numbers in nm
+#: are larger, so that a table of others with these names is asked about.
 _ROWS = {"state", "sample", "time", "path", "curve"}
 _DEEPEST, _STRONGEST = 1e-3, 1e6
 #: Quantities of a curve, by the heads of the columns in both kinds of file.

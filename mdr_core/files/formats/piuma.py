@@ -1,4 +1,4 @@
-"""Text of Optics11's Piuma: settings, and a table that begins with "Time (s)\\tLoad (uN)\\tIndentation (nm)"."""
+"""Text of Optics11's Piuma: settings, and a table that begins with time, load and indentation."""
 
 from dataclasses import replace
 
@@ -18,7 +18,7 @@ def body(text):
 
 
 def curves(text, file, given):
-    """The one curve; its indentation is the depth, and the stiffness of the cantilever is in the settings."""
+    """The one curve: its depth is the indentation; the stiffness of the cantilever is in the settings."""
     header, _, _ = text.partition(_TABLE)
     table = read_table(body(text), file)
     above = header.count("\n")
