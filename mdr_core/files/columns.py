@@ -53,7 +53,6 @@ def taken(table, file, given, stiffness=None):
         raise UnknownColumns(why, table, file, _with_by(table, columns))
     if not {"depth", "piezo"} & given.keys():
         _ask_for_piezo(table, file, columns, stiffness)
-    _ask_for_results(table, file, columns)
     return columns
 
 
@@ -158,7 +157,7 @@ def _ask_for_piezo(table, file, columns, stiffness):
     raise UnknownColumns(why, table, file, _with_by(table, given))
 
 
-def _ask_for_results(table, file, columns):
+def ask_for_results(table, file, columns):
     """Ask where the rows may be tests, not the samples of one."""
     depth, force = (table.values[k] for k in (place_of(columns), columns["force"][0]))
     others = [head for head in table.heads.values() if is_result(head)]

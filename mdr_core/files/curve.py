@@ -8,7 +8,7 @@ import numpy as np
 from .. import _check
 from ..measured_curve import MeasuredCurve, named_segments, segments_of
 from .cantilever import constants
-from .columns import ask_for_parts, plain_beside, taken, told
+from .columns import ask_for_parts, ask_for_results, plain_beside, taken, told
 from .split import WORDS, joined, parts, place_of, several
 from .units import COLUMN_UNITS, size_of
 
@@ -35,8 +35,10 @@ def curves_of(table, file, columns=None, by=None, given=None):
         layout = taken(table, file, layout, given.get("spring_constant"))
     if by is None:
         ask_for_parts(table, file, layout)
-    found = []
+    plain, found = not {"force"} < (columns or {}).keys(), []
     for label, part in parts(table, by, layout):
+        if plain:
+            ask_for_results(part, file, layout)
         if by not in (None, *WORDS) and several(part, layout):
             # The column does not tell all of them apart.
             ask_for_parts(table, file, layout)

@@ -11,10 +11,10 @@ _PARTS = {
     "depth": [
         "depth", "indent", "penetr", "displ", "disp", "tief", "eindr", "weg", "profond", "enfonc", "déplac",
         "deplac", "despl", "spost", "desloc", "prof", "glub", "глуб", "hloub", "głęb", "diept", "derin",
-        "深", "压入", "压痕", "位移", "変位", "깊이", "separ", "sep", "tss", "tip", "abstand", "height", "höhe",
-        "hauteur", "altura", "altezza", "piezo", "piézo", "stage", "ramp", "sensor", "zsens", "extens",
-        "stroke", "travel", "distance", "deform", "compress", "stauch", "verform", "hub", "position", "pos",
-        "depress", "gap", "pd",
+        "separ", "sep", "tss", "tip", "abstand", "height", "höhe", "hauteur", "altura", "altezza", "piezo",
+        "piézo", "stage", "ramp", "sensor", "zsens", "extens", "stroke", "travel", "distance", "deform",
+        "compress", "stauch", "verform", "hub", "position", "pos", "depress", "gap", "pd",
+        "深", "压入", "压痕", "位移", "変位", "깊이",
     ],
     "force": [
         "force", "load", "kraft", "last", "forza", "fuerza", "charge", "carga", "carico", "effort", "сил",
@@ -31,8 +31,8 @@ _LETTERS = {
 _OTHER = [
     "max", "peak", "min", "std", "dev", "mean", "avg", "average", "raw", "error", "noise", "set", "target",
     "rate", "contact", "plastic", "residual", "resid", "lateral", "fric", "drift", "offset", "volt",
-    "status", "temp", "area", "radius", "x-pos", "y-pos", "pos_x", "pos_y", "squared", "mittel", "médi", "moyen",
-    "最大", "平均",
+    "status", "temp", "area", "radius", "x-pos", "y-pos", "pos_x", "pos_y", "squared", "mittel", "médi",
+    "moyen", "最大", "平均",
 ]  # fmt: skip
 #: Parts of names of positions, from which the deflection of a cantilever is subtracted.
 _POSITION = [

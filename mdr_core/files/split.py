@@ -62,7 +62,7 @@ def is_path(depth, force):
 
 
 def has_path(table):
-    """Whether two columns go along a path, one of them not in equal steps or stairs, as settings of a map do."""
+    """Whether two columns go along a path, and one of them not in equal steps or stairs, as a map's do."""
     paths, bent = 0, 0
     for values in table.values.values():
         good = values[np.isfinite(values)]
