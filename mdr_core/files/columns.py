@@ -34,8 +34,8 @@ def taken(table, file, given, stiffness=None):
     found = _exact(table, given)
     why = _lacking(found) or _second_set(table, found, given)
     if why:
-        suggestion = guess.whole(table, stiffness)
         likely = guess.columns(table, stiffness)
+        suggestion = guess.whole(table, likely)
         results = guess.scatters(table, likely) if likely else not _may_be_curve(table)
         if results and likely:
             why += " Depth and force go to and fro: a table of results is no curve"

@@ -29,18 +29,17 @@ def curves_of(table, file, columns=None, by=None, given=None):
             f"by = 'segments' parts nothing in {name}: give a list of columns, one dict for each part"
         )
     layout, source = told(table, name, columns or {}), "as told" if columns else "by its header"
-    if "force" in layout and {"depth", "piezo"} & layout.keys():
-        layout = {each: c for each, c in (layout | plain_beside(table, layout)).items() if c}
+    by_person = "force" in layout and bool({"depth", "piezo"} & layout.keys())
+    if by_person:
+        layout = {each: column for each, column in (layout | plain_beside(table, layout)).items() if column}
     else:
         layout = taken(table, file, layout, given.get("spring_constant"))
-    if by is None:
-        ask_for_parts(table, file, layout)
-    plain, found = not {"force"} < (columns or {}).keys(), []
+    found = []
     for label, part in parts(table, by, layout):
-        if plain:
+        if not by_person:
             ask_for_results(part, file, layout)
-        if by not in (None, *WORDS) and several(part, layout):
-            # The column does not tell all of them apart.
+        if by is None or (by not in [*WORDS] and several(part, layout)):
+            # Also where a column does not tell all of them apart.
             ask_for_parts(table, file, layout)
         found.append(curve_maker(part, f"{name}, {label}" if label else name, layout, given, source))
     return found

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .names import TAKEN, may_be_symbol, normal
+from .names import TAKEN, normal
 from .split import at_gaps, goes_on_side, is_path, place_of, restarts, telling
 from .units import cleaned, size_of, unit_alone
 
@@ -44,6 +44,8 @@ _POSITION = [
 _OF_ONE = "cycle", "loop", "segment", "step", "zyklus", "zyklen", "schritt", "phase"
 #: Largest force (N) of an instrument that may have a cantilever.
 _SMALL = 1e-5
+#: Most pairs that are found by what their names share.
+_MOST = 100
 #: Beginnings of words that scale, or change, what stands beside them.
 _SCALING = (
     "pico", "piko", "nano", "micro", "mikro", "milli", "kilo", "mega", "deca", "deci", "tenth", "hundred",
@@ -71,9 +73,8 @@ def columns(table, stiffness=None):
     return layouts if len(layouts) > 1 else layouts[0]
 
 
-def whole(table, stiffness=None):
-    """Columns as `columns` finds them, with `by` where they are parts of a curve, or several curves."""
-    given = columns(table, stiffness)
+def whole(table, given):
+    """A suggestion of columns as `columns` finds them, with `by` for parts of a curve or several curves."""
     if not given or scatters(table, given):
         return {}
     if isinstance(given, list):
@@ -135,7 +136,8 @@ def _unit_in(table, column):
     if kind:
         return kind, unit
     words = _words(table.heads[column])
-    if may_be_symbol(table.heads[column], tuple(table.heads.values())):
+    if len(words) == 2 and len(words[0]) == len(words[1]) == 1:
+        # "F_N" may be a symbol.
         return "", ""
     found = [unit_alone(word) for word in words[1:] if word != "h"]
     return next(filter(None, reversed(found)), ("", ""))
@@ -196,6 +198,8 @@ def _called(table, depth, force, stiffness):
 
 def _paired(table, depths, forces):
     """Pairs of a depth and a force: by what their names share, else in their order."""
+    if len(depths) == len(forces) > _MOST:
+        return list(zip(depths, forces, strict=True))
     if len(depths) == len(forces):
         names = {k: set(normal(table.heads[k]).replace("h ", " ").split()) for k in (*depths, *forces)}
         pairs, left = [], list(forces)

@@ -74,13 +74,15 @@ def _ended(text):
     return text, "", ("", "")
 
 
-@lru_cache(maxsize=4096)
-def may_be_symbol(head, others):
-    """Whether what ends a header may be an index, no unit, as in "F_N", as no other header has its form."""
-    name, sign, (kind, unit) = _ended(cleaned(head[:_LONGEST]).strip(" \"'#"))
-    if len(name.strip()) != 1 or len(unit) != 1 or kind not in ("length", "force"):
-        return False
-    return all(_ended(cleaned(other[:_LONGEST]))[1] != sign for other in others if other != head)
+def symbols_in(heads):
+    """Headers that end in what may be an index, no unit, as "F_N", as no other header has its form."""
+    ends = {head: _ended(cleaned(head[:_LONGEST]).strip(" \"'#")) for head in heads}
+    signs = [sign for _, sign, _ in ends.values()]
+    return {
+        head
+        for head, (name, sign, (kind, unit)) in ends.items()
+        if len(name.strip()) == len(unit) == 1 and kind in ("length", "force") and signs.count(sign) == 1
+    }
 
 
 def is_result(head):

@@ -3,13 +3,14 @@
 import csv
 from collections import Counter
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import pairwise
 from math import isfinite
 
 import numpy as np
 
 from .._check import Array
-from .names import may_be_symbol, normal, parted
+from .names import normal, parted, symbols_in
 from .numbers import number_reader, numeric, with_comma
 from .units import cleaned, unit_alone
 
@@ -50,10 +51,18 @@ class Table:
 
     def parted(self, column):
         """Name of a column, and kind and name of its unit."""
-        cell, head = self.units.get(column, ""), self.heads[column]
-        if not cell and may_be_symbol(head, tuple(self.heads.values())):
-            return normal(head), "", ""
-        return parted(head.removesuffix(cell).strip() if cell else head, cell)
+        return self._parted[column]
+
+    @cached_property
+    def _parted(self):
+        symbols = symbols_in(self.heads.values())
+        found = {}
+        for column, head in self.heads.items():
+            cell = self.units.get(column, "")
+            symbol = not cell and head in symbols
+            name = head.removesuffix(cell).strip() if cell else head
+            found[column] = (normal(head), "", "") if symbol else parted(name, cell)
+        return found
 
     def unit(self, column):
         """Plain unit of a column, as in `COLUMN_UNITS`; else the empty text."""
