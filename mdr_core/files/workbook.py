@@ -50,6 +50,9 @@ def _text(path, name, rows):
     """Rows of cells as text."""
     lines, width = [], 0
     for row in rows:
+        if not row:
+            lines.append("")
+            continue
         cells = ["" if cell is None else " ".join(str(cell).split()) for cell in row]
         line = "\t".join(cells).rstrip("\t")
         width = max(width, line.count("\t") + 1)
