@@ -68,10 +68,14 @@ def _ended(text):
     for sign in ("/", ",", ":", "_", " "):
         name, found, last = text.rpartition(sign)
         unit = unit_alone(last)
-        # "mN/s" is no time.
-        if found and unit and not (sign == "/" and (not name.split() or unit_alone(name.split()[-1]))):
+        if found and unit and not (sign == "/" and _is_compound(name.split())):
             return name, sign, unit
     return text, "", ("", "")
+
+
+def _is_compound(words):
+    """Whether what stands before a slash ends in a unit, as in "Load mN/s"; "h/nm" is a name and its unit."""
+    return not words or (words != ["h"] and unit_alone(words[-1]) is not None)
 
 
 def symbols_in(heads):

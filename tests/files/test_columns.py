@@ -26,7 +26,7 @@ def table(*heads, columns=(NM, MN), between=";"):
         ("Depth (nm)", "Load (mN)"), ("depth_nm", "force_mN"), ("h [nm]", "P [mN]"), ("h / nm", "F / mN"),
         ("Depth, nm", "Load, mN"), ("Depth in nm", "Load in mN"), ("Displacement Into Surface nm", "Load mN"),
         ("Indentation depth (nanometers)", "Normal force (millinewton)"), ("Penetration {nm}", "Fn <mN>"),
-        ("PD(nm)", "Applied Load(mN)"), ("h_nm", "P_mN"),
+        ("PD(nm)", "Applied Load(mN)"), ("h_nm", "P_mN"), ("h/nm", "F/mN"),
     ],
 )  # fmt: skip
 def test_exact_names_with_a_plain_unit_are_taken(write, heads):

@@ -77,5 +77,3 @@ def test_a_line_of_units_may_have_some_that_are_not_known(write):
     curve = mdr.read_curve(write(content))
     assert_curve(curve)
     assert curve.columns["time"] == (6, "s")
-
-
