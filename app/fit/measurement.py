@@ -3,10 +3,11 @@
 Arguments and answers are numbers, texts, arrays and objects of `mdr_core`, which can be sent.
 """
 
+import json
 import logging
 import warnings
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -73,32 +74,64 @@ def first_and_last(taken: Samples, count: int, part: str) -> tuple[int, int]:
 # Jobs of the process: each is called with what can be sent.
 
 
+@dataclass(frozen=True)
+class Question:
+    """What is asked about a file: in words, the first rows of its table, and what is suggested.
+
+    `preview` has depth (m) and force (N) of the first curve as it is suggested, None if it lacks something.
+    """
+
+    why: str
+    table: Any
+    suggestion: dict[str, Any]
+    preview: tuple[np.ndarray, np.ndarray] | None = None
+
+
 @lru_cache(maxsize=1)
-def _curves(path: str, given: tuple[tuple[str, Any], ...]) -> MeasuredCurves:
-    return mdr.read_curves(path, **{name: dict(v) if name == "columns" else v for name, v in given})
+def _curves(path: str, given: str) -> MeasuredCurves:
+    return mdr.read_curves(path, **json.loads(given))
 
 
 def opened(path: str, given: dict[str, Any]) -> MeasuredCurves:
     """The curves of a file, which is read once for all of them."""
-    if given.get("columns"):
-        given = given | {"columns": tuple(given["columns"].items())}
-    return _curves(path, tuple(given.items()))
+    return _curves(path, json.dumps(given))
 
 
 def read(path: str, given: dict[str, Any], number: int) -> Any:
-    """One curve of a file and how many it has, or the table whose columns are to be told."""
+    """One curve of a file, or the question about it, and how many curves the file has.
+
+    Of the table the heads and three rows are kept.
+    """
+    count = 0
     try:
         curves = opened(path, given)
-        if number >= len(curves):
-            raise ValueError(f"the file has {len(curves)} curves, and no curve {number + 1}")
-        return curves[number], len(curves)
+        count = len(curves)
+        if number >= count:
+            raise ValueError(f"the file has {count} curves, and no curve {number + 1}")
+        curve = curves[number]
+        return replace(curve, table=curve.table.few()), count
     except UnknownColumns as error:
-        return error.table, 0
+        preview = _preview(path, given, error)
+        return Question(error.why, error.table.few(), error.suggestion, preview), count
     except (ValueError, ImportError, MemoryError):
         raise
     except Exception as error:
         # What packages raise about a damaged file.
         raise ValueError(f"{Path(path).name} cannot be read: {type(error).__name__}, {error}") from error
+
+
+def _preview(path: str, given: dict[str, Any], error: UnknownColumns) -> Any:
+    """Depth and force of the first curve that has the columns of a suggestion, or None."""
+    if not error.complete:
+        return None
+    try:
+        for curve in mdr.read_curves(path, **(given | error.suggestion)):
+            if curve.table.heads == error.table.heads or len(error.suggestion) > 1:
+                taken = samples(curve)
+                return taken.depth, taken.force
+    except ValueError:
+        pass
+    return None
 
 
 @dataclass(frozen=True)

@@ -161,9 +161,11 @@ def _plain(html: str) -> str:
     return re.sub(r"<[^>]+>", "", text).strip("; ")
 
 
-def refused(text: str) -> str:
-    """A refusal (HTML)."""
-    return f'<p class="refused" role="alert">{marked(in_page_words(text))}</p>' if text else ""
+def refused(text: str, name: str = "") -> str:
+    """A refusal (HTML); the name of a file in it stays as it is."""
+    parts = text.split(name) if name else [text]
+    shown = escape(name).join(marked(in_page_words(part)) for part in parts)
+    return f'<p class="refused" role="alert">{shown}</p>' if text else ""
 
 
 def name_html(name: str) -> str:

@@ -91,7 +91,8 @@ def _ask(table, name, layout, lacking, deflection):
     )
     remedy = "" if deflection else ', or columns={"depth": …} if it is the depth of the tip'
     file = name.removesuffix(f", {table.name}") if table.name else name
-    raise UnknownColumns(f"{what}: give {lacking}{remedy}", table, file, {"columns": dict(layout)})
+    why, suggestion = f"{what}: give {lacking}", {"columns": dict(layout)}
+    raise UnknownColumns(why, table, file, suggestion, hint=remedy)
 
 
 def constant(header, kind, names):

@@ -39,9 +39,9 @@ def taken(table, file, given, stiffness=None):
         results = guess.scatters(table, likely) if likely else not _may_be_curve(table)
         if results and likely:
             why += " Depth and force go to and fro: a table of results is no curve"
-        if not any(table.heads.values()):
-            why += " NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)"
-        raise UnknownColumns(why, table, file, _merged(suggestion, given), results=results)
+        hint = " NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)"
+        hint = "" if any(table.heads.values()) else hint
+        raise UnknownColumns(why, table, file, _merged(suggestion, given), hint=hint, results=results)
     columns = given | {
         each: (k[0], table.unit(k[0])) for each, k in found.items() if len(k) == 1 and each not in given
     }
@@ -87,8 +87,8 @@ def ask_for_parts(table, file, columns):
     found = several(table, columns)
     if found:
         why, rows = found
-        why += ": several curves, or by='whole' for one"
-        raise UnknownColumns(why, table, file, {"columns": columns, "by": guess.by(table, columns, rows)})
+        suggestion = {"columns": columns, "by": guess.by(table, columns, rows)}
+        raise UnknownColumns(why, table, file, suggestion, hint=": several curves, or by='whole' for one")
 
 
 def _exact(table, given):
@@ -152,9 +152,10 @@ def _ask_for_piezo(table, file, columns, stiffness):
         given = {"piezo" if each == "depth" else each: column for each, column in columns.items()}
     why = (
         f"is {head!r} the depth of the tip, or the position of a piezo, from which spring_constant= "
-        'subtracts the deflection? Give it as "depth" or as "piezo"'
+        "subtracts the deflection?"
     )
-    raise UnknownColumns(why, table, file, _with_by(table, given))
+    hint = ' Give it as "depth" or as "piezo"'
+    raise UnknownColumns(why, table, file, _with_by(table, given), hint=hint)
 
 
 def ask_for_results(table, file, columns):

@@ -18,7 +18,7 @@ class UnknownColumns(ValueError):
     Attributes
     ----------
     why : str
-        What is asked.
+        What is asked, in words. The message has the columns and a line to paste besides.
     suggestion : dict
         Arguments of `read_curves`, "columns" and perhaps "by", as far as they are known; empty if nothing
         is. "?" stands for a unit that is open.
@@ -47,9 +47,9 @@ class UnknownColumns(ValueError):
 
     def __init__(
         self, why: str, table: Any, file: str = "", suggestion: dict[str, Any] | None = None,
-        *, results: bool = False,
+        *, hint: str = "", results: bool = False,
     ):  # fmt: skip
-        self.why, self.table, self.file = why, table, file
+        self.why, self.table, self.file, self._hint = why, table, file, hint
         self.suggestion: dict[str, Any] = suggestion or {}
         #: Whether the rows are rather those of tests, one each, than samples of a curve.
         self.results = results
@@ -57,20 +57,21 @@ class UnknownColumns(ValueError):
         parts = columns if isinstance(columns, list) else [columns]
         pairs = [column for part in parts for column in part.values() if column is not None]
         self.complete = bool(pairs) and all(unit != "?" for _, unit in pairs)
-        sentence = why if why.endswith((".", "?")) else f"{why}."
+        sentence = f"{why}{hint}"
+        sentence += "" if sentence.endswith((".", "?")) else "."
         place = ", ".join(filter(None, (file, table.name)))
         super().__init__(f"{place}: {sentence}\n{_shown(table)}\n{_paste(self.suggestion)}")
 
     def __reduce__(self):
-        return _again, (self.why, self.table, self.file, self.suggestion, self.results)
+        return _again, (self.why, self.table, self.file, self.suggestion, self._hint, self.results)
 
     def elsewhere(self, suggestion: dict[str, Any]) -> "UnknownColumns":
         """The same question with another suggestion."""
-        return UnknownColumns(self.why, self.table, self.file, suggestion, results=self.results)
+        return _again(self.why, self.table, self.file, suggestion, self._hint, self.results)
 
 
-def _again(why, table, file, suggestion, results):
-    return UnknownColumns(why, table, file, suggestion, results=results)
+def _again(why, table, file, suggestion, hint, results):
+    return UnknownColumns(why, table, file, suggestion, hint=hint, results=results)
 
 
 def _shown(table):

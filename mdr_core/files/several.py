@@ -130,10 +130,9 @@ def _ask_for_segments(tables, file, given):
     except ValueError:
         return
     if goes_on(tables[0], tables[1], layout):
-        why = (
-            "a second header follows where the depth goes on: parts of one curve, or by='whole' for several"
-        )
-        raise UnknownColumns(why, tables[0], file, {"columns": layout, "by": "segments"})
+        why = "a second header follows where the depth goes on"
+        hint = ": parts of one curve, or by='whole' for several"
+        raise UnknownColumns(why, tables[0], file, {"columns": layout, "by": "segments"}, hint=hint)
 
 
 def _of_parts(tables, file, columns, given):

@@ -54,10 +54,12 @@ def is_path(depth, force):
     """Whether depth and force go along a path, as those of one test, and are not scattered."""
     known = np.isfinite(depth) & np.isfinite(force)
     depth, force = depth[known], force[known]
-    if depth.size < 3 or not np.ptp(depth) or not np.ptp(force):
+    # A dead curve of a map has no force, and is one.
+    moving = [each for each in (depth, force) if each.size and np.ptp(each)]
+    if depth.size < 3 or not moving:
         return False
     same = all(np.ptp(each) < _SAME * np.abs(each).max() for each in (depth, force))
-    turns = max(np.abs(np.diff(each)).sum() / np.ptp(each) for each in (depth, force))
+    turns = max(np.abs(np.diff(each)).sum() / np.ptp(each) for each in moving)
     return not (same and depth.size < _MANY) and turns <= max(_TURNS, _SCATTER * depth.size)
 
 
