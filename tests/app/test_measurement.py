@@ -182,7 +182,7 @@ def test_a_drag_and_a_viscosity_are_fitted_where_there_are_times():
     d = 1e-6 * np.sin(np.pi * t / 2) - 0.2e-6
     F = mdr.indent_in_time(tip, made, d, t).force
     drag = 0.05 * F.max() / (1e-6 * np.pi / 2)
-    columns = {"t (s)": t, "h (nm)": 1e9 * d, "F (pN)": 1e12 * (F + drag * np.gradient(d, t))}
+    columns = {"t (s)": t, "Depth (nm)": 1e9 * d, "F (pN)": 1e12 * (F + drag * np.gradient(d, t))}
     page = opened(table(columns).encode(), "viscous", "paraboloid", radius=10e-6)
     assert page.fit.medium.E_star == approx(20e3, rel=0.01)
     assert page.fit.drag == approx(drag, rel=0.05)
@@ -200,7 +200,7 @@ def test_adhesion_is_fitted_from_a_pull_off():
     made = mdr.Medium(1e9, work_of_adhesion=0.2)
     d = np.append(np.linspace(-10e-9, 60e-9, 100), np.linspace(60e-9, -20e-9, 120))
     F = mdr.indent(mdr.Cone(0.3), made, d).force
-    data = table({"h (nm)": 1e9 * d, "F (nN)": 1e9 * F}).encode()
+    data = table({"Depth (nm)": 1e9 * d, "F (nN)": 1e9 * F}).encode()
     page = opened(data, "sticky", "cone", half_angle=float(np.arctan(1 / 0.3)))
     assert page.fit.medium.work_of_adhesion == approx(0.2, rel=1e-2)
     assert page.fit.medium.E_star == approx(1e9, rel=1e-2)
