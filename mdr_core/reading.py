@@ -81,8 +81,8 @@ def read_curves(
     Signs are found by the numbers, as force and depth are positive in compression. `remarks` of a curve
     lists reversed signs, constants that are taken from the file, and lines that are left out. Numbers of
     10³⁰ and more (SI) are missing values. Depth counts as in the file. Layouts of JPK, NanoScope, Anton
-    Paar and Optics11 and the files that this package writes are known exactly. Sheets without a curve, as of
-    results, are left out, with a remark.
+    Paar and Optics11 and the files that this package writes are known exactly. Sheets without a curve, as
+    of results, are left out, with a remark.
 
     Parameters
     ----------
@@ -104,13 +104,13 @@ def read_curves(
         from 0 on, or a name in the header, and a unit, as in
         ``{"depth": (0, "nm"), "force": ("Kraft", "mN")}``; without a unit that of the header is taken. In
         the place of "depth" stands "piezo" for the position of a piezo. None leaves out the time. A list is
-        of pairs side by side, a curve each. In a file of several tables it holds for those with the heads of
-        the first one that is asked about, or that have these names.
+        of pairs side by side, a curve each. In a file of several tables it holds for those with the heads
+        of the first one that is asked about, or that have these names.
     by : int, str or list, optional
         What tells several curves of a table apart: a column (number or name), or a list of columns, whose
-        rows of the same values are a curve each; "gaps", empty lines or words between rows; "restart", where
-        the depth starts anew. "whole" is for one curve, "segments" for parts of one curve, in a list of
-        columns or in tables below each other.
+        rows of the same values are a curve each; "gaps", empty lines or words between rows; "restart",
+        where the depth starts anew. "whole" is for one curve, "segments" for parts of one curve, in a list
+        of columns or in tables below each other.
 
     Returns
     -------

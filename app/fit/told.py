@@ -16,7 +16,7 @@ def told_pairs(columns: Any, by: Any) -> dict[str, str]:
     pairs: dict[str, str] = {}
     for role in _ROLES:
         if any(role in part for part in parts):
-            cells = [part[role] if role in part else ("", "") for part in parts]
+            cells = [part.get(role, ("", "")) for part in parts]
             pairs[f"{role}_column"] = ";".join(
                 "none" if cell is None else f"{cell[0]},{cell[1]}" for cell in cells
             )

@@ -74,7 +74,7 @@ def _ended(text):
 
 
 def _is_compound(words):
-    """Whether what stands before a slash ends in a unit, as in "Load mN/s"; "h/nm" is a name and its unit."""
+    """Whether words before a slash end in a unit, as in "Load mN/s"; "h/nm" is a name and its unit."""
     return not words or (words != ["h"] and unit_alone(words[-1]) is not None)
 
 

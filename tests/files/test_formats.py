@@ -19,7 +19,8 @@ def jpk(columns, units, values, *extra, first=0):
     for number, (segment, part) in enumerate((("extend", UP), ("retract", DOWN)), first):
         head = [
             f"segmentIndex: {number}", "recorded-num-points: 56", f"segment: {segment}",
-            f"columns: {columns}", 'fancyNames: "Height (measured)" "Vertical Deflection" "Height" "Segment Time"',
+            f"columns: {columns}",
+            'fancyNames: "Height (measured)" "Vertical Deflection" "Height" "Segment Time"',
             "heightMultiplier: 0.6", "sensitivity: 6.0E-8", *extra,
             "calibrationSlots: nominal force nominal elapsed", f"units: {units}", "",
         ]  # fmt: skip
@@ -106,7 +107,8 @@ def test_a_separation_of_nanoscope_is_the_depth(write):
 
 
 def test_ramps_of_nanoscope_that_run_against_each_other_do_not_meet(write):
-    """The retract in the order of the approach, with the ramp of the approach: joined it would be nonsense."""
+    """The retract in the order of the approach,
+    with the ramp of the approach: joined it would be nonsense."""
     lines = ["Calc_Ramp_Ex_nm\tCalc_Ramp_Rt_nm\tDefl_pN_Ex\tDefl_pN_Rt"]
     z, f = 1e9 * PIEZO[UP], 1e12 * SMALL[UP]
     lines += ["\t".join(f"{x:.9g}" for x in row) for row in zip(z, z, f, f[::-1], strict=True)]
@@ -116,7 +118,8 @@ def test_ramps_of_nanoscope_that_run_against_each_other_do_not_meet(write):
 
 @pytest.mark.parametrize("encoding", ["utf-8", "gbk"])
 def test_an_export_of_anton_paar_has_several_tests(write, encoding):
-    """In the form that public scripts read, X_name_Time_[s], Y_name_Fn_[mN], Y_name_Pd_[nm]; µ in GBK, too."""
+    """In the form that public scripts read, X_name_Time_[s], Y_name_Fn_[mN],
+    Y_name_Pd_[nm]; µ in GBK, too."""
     heads = []
     for name in ("A 1_1", "A 1_2"):
         heads += [f"X_{name}_Time_[s]", f"Y_{name}_Fn_[\u03bcN]", f"Y_{name}_Pd_[nm]"]
@@ -173,7 +176,8 @@ INDENTED = mdr.indent(mdr.Cone(1.0), mdr.Medium(E_star=1e9, hardness=1e8), np.ap
 
 
 def test_tables_of_results_are_read_in_si(tmp_path):
-    """An indentation, the motion of an impact and a measured curve, as `to_pandas().to_csv()` writes them."""
+    """An indentation, the motion of an impact and a measured curve,
+    as `to_pandas().to_csv()` writes them."""
     pytest.importorskip("pandas")
     path = tmp_path / "run.csv"
     INDENTED.to_pandas().to_csv(path)

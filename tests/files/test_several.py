@@ -114,9 +114,12 @@ def test_a_mark_where_the_depth_is_at_its_beginning_again_is_asked_about(asked, 
 @pytest.mark.parametrize(
     ("by", "says"),
     [
-        (True, "must be the number or the name of one column"), ("no such", "must be the number or the name"),
-        ("Load (mN)", "gives curves of fewer than 5 rows: 'Load \\(mN\\)' has"), (3, "parts nothing: 'c' has one"),
-        ("gaps", "parts nothing: there are no gaps"), ("segments", "parts nothing"), ([], "must name columns"),
+        (True, "must be the number or the name of one column"),
+        ("no such", "must be the number or the name"),
+        ("Load (mN)", "gives curves of fewer than 5 rows: 'Load \\(mN\\)' has"),
+        (3, "parts nothing: 'c' has one"),
+        ("gaps", "parts nothing: there are no gaps"),
+        ("segments", "parts nothing"), ([], "must name columns"),
     ],
 )  # fmt: skip
 def test_what_parts_nothing_is_refused(write, by, says):
@@ -191,7 +194,7 @@ def test_parts_that_do_not_meet_are_asked_about(write):
     text = "a;b;c;d\n" + rows(NM[:56], MN[:56], NM[:56], MN[:56][::-1], between=";")
     columns = [{"depth": (0, "nm"), "force": (1, "mN")}, {"depth": (2, "nm"), "force": (3, "mN")}]
     with pytest.raises(
-        mdr.UnknownColumns, match="approach and retract do not meet: the force is .* where 'a' ends"
+        mdr.UnknownColumns, match=r"approach and retract do not meet: the force is .* where 'a' ends"
     ):
         mdr.read_curves(write(text), columns=columns, by="segments")
 
