@@ -98,7 +98,7 @@ def opened(path: str, given: dict[str, Any]) -> MeasuredCurves:
 
 
 def read(path: str, given: dict[str, Any], number: int) -> Any:
-    """One curve of a file, or the question about it, and how many curves the file has.
+    """One curve of a file, their number, and None; or None, the number, and the values of a `Question`.
 
     Of the table the heads and three rows are kept.
     """
@@ -109,10 +109,10 @@ def read(path: str, given: dict[str, Any], number: int) -> Any:
         if number >= count:
             raise ValueError(f"the file has {count} curves, and no curve {number + 1}")
         curve = curves[number]
-        return replace(curve, table=curve.table.few()), count
+        return replace(curve, table=curve.table.few()), count, None
     except UnknownColumns as error:
-        preview = _preview(path, given, error)
-        return Question(error.why, error.table.few(), error.suggestion, preview), count
+        asked = {"why": error.why, "table": error.table.few(), "suggestion": error.suggestion}
+        return None, count, asked | {"preview": _preview(path, given, error)}
     except (ValueError, ImportError, MemoryError):
         raise
     except Exception as error:

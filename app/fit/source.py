@@ -116,8 +116,8 @@ class Source:
 
     def _have_read(self, kind: str, answer: Any) -> None:
         self.busy = ""
-        if kind == "done" and not isinstance(answer[0], Question):
-            self.curve, self.count = answer
+        if kind == "done" and answer[0] is not None:
+            self.curve, self.count, _ = answer
             self.table = self.curve.table
             if self._heads is not None:
                 self._told[self._heads] = self._given
@@ -127,7 +127,7 @@ class Source:
             return
         self.curve = self.taken = None
         if kind == "done":
-            self._ask(*answer)
+            self._ask(Question(**answer[2]), answer[1])
         else:
             self._want(answer if kind == "refused" else ENDED)
             self._refuse((answer if kind == "refused" else ENDED).replace(self._file, self.setting.file))

@@ -41,7 +41,7 @@ class UnknownColumns(ValueError):
     ...         print(error.suggestion)
     ...         curves = mdr.read_curves(path, **error.suggestion)
     {'columns': {'depth': (0, 'nm'), 'force': (1, 'mN')}}
-    >>> round(curves[0].force.max(), 9)
+    >>> print(round(curves[0].force.max(), 9))
     0.004
     """
 
