@@ -156,11 +156,13 @@ def read_curves(
     if suffix in (".xls", ".xlsx", ".xlsm"):
         return MeasuredCurves(path.name, None, from_workbook(path, options))
     if suffix.startswith(SUFFIXES):
+        if columns or by is not None:
+            raise ValueError(f"{path.name} is no table: leave out columns and by")
         return from_afm(path, given)
     data = path.read_bytes()
     refuse_binary(path, data)
     text = decoded(data)
     of_nova = suffix == ".txt" and len(given) == 2 and not re.search("[A-Za-z]", text[:1000])
-    if not columns and (of_nova or is_afm_text(text)):
+    if not columns and by is None and (of_nova or is_afm_text(text)):
         return from_afm(path, given)
     return MeasuredCurves(path.name, None, curves_of_text(text, path.name, options))

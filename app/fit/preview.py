@@ -23,7 +23,7 @@ def drawing(preview: tuple[np.ndarray, np.ndarray] | None) -> str:
     return (
         f'<figure class="preview"><svg viewBox="0 0 {_WIDTH} {_HEIGHT}" role="img" aria-label="{text}">'
         f'<polyline points="{points}" fill="none" stroke="currentColor" stroke-width="1.5"/></svg>'
-        f"<figcaption>{text}.</figcaption></figure>"
+        f"</figure><p>{text}.</p>"
     )
 
 
