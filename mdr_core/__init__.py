@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from .profiles.sampled import Sampled
     from .profiles.smooth import Smooth
     from .profiles.truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
-    from .reading import read_curve, read_curves
+    from .reading import UnknownColumns, read_curve, read_curves
     from .scene import Scene
     from .structure import Structure
 
@@ -74,6 +74,7 @@ __all__ = [
     "TimedIndentation",
     "TruncatedCone",
     "TruncatedParaboloid",
+    "UnknownColumns",
     "abel",
     "at_angle",
     "capture_speeds",
@@ -165,6 +166,7 @@ _MODULES = {
         "TruncatedParaboloid",
     ),
     "reading": (
+        "UnknownColumns",
         "read_curve",
         "read_curves",
     ),

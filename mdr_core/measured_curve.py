@@ -13,6 +13,7 @@ from ._check import Array, frozen, number, positive_number
 from .numerics.results import Record
 from .show.quantities import engineering
 from .show.report import rows
+from .show.units import KINDS
 
 #: Shares of the ranges of depth and force: a turn of the depth; changes in a hold, and its force above the
 #: smallest one. Share of the samples, and least number of them, that a hold has.
@@ -64,7 +65,8 @@ class MeasuredCurve(Record):
     #: Stiffness of the cantilever (N/m) and position on the sample (m, m), None where they are not known.
     spring_constant: float | None
     position: Array | None
-    #: Number of the column in the file, from 0 on, and unit of each quantity, "−nm" for a reversed sign.
+    #: Number of the column in the file, from 0 on, and unit of each quantity, "−nm" for a reversed sign;
+    #: "piezo" in the place of "depth" for the position of one. `read_curve(path, columns=…)` takes them.
     columns: dict[str, tuple[int, str] | None]
     #: Reversed signs, corrections, and lines and columns that are left out.
     remarks: tuple[str, ...]
@@ -80,19 +82,31 @@ class MeasuredCurve(Record):
     #: and retract end where the depth turns round by more than 5 % of its range, and in a hold depth and
     #: force stay within 1 % of their ranges, for 2 % of the samples or more.
     segment: NDArray[np.str_]
+    #: How the columns are known: "by its header", "as told", or by a format.
+    source: str = ""
 
     _shown = ("depth", "force")
     _dimensions = ("sample",)
 
     @property
     def _quantities(self):  # type: ignore[override]
-        return tuple(name for name in self.columns if getattr(self, name) is not None)
+        names = ("depth" if name == "piezo" else name for name in self.columns)
+        return tuple(name for name in names if getattr(self, name) is not None)
 
     def _rows(self):
         yield "file", self.name
-        for name in self._quantities:
-            column, unit = self.columns[name]
-            yield name, f"{self.table.heads[column] or f'column {column + 1}'!r} in {unit}"
+        if self.source:
+            yield "columns", self.source
+        for name, known in self.columns.items():
+            if known is None:
+                continue
+            column, unit = known
+            text = f"{self.table.heads[column] or f'column {column + 1}'!r} in {unit}"
+            if name == "piezo":
+                text += f", the position of a piezo, minus force/({self.spring_constant:.6g} N/m)"
+            elif name == "force" and KINDS.get(unit.lstrip("−")) not in (None, "force"):
+                text += f", a deflection, times {self.spring_constant:.6g} N/m"
+            yield {"piezo": "depth"}.get(name, name), text
         yield from (("remark", remark) for remark in self.remarks)
 
     @property

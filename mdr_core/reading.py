@@ -2,20 +2,21 @@
 
 import re
 from dataclasses import replace
-from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
 from . import _check
 from .files.afm import SUFFIXES, from_afm, is_afm_text, refuse_binary
-from .files.columns import SIZES, NoCurve, UnknownColumns
-from .files.curve import curve_of, curves_of
-from .files.text import decoded, read_tables
+from .files.columns import SIZES
+from .files.question import UnknownColumns
+from .files.several import curves_of_text
+from .files.split import WORDS
+from .files.table import decoded
 from .files.workbook import from_workbook
 from .measured_curve import MeasuredCurve, MeasuredCurves
 
-__all__ = ["SIZES", "UnknownColumns", "curve_of", "read_curve", "read_curves"]
+__all__ = ["SIZES", "WORDS", "UnknownColumns", "read_curve", "read_curves"]
 
 
 def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> MeasuredCurve:
@@ -28,7 +29,7 @@ def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> Measu
     index : int, optional
         Number of the curve in a map, or in an Excel file with several sheets.
     **given
-        `spring_constant`, `sensitivity` and `columns` as in `read_curves`, where the file lacks them.
+        `spring_constant`, `sensitivity`, `columns` and `by` as in `read_curves`, where the file lacks them.
 
     Returns
     -------
@@ -66,20 +67,22 @@ def read_curves(
     *,
     spring_constant: float | None = None,
     sensitivity: float | None = None,
-    columns: dict[str, Any] | None = None,
+    columns: dict[str, Any] | list[dict[str, Any]] | None = None,
+    by: int | str | list[int | str] | None = None,
 ) -> MeasuredCurves:
     """Read all measured curves of a file of an instrument and open the file once.
 
-    Columns of a table are found by the units in its header, in brackets, after the names or in a line of
-    their own, with powers of ten beside them, as in "10^-3 N", and by their names in several languages.
-    A scale that is not understood is refused. Signs are found by the numbers, as force and depth are
-    positive in compression. `remarks` of a curve lists reversed signs, corrections and omissions. Depth
-    counts as in the file.
+    A table is read where it says plainly what it is: depth and force each have one column with an exact
+    name and a plain unit, as "Depth (nm)" and "Load (mN)", no other column may be meant, and the depth does
+    not start anew. For any other table `UnknownColumns` is raised, with a suggestion that reads the file if
+    it is right: ``read_curves(path, **error.suggestion)``. Where a file has several tables or sheets, the
+    question is raised when the curve is taken, or at once where none is plain.
 
-    A text may have several curves: each below its own header or title ("Test 2"), distinguished by a column
-    of labels or numbers ("Sample", "Test"), or side by side in columns of the same names. An approach and
-    its retract side by side, and segments with a header each, are one curve. Tables of results, one row a
-    test, are left out, with a remark; a file that has nothing else is refused.
+    Signs are found by the numbers, as force and depth are positive in compression. `remarks` of a curve
+    lists reversed signs, constants that are taken from the file, and lines that are left out. Numbers of
+    10³⁰ and more (SI) are missing values. Depth counts as in the file. Layouts of JPK, NanoScope, Anton
+    Paar and Optics11 and the files that this package writes are known exactly. Sheets without a curve, as
+    of results, are left out, with a remark.
 
     Parameters
     ----------
@@ -90,17 +93,24 @@ def read_curves(
         `afmformats`. Of AFM files the depth is minus the position of the tip, −(height + F/k) with the
         stiffness k of the cantilever, and its zero is not the contact point.
     spring_constant : float, optional
-        Stiffness of the cantilever (N/m) that the file lacks; the header of a text may have it. With it the
-        deflection F/k is subtracted from the depth of a table, unless the name of the column means a depth,
-        an indentation, a tip position or a separation. A column of the deflection (m or V) gives the force.
+        Stiffness k of the cantilever (N/m); the header of a text may have it, but this one goes first. The
+        deflection F/k is subtracted from the position of a piezo, and a deflection (m or V) gives the
+        force. A stiffness that nothing uses is refused.
     sensitivity : float, optional
         Deflection (m) of the cantilever for 1 V, where the file has its deflection in V; m/A for NT-MDT.
         Its files have no header: they are known by the two values that are given.
-    columns : dict, optional
-        Columns of a table for "depth", "force" and "time": a name in the header, as in
-        ``{"depth": "Z-Sense (nm)"}``, or a number from 0 on and a unit, as in ``{"depth": (0, "nm")}``,
-        where the header lacks them. None leaves out the time. "stiffness", a column of a contact stiffness
-        and its unit, as in ``(4, "N/m")``, is found by its name, too.
+    columns : dict or list of dict, optional
+        Columns of a table for "depth" and "force", and "time" and "stiffness" (of the contact): a number
+        from 0 on, or a name in the header, and a unit, as in
+        ``{"depth": (0, "nm"), "force": ("Kraft", "mN")}``; without a unit that of the header is taken. In
+        the place of "depth" stands "piezo" for the position of a piezo. None leaves out the time. A list is
+        of pairs side by side, a curve each. In a file of several tables it holds for those with the heads
+        of the first one that is asked about, or that have these names.
+    by : int, str or list, optional
+        What tells several curves of a table apart: a column (number or name), or a list of columns, whose
+        rows of the same values are a curve each; "gaps", empty lines or words between rows; "restart",
+        where the depth starts anew. "whole" is for one curve, "segments" for parts of one curve, in a list
+        of columns or in tables below each other.
 
     Returns
     -------
@@ -108,11 +118,12 @@ def read_curves(
 
     Raises
     ------
+    UnknownColumns
+        If a table does not say plainly what its columns are, or may be of several curves or of results; if
+        a stiffness or a sensitivity is needed. It is a ValueError.
     ValueError
-        If most lines are no rows of numbers, or there is no column of depth or force with a unit that is
-        understood; if a table is one of results, or of several curves that it does not tell apart; if a
-        stiffness or a sensitivity is needed that is not given, or given where the file has its own forces;
-        if the file is binary and not read, with the export to make.
+        If most lines are no rows of numbers; if a stiffness or a sensitivity is given that nothing uses, or
+        `by` parts nothing; if a file is too large; if it is binary and not read, with the export to make.
     OSError
         If there is no such file (FileNotFoundError), whatever its name ends with, or it may not be read.
     ImportError
@@ -140,57 +151,18 @@ def read_curves(
         given["spring constant"] = _check.positive_number("spring_constant", spring_constant, unit="N/m")
     if sensitivity is not None:
         given["sensitivity"] = _check.positive_number("sensitivity", sensitivity, unit="m/V")
-    options = {
-        "columns": columns,
-        "spring_constant": given.get("spring constant"),
-        "sensitivity": given.get("sensitivity"),
-    }
+    own = {"spring_constant": given.get("spring constant"), "sensitivity": given.get("sensitivity")}
+    options = {"columns": columns or None, "by": by, "given": own}
     if suffix in (".xls", ".xlsx", ".xlsm"):
         return MeasuredCurves(path.name, None, from_workbook(path, options))
     if suffix.startswith(SUFFIXES):
+        if columns or by is not None:
+            raise ValueError(f"{path.name} is no table: leave out columns and by")
         return from_afm(path, given)
     data = path.read_bytes()
     refuse_binary(path, data)
     text = decoded(data)
     of_nova = suffix == ".txt" and len(given) == 2 and not re.search("[A-Za-z]", text[:1000])
-    if columns is None and (of_nova or is_afm_text(text)):
+    if not columns and by is None and (of_nova or is_afm_text(text)):
         return from_afm(path, given)
-    return MeasuredCurves(path.name, None, _of_text(text, path.name, options))
-
-
-def _of_text(text, name, options):
-    """Functions that make the curves of a text: of one table, or of each where there are several."""
-    tables = read_tables(text, name)
-    if len(tables) == 1:
-        return curves_of(tables[0][1], name, **options)
-    curves, left, refused = [], [], None
-    for number, (title, table) in enumerate(tables, 1):
-        which = f"{name}, {title or f'table {number}'}"
-        try:
-            curves += curves_of(table, which, **options)
-        except NoCurve as error:
-            left.append(f"table {number}, from line {table.lines[0]} on, is left out, as it is no curve")
-            refused = error
-        except ValueError as error:
-            curve = getattr(error, "named", len(table.lines) > 1)
-            if not curve:
-                left.append(
-                    f"table {number}, from line {table.lines[0]} on, is left out: no depth and force"
-                )
-            else:
-                # It does not stop the others.
-                curves.append(partial(_refuse, error))
-            refused = error
-    if all(make.func is _refuse for make in curves):
-        raise refused
-    return [partial(_said, make, tuple(left)) for make in curves]
-
-
-def _refuse(error):
-    raise error
-
-
-def _said(make, left):
-    """A curve that also says which tables are left out."""
-    curve = make()
-    return replace(curve, remarks=(*curve.remarks, *left))
+    return MeasuredCurves(path.name, None, curves_of_text(text, path.name, options))

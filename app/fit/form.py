@@ -14,10 +14,13 @@ from ..ui import WIDE, html, show
 from ..units import entry, read
 from . import words
 from .dropper import MAX_BYTES, Dropper
+from .preview import drawing
 from .setting import CORRECTIONS, IN_TIME, MEDIA, NUMBERS, TIPS, Number, Setting, parameter
 
 #: The option for no column, and for one that is still to be chosen.
 _NONE, _ASK = "none", "choose"
+#: The options for one curve of a table, and for curves or parts of one side by side.
+_ONE, _PAIRS, _SEGMENTS = "whole", "pairs", "segments"
 #: Units of numbers that have no value yet.
 _FIRST = {
     "radius": "µm", "half_angle": "°", "tip_modulus": "GPa", "spring_constant": "N/m", "sensitivity": "nm",
@@ -79,6 +82,9 @@ class Form:
     def __init__(self, page: Any):
         self._page = page
         self._quiet = False
+        # Columns of several parts, and what their options mean to the reader.
+        self._layouts: list[dict[str, Any]] = []
+        self._several: dict[str, Any] = {}
         self._file()
         self._reader()
         self._tip()
@@ -119,10 +125,19 @@ class Form:
         for role in SIZES:
             for widget in (self.columns[role], self.units[role]):
                 widget.param.watch(self._told, "value")
-        rows = [
+        meanings = {"the depth of the tip": "depth", "the position of a piezo": "piezo"}
+        self.meaning = field(select, label="The depth is", options=meanings)
+        self.parts = field(select, label="The table has", options={"one curve": _ONE})
+        for widget in (self.meaning, self.parts):
+            widget.param.watch(self._told, "value")
+        self.preview = html("", "note", visible=False)
+        self.confirm = pn.widgets.Button(label="Read", css_classes=["button"], margin=0, visible=False)
+        self.confirm.on_click(lambda event: self._confirmed())
+        depth, *others = [
             pn.Row(self.columns[role], self.units[role], css_classes=["pair"], **WIDE) for role in SIZES
         ]
-        self._of_table = pn.Column(*rows, **WIDE)
+        parts = [self.preview, depth, self.meaning, *others, self.parts, self.confirm]
+        self._of_table = pn.Column(*parts, **WIDE)
         self._of_cantilever = pn.Column(
             self.numbers["spring_constant"].view, self.numbers["sensitivity"].view, **WIDE
         )
@@ -181,18 +196,35 @@ class Form:
             self._change(lambda setting: setting.replace(**{name: value}))
 
     def _told(self, event: Any) -> None:
-        """Read the file again once its columns and units are told."""
+        """Read a file that was read again, once its columns and units are told; a question is confirmed."""
         if self._quiet:
             return
+        if self._page.question is None:
+            self._confirmed()
+        else:
+            # What is drawn is what was suggested.
+            show(self.preview, visible=False)
+
+    def _confirmed(self) -> None:
+        """Read the file as the choosers say."""
         given: dict[str, Any] = {}
         for role in SIZES:
             column, unit = self.columns[role].value, self.units[role].value
+            key = self.meaning.value if role == "depth" else role
             if column == _NONE and role == "time":
-                given[role] = None
+                given[key] = None
             elif column not in (_NONE, _ASK) and unit != _ASK:
-                given[role] = (column, unit)
-        if {"depth", "force"} <= given.keys():
-            self._page.reread(columns=given)
+                given[key] = (column, unit)
+        if not ({"depth", "piezo"} & given.keys() and "force" in given):
+            text = "Choose the columns of depth and force, and their units."
+            show(self.refused, object=words.refused(text))
+            return
+        by = self._several.get(self.parts.value, self.parts.value)
+        layouts = self._layouts
+        if layouts and self.parts.value in (_PAIRS, _SEGMENTS):
+            self._page.reread(columns=_of_parts(layouts, given), by=by)
+        else:
+            self._page.reread(columns=given, by=by)
 
     # What is shown.
 
@@ -233,19 +265,62 @@ class Form:
         )
         if table is None:
             return
-        firsts = {k: ", ".join(f"{x:.3g}" for x in values[:3]) for k, values in table.values.items()}
-        heads = {f"{k + 1}: {head or firsts[k] + ' …'}": k for k, head in table.heads.items()}
-        known = (
-            page.curve.columns if page.curve is not None and page.curve.table is table else setting.columns
-        )
+        question = page.question
+        known, by = self._suggested(setting)
+        self._layouts = known if isinstance(known, list) else []
+        known = dict(known[0] if isinstance(known, list) else known)
+        if "piezo" in known:
+            known["depth"] = known.pop("piezo")
+            show(self.meaning, value="piezo")
+        else:
+            show(self.meaning, value="depth")
+        heads = heads_of(table)
         for role in SIZES:
             column = known.get(role)
             nothing = (
                 {"none, rows in order": _NONE} if role == "time" else {"choose": _ASK} if not column else {}
             )
             number, unit = column or (_NONE if role == "time" else _ASK, _ASK)
+            number = number if number in heads.values() else _ASK
             show(self.columns[role], options=nothing | heads, value=number)
             show(self.units[role], value=unit if unit in SIZES[role] else _ASK)
+        self._show_parts(table, by)
+        drawn = drawing(question.preview) if question is not None else ""
+        show(self.preview, object=drawn, visible=bool(drawn))
+        show(self.confirm, visible=question is not None)
+
+    def _suggested(self, setting: Setting) -> tuple[Any, Any]:
+        """Columns and what parts the curves, as they are suggested, told or read."""
+        question, curve = self._page.question, self._page.curve
+        if question is not None:
+            return question.suggestion.get("columns") or {}, question.suggestion.get("by")
+        if isinstance(setting.columns, list) or curve is None:
+            return setting.columns, setting.by
+        return curve.columns, setting.by
+
+    def _show_parts(self, table: Any, by: Any) -> None:
+        """What may part the curves of a table, with what is suggested or told."""
+        options: dict[str, Any] = {"one curve": _ONE}
+        self._several = {_ONE: None if by is None else "whole", _PAIRS: None}
+        if self._layouts:
+            options = {f"{len(self._layouts)} pairs of columns": _PAIRS}
+            if len(self._layouts) > 1:
+                options["loading and unloading side by side"] = _SEGMENTS
+            value = _SEGMENTS if by == "segments" else _PAIRS
+        else:
+            names = heads_of(table, table.words)
+            options |= {f"a curve for each value of {name}": str(k) for name, k in names.items()}
+            self._several |= {str(k): k for k in names.values()}
+            options["curves parted by empty lines or words"] = "gaps"
+            options["curves where the depth starts anew"] = "restart"
+            if by == "segments":
+                options["loading and unloading below each other"] = "segments"
+            if isinstance(by, list):
+                of = " and ".join(name for name, k in names.items() if k in by)
+                options[f"a curve for each value of {of}"] = value = ",".join(map(str, by))
+                self._several[value] = by
+            value = _ONE if by in (None, "whole") else value if isinstance(by, list) else str(by)
+        show(self.parts, options=options, value=value)
 
     def _show_parameters(self, setting: Setting) -> None:
         page = self._page
@@ -269,6 +344,33 @@ class Form:
             )
         for name in corrections:
             self.held[name].show(page.correction(name), placeholder="0")
+
+
+def heads_of(table: Any, words: Any = ()) -> dict[str, int]:
+    """Names of the columns of a table, with their first numbers where they have none, and their numbers."""
+    firsts = {k: ", ".join(f"{x:.3g}" for x in values[:3]) for k, values in table.values.items()}
+    found = {f"{k + 1}: {head or firsts[k] + ' …'}": k for k, head in table.heads.items()}
+    for key in words:
+        number, _, head = key.partition(" ")
+        found[f"{number}: {head or 'words'}"] = int(number) - 1
+    return found
+
+
+def _of_parts(layouts: list[dict[str, Any]], given: dict[str, Any]) -> list[dict[str, Any]]:
+    """Columns of several parts, the first as it is chosen, the others with its units."""
+    named = {"piezo" if "piezo" in given else "depth": "depth"}
+    parts = [given]
+    for layout in layouts[1:]:
+        place = layout.get("piezo") or layout["depth"]
+        columns = {"depth": place, "force": layout["force"], "time": layout.get("time")}
+        parts.append(
+            {
+                role: (columns[named.get(role, role)][0], given[role][1])
+                for role in given
+                if given[role] and columns.get(named.get(role, role))
+            }
+        )
+    return parts
 
 
 def page_table(page: Any) -> Any:

@@ -3,6 +3,7 @@
 Arguments and answers are numbers, texts, arrays and objects of `mdr_core`, which can be sent.
 """
 
+import json
 import logging
 import re
 import warnings
@@ -15,7 +16,7 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.files.text import decoded
+from mdr_core.files.table import decoded
 from mdr_core.fit.classes import HardnessVerdict
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.noise import jitter
@@ -79,43 +80,49 @@ def first_and_last(taken: Samples, count: int, part: str) -> tuple[int, int]:
 # Jobs of the process: each is called with what can be sent.
 
 
+@dataclass(frozen=True)
+class Question:
+    """What is asked about a file: in words, the first rows of its table, and what is suggested.
+
+    `preview` has depth (m) and force (N) of the first curve as it is suggested, None if it lacks something.
+    """
+
+    why: str
+    table: Any
+    suggestion: dict[str, Any]
+    preview: tuple[np.ndarray, np.ndarray] | None = None
+
+
 @lru_cache(maxsize=1)
-def _curves(path: str, given: tuple[tuple[str, Any], ...]) -> MeasuredCurves:
-    return mdr.read_curves(path, **{name: dict(v) if name == "columns" else v for name, v in given})
+def _curves(path: str, given: str) -> MeasuredCurves:
+    return mdr.read_curves(path, **json.loads(given))
 
 
 def opened(path: str, given: dict[str, Any]) -> MeasuredCurves:
     """The curves of a file, which is read once for all of them."""
-    if given.get("columns"):
-        given = given | {"columns": tuple(given["columns"].items())}
-    return _curves(path, tuple(given.items()))
+    return _curves(path, json.dumps(given))
 
 
-@dataclass(frozen=True)
-class Heads:
-    """What the page shows of a table: names of its columns, and their first three numbers."""
-
-    heads: dict[int, str]
-    values: dict[int, list[float]]
-
-    @classmethod
-    def of(cls, table: Any) -> "Heads":
-        heads = {column: head[:_HEAD] for column, head in table.heads.items()}
-        return cls(heads, {column: list(numbers[:3]) for column, numbers in table.values.items()})
+def _few(table: Any) -> Any:
+    """What the page shows of a table: heads, of some length, and three rows."""
+    few = table.few()
+    return replace(few, heads={column: head[:_HEAD] for column, head in few.heads.items()})
 
 
 def read(path: str, given: dict[str, Any], number: int) -> Any:
-    """One curve of a file and how many it has, or the heads of the table whose columns are to be told."""
+    """One curve of a file, their number, and None; or None, the number, and the values of a `Question`."""
+    count = 0
     try:
         curves = opened(path, given)
-        if number >= len(curves):
-            raise ValueError(f"the file has {len(curves)} curves, and no curve {number + 1}")
+        count = len(curves)
+        if number >= count:
+            raise ValueError(f"the file has {count} curves, and no curve {number + 1}")
         curve = curves[number]
-        heads = curve.table and Heads.of(curve.table)
         remarks = tuple(each[:_REMARK] for each in curve.remarks)
-        return replace(curve, table=heads, remarks=remarks), len(curves)
+        return replace(curve, table=curve.table and _few(curve.table), remarks=remarks), count, None
     except UnknownColumns as error:
-        return Heads.of(error.table), 0
+        asked = {"why": error.why, "table": _few(error.table), "suggestion": error.suggestion}
+        return None, count, asked | {"preview": _preview(path, given, error)}
     except (ValueError, ImportError, MemoryError):
         raise
     except Exception as error:
@@ -131,6 +138,20 @@ def tip(path: str, name: str) -> tuple[tuple[Any, Any], str]:
 def without_folders(text: str) -> str:
     """A message without the folders of the server, in which the paths of files begin."""
     return re.sub(r"(?<![\w.)])(?:[A-Za-z]:)?[/\\](?:[^/\\\s'\":]+[/\\]+)+", "", text)
+
+
+def _preview(path: str, given: dict[str, Any], error: UnknownColumns) -> Any:
+    """Depth and force of the first curve that has the columns of a suggestion, or None."""
+    if not error.complete:
+        return None
+    try:
+        for curve in mdr.read_curves(path, **(given | error.suggestion)):
+            if curve.table.heads == error.table.heads or len(error.suggestion) > 1:
+                taken = samples(curve)
+                return taken.depth, taken.force
+    except ValueError:
+        pass
+    return None
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,8 @@ import mdr_core as mdr
 from mdr_core.fit.parameters import PARAMETERS
 from mdr_core.show.units import KINDS, written
 
+from .told import told_by, told_columns, told_pairs
+
 #: Most characters of a link that is read, and of a text in it.
 _LINK, _TEXT = 4000, 200
 
@@ -140,7 +142,9 @@ class Setting:
 
     file: str = ""
     curve: int = 0
-    columns: dict[str, Any] = field(default_factory=dict)
+    columns: Any = field(default_factory=dict)
+    #: What tells several curves of a table apart, or which parts they are, as `read_curves` has it.
+    by: Any = None
     tip: str = ""
     #: Radii and heights (m) of a measured tip, and its name; in no link.
     tip_samples: tuple[Any, ...] = ()
@@ -224,9 +228,7 @@ class Setting:
             pairs |= {name: "free" for name in names if name in first and name not in self.held}
             pairs |= {name: repr(value) for name, value in self.held.items() if first.get(name) != value}
         pairs |= {name: repr(value) for name, value in self.corrections.items()}
-        for role, column in self.columns.items():
-            pairs[f"{role}_column"] = "none" if column is None else "{},{}".format(*column)
-        return urlencode(pairs, safe=",")
+        return urlencode(pairs | told_pairs(self.columns, self.by), safe=",;")
 
     @classmethod
     def read(cls, query: str) -> "Setting":
@@ -255,17 +257,5 @@ class Setting:
         for name, known in CORRECTIONS.items():
             with suppress(KeyError, ValueError):
                 corrections[name] = known.checked(float(given[name]))
-        return found.replace(held=held, corrections=corrections, columns=_columns(given))
-
-
-def _columns(given: dict[str, str]) -> dict[str, Any]:
-    """Columns that a link gives to the reader."""
-    found: dict[str, Any] = {}
-    for role in ("depth", "force", "time"):
-        text = given.get(f"{role}_column", "")
-        number, _, unit = text.partition(",")
-        if text == "none" and role == "time":
-            found[role] = None
-        elif number.isascii() and number.isdigit() and len(number) < 4 and len(unit) < 12:
-            found[role] = int(number), unit
-    return found
+        told = {"columns": told_columns(given), "by": told_by(given)}
+        return found.replace(held=held, corrections=corrections, **told)

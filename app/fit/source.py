@@ -12,7 +12,7 @@ from mdr_core.measured_curve import MeasuredCurve
 from ..tip import in_line
 from . import words
 from .folders import NOT_KEPT, Files
-from .measurement import Samples, samples
+from .measurement import Question, Samples, samples
 from .samples import EXAMPLES
 from .setting import Setting
 from .worker import Here, Worker
@@ -37,6 +37,11 @@ class Source:
         # What is said below the file; what a refused file needs.
         self.about, self.refused = "", ""
         self.wants: set[str] = set()
+        #: The question about the file, until it is answered.
+        self.question: Question | None = None
+        # What was told of tables by their heads, so that a folder of files is asked about once.
+        self._told: dict[Any, dict[str, Any]] = {}
+        self._heads: Any = None
         self._files = Files()
         self._path, self._example = "", ""
 
@@ -52,7 +57,7 @@ class Source:
             old = Setting()
         if name != old.file:
             # What is known of another curve does not hold for this one.
-            old = old.replace(curve=0, columns={}, corrections={}, samples=())
+            old = old.replace(curve=0, columns={}, by=None, corrections={}, samples=())
             old = old.with_medium(old.medium) if old.medium else old
             old = old.replace(spring_constant=None, sensitivity=None)
         self._take(name, data, old)
@@ -61,6 +66,7 @@ class Source:
         self.curve = self.taken = self.fit = self.table = self.E = None
         self.count, self.rows, self._example = 0, [], example
         self.about = self.refused = self.not_fitted = ""
+        self._heads = None
         self.setting = setting.replace(file=name)
         suffix = re.sub(r"[^\w.-]", "", Path(name).suffix)[:20] if "\0" not in name else ""
         try:
@@ -94,11 +100,12 @@ class Source:
         asked = self.setting
         given = {"spring_constant": asked.spring_constant, "sensitivity": asked.sensitivity}
         given = {name: value for name, value in given.items() if value is not None}
-        return given | ({"columns": asked.columns} if asked.columns else {})
+        given |= {"columns": asked.columns} if asked.columns else {}
+        return given | ({"by": asked.by} if asked.by is not None else {})
 
     def _read(self) -> None:
         self.busy = f"Reading {self.setting.file}"
-        self.wants, self.refused, self.fit = set(), "", None
+        self.wants, self.refused, self.fit, self.question = set(), "", None, None
         self.show()
         self.worker.ask(
             "read", self._path, self._given, self.setting.curve, tell=self._tell(self._have_read)
@@ -106,32 +113,47 @@ class Source:
 
     def _have_read(self, kind: str, answer: Any) -> None:
         self.busy = ""
-        if kind == "done" and answer[1]:
-            self.curve, self.count = answer
+        if kind == "done" and answer[0] is not None:
+            self.curve, self.count, _ = answer
             self.table = self.curve.table
+            if self._heads is not None:
+                self._told[self._heads] = self._given
             self.about = self._of_file()
             self._place()
             self.fit_again()
             return
         self.curve = self.taken = None
         if kind == "done":
-            self.table = answer[0]
-            self.wants = {"columns"}
-            self._refuse(
-                f"{self.setting.file} does not name its columns of depth and force with their units: "
-                "choose them below"
-            )
+            self._ask(Question(**answer[2]), answer[1])
         else:
-            text = answer.replace(Path(self._path).name, self.setting.file)
-            self.wants = {
-                name for name in ("spring constant", "sensitivity")
-                if re.search(name.replace(" ", "."), text)
-            }  # fmt: skip
-            self._refuse(text)
+            self._want(answer)
+            self._refuse(answer.replace(self._file, self.setting.file))
         self.show()
 
-    def _refuse(self, text: str) -> None:
-        self.refused = words.refused(text.rstrip(".") + ".")
+    def _ask(self, question: Question, count: int) -> None:
+        """Ask what a table is, or tell it as that of a file before with the same heads."""
+        self.count, self.table, self._heads = count, question.table, question.table.key
+        known = self._told.get(self._heads)
+        if known and not self.setting.columns:
+            self.setting = self.setting.replace(samples=(), **known)
+            self._read()
+            return
+        self.question, self.wants = question, {"columns"}
+        self._want(question.why)
+        self._refuse(f"{self.setting.file}: {question.why}", " Check what is chosen below, and press Read.")
+
+    @property
+    def _file(self) -> str:
+        return Path(self._path).name
+
+    def _want(self, text: str) -> None:
+        """Remember which constants of a cantilever a refusal asks for."""
+        names = ("spring constant", "sensitivity")
+        self.wants |= {name for name in names if re.search(f"{name.replace(' ', '.')}", text)}
+
+    def _refuse(self, text: str, more: str = "") -> None:
+        text = text if text.endswith("?") else text.rstrip(".") + "."
+        self.refused = words.refused(text + more, self.setting.file)
 
     def _of_file(self) -> str:
         curve = self.curve

@@ -3,7 +3,7 @@
 import re
 
 import numpy as np
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.parameters import PARAMETERS
@@ -164,9 +164,10 @@ def _plain(html: Markup) -> str:
     return html.replace(Markup("</p>"), "; ").striptags().strip("; ")
 
 
-def refused(text: str) -> Markup:
-    """A refusal (HTML)."""
-    said = marked(in_page_words(text[:_MOST]))
+def refused(text: str, name: str = "") -> Markup:
+    """A refusal (HTML); the name of a file in it stays as it is."""
+    parts = text[:_MOST].split(name) if name else [text[:_MOST]]
+    said = escape(name).join(marked(in_page_words(part)) for part in parts)
     return Markup('<p class="refused" role="alert">{}</p>').format(said) if text else said
 
 

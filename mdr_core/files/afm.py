@@ -10,8 +10,10 @@ import numpy as np
 from .. import _check
 from ..measured_curve import MODALITIES, MeasuredCurves
 from ..show.report import imported
+from .cantilever import Cantilever
 from .curve import curve_of
-from .text import Table
+from .packed import refuse_large
+from .table import Table
 
 # Without a handler its errors would be printed beside the refusals.
 logging.getLogger("afmformats").addHandler(logging.NullHandler())
@@ -97,6 +99,7 @@ def _refused(errors, path):
 
 def from_afm(path, given):
     """`MeasuredCurves` of a file that `afmformats` reads."""
+    refuse_large(path)
     afmformats = imported("afmformats", f"reading {path.name}", '"mdr-core[afm]"')
     with _refused(afmformats.errors, path):
         curves = sorted(afmformats.load_data(path, meta_override=given), key=lambda data: data.enum)
@@ -117,5 +120,13 @@ def _afm_curve(errors, data):
         segment = np.array(MODALITIES[data.modality])[number] if number.any() else None
         stiffness = data.metadata.get("spring constant")
     table = Table(dict(enumerate(heads)), values, np.arange(1, number.size + 1), {}, {})
-    columns = {"depth": (0, "−m"), "force": (1, "N"), "time": (2, "s") if 2 in values else None}
-    return curve_of(table, data.path.name, columns, stiffness, turn=False, segment=segment)
+    columns = {"depth": (0, "−m"), "force": (1, "N")} | ({"time": (2, "s")} if 2 in values else {})
+    # A height includes the deflection: without a stiffness it stays in it.
+    place = "piezo" if stiffness is not None and heads[0] != "tip position" else "depth"
+    columns = {place if each == "depth" else each: column for each, column in columns.items()}
+    doubt = f"{heads[0]!r} includes the deflection force/stiffness: give spring_constant= (N/m)"
+    remarks = [doubt] * (stiffness is None and heads[0] != "tip position")
+    options = {"turn": False, "segment": segment, "remarks": remarks}
+    return curve_of(
+        table, data.path.name, columns, Cantilever(stiffness), "as afmformats reads them", **options
+    )

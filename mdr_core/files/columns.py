@@ -1,226 +1,225 @@
-"""Find the columns of depth, force, time and contact stiffness of a table, and their units."""
+"""The columns of a plain table: taken by their exact names, told by `columns=`, or asked for."""
 
-import re
+import numpy as np
 
 from .. import _check
-from . import words
-from .units import COLUMN_UNITS, unit_named
+from . import guess
+from .names import DISPLACEMENT, TAKEN, is_result, is_variant
+from .question import NoCurve, UnknownColumns
+from .split import has_path, is_path, place_of, several
+from .units import COLUMN_UNITS, size_of, unit_named
 
 #: Sizes of the units of each quantity (SI); a minus turns the sign of a column.
 SIZES = {
     each: COLUMN_UNITS[kind] | {f"−{unit}": -size for unit, size in COLUMN_UNITS[kind].items()}
     for each, kind in {"depth": "length", "force": "force", "time": "time"}.items()
 }
-#: Units of a deflection, which times the stiffness of the cantilever is a force.
-_DEFLECTION = COLUMN_UNITS["length"] | COLUMN_UNITS["voltage"]
-_GIVE = 'give columns={"depth": (0, "nm"), "force": (1, "mN")}, numbers and units'
-#: Words of the time that are no symbols.
-_TIME = re.compile(r"\b(time|\w*zeit|temps|tiempo|tempo)\b|时间")
-#: Names of columns of a stiffness that is not that of the contact.
-_NO_CONTACT = re.compile(
-    r"frame|spring|machine|support|squared|correct|system|cantilever|column|instrument|damping"
-)
+#: Kinds of the units that each quantity may be told in; a force may be a deflection of a cantilever.
+_KINDS = {
+    "depth": ("length",), "piezo": ("length",), "force": ("force", "length", "voltage"), "time": ("time",),
+    "stiffness": ("stiffness",),
+}  # fmt: skip
+_USUAL = {"depth": "nm", "piezo": "nm", "force": "mN", "time": "s", "stiffness": "N/m"}
+#: Largest force (N) below which a displacement may be that of a piezo.
+_SMALL = 1e-5
 
 
-class NoCurve(ValueError):
-    """A table that is none of a curve, but of results or settings."""
+def taken(table, file, given, stiffness=None):
+    """Columns and units of a table that says plainly what they are; else the question is raised.
 
-
-class UnknownColumns(ValueError):
-    """A table whose header does not tell the columns of depth and force, or their units."""
-
-    def __init__(self, message, table):
-        super().__init__(message)
-        self.table = table
-
-    @property
-    def named(self):
-        """Whether the header has words of both: what lacks is a unit that is understood."""
-        heads = self.table.heads.values()
-        return all(
-            any(words.named(each, head) and not words.is_none(each, head) for head in heads)
-            for each in ("depth", "force")
-        )
-
-
-def size_of(each, unit):
-    """Size (SI) of a unit of a quantity, negative for "−nm"; of a deflection of its length or voltage."""
-    if unit in SIZES[each]:
-        return SIZES[each][unit]
-    return -_DEFLECTION[unit[1:]] if unit.startswith("−") else _DEFLECTION[unit]
-
-
-def columns_of(table, name, given, cantilever=None):
-    """Number and unit of the column of each quantity, None for no time, and remarks on the choice.
-
-    `given` columns are kept; `cantilever` are the names of the arguments that turn a deflection into force.
+    `given` are those that are told; `stiffness` is that of a cantilever, if one is given.
     """
-    free, columns, remarks = dict(table.heads), {}, []
-    if len(free) < 2:
-        raise NoCurve(f"{name} has one column of numbers: give one of depth and one of force")
-    for each in given:
-        _check.one_of("a key of columns", each, tuple(SIZES))
-        columns[each] = _given(table, each, given[each], free, cantilever)
-        free.pop(columns[each] and columns[each][0], None)
-    for each in [each for each in ("time", "force", "depth") if each not in columns]:
-        column, others = _found(table, each, free)
-        if column is None and each == "force":
-            column = _deflection(table, name, free, cantilever)
-        if column is None and each != "time":
-            raise UnknownColumns(_unknown(table, name, each, free), table)
-        if each == "time" and column is None:
-            remarks += _untimed(table, free)
-        taken = column is not None and others
-        listed = ", ".join(repr(free[other]) for other in others)
-        remarks += [f"{each} is taken from {free[column]!r}, not from {listed}"] if taken else []
-        columns[each] = None if column is None else (column, table.unit(column))
-        free.pop(column, None)
-    return {each: columns[each] for each in SIZES}, remarks
+    if len(table.heads) < 2:
+        raise NoCurve(f"{file} has one column of numbers: give one of depth and one of force")
+    found = _exact(table, given)
+    why = _lacking(found) or _second_set(table, found, given)
+    if why:
+        likely = guess.columns(table, stiffness)
+        suggestion = guess.whole(table, likely)
+        results = guess.scatters(table, likely) if likely else not _may_be_curve(table)
+        if results and likely:
+            why += " Depth and force go to and fro: a table of results is no curve"
+        hint = " NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)"
+        hint = "" if any(table.heads.values()) else hint
+        raise UnknownColumns(why, table, file, _merged(suggestion, given), hint=hint, results=results)
+    columns = given | {
+        each: (k[0], table.unit(k[0])) for each, k in found.items() if len(k) == 1 and each not in given
+    }
+    if "piezo" in given:
+        columns.pop("depth")
+    columns = {each: column for each, column in columns.items() if column}
+    why = _variant(table, found, given)
+    if why:
+        raise UnknownColumns(why, table, file, _with_by(table, columns))
+    if not {"depth", "piezo"} & given.keys():
+        _ask_for_piezo(table, file, columns, stiffness)
+    return columns
 
 
-def _found(table, each, free):
-    """Number of the column of a quantity, or None, and those of others in its kind of unit."""
-    kind = {"depth": "length"}.get(each, each)
-    units = {column: table.unit_of(column) for column in free}
-    of_kind = [column for column, unit in units.items() if unit.kind == kind]
-    if each == "depth":
-        of_kind = [column for column in of_kind if words.quantity_of(free[column]) != "deflection"]
-    fits = [
-        column for column in of_kind if not units[column].doubt and not words.is_none(each, free[column])
-    ]
-    named = [column for column in fits if words.named(each, free[column])]
-    # Other columns that have the name, and a unit that is not understood.
-    unclear = [
-        column for column, head in free.items()
-        if words.named(each, head) and not words.is_none(each, head) and column not in fits
-        and (units[column].doubt or not units[column].kind) and not _other_kind(units[column], head)
-    ]  # fmt: skip
-    if not fits or (unclear and not named):
-        return None, []
-    best = max(named or fits, key=lambda column: _rank(each, free[column]))
-    better = (column for column in unclear if units[column].doubt)
-    if any(_rank(each, free[column]) > _rank(each, free[best]) for column in better):
-        return None, []
-    unnamed = not named and len(fits) > 1
-    others = [k for k in free if (k in of_kind or k in unclear) and k != best]
-    return (None, []) if unnamed and each == "depth" else (best, others)
-
-
-def _other_kind(unit, head):
-    """Whether the unit of a column is of another kind, as nm/s; one without any unit is not."""
-    return not unit.doubt and bool(re.search(r"[(\[].*[/^].*[)\]]|\w/\w|Pa\b", head))
-
-
-def _rank(each, head):
-    """Whether a name is no raw one, says the depth, and is a measured one or of the whole series."""
-    name = words.normal(head)
-    measured = "measured" in name or "sensor" in name or "strain gauge" in name or "series" in name
-    depth = words.says_depth(head) if each == "depth" else 0
-    # A displacement and a height may be those of a piezo.
-    sure = depth == 2 and not re.search("displ|height|contact", name)
-    return "raw" not in name, sure, depth, words.quantity_of(head) == each, measured
-
-
-def _deflection(table, name, free, cantilever):
-    """Number of a column of a deflection (m or V), for which the constants of the cantilever are known."""
-    candidates = [k for k, head in free.items() if words.quantity_of(head) == "deflection"
-             and not words.is_none("force", head) and table.unit(k) in _DEFLECTION]  # fmt: skip
-    if not candidates:
-        return None
-    # In m no sensitivity is needed.
-    best = min(candidates, key=lambda k: table.unit(k) in COLUMN_UNITS["voltage"])
-    _need_cantilever(table, name, best, table.unit(best), cantilever)
-    return best
-
-
-def _need_cantilever(table, name, column, unit, cantilever):
-    """Refuse a deflection without the constants that turn it into a force."""
-    needed = {"spring_constant": "spring_constant= (N/m)"}
-    if unit.lstrip("−") in COLUMN_UNITS["voltage"]:
-        needed["sensitivity"] = "sensitivity= (m/V)"
-    lacking = [text for each, text in needed.items() if each not in (cantilever or ())]
-    if lacking:
-        raise UnknownColumns(
-            f"{name} has no column of force with a unit in its header, but a deflection in {unit}, "
-            f"{table.heads[column]!r}: give {' and '.join(lacking)}",
-            table,
-        )
-
-
-def _unknown(table, name, each, free):
-    """Message on a header that is not understood, and on the columns to give."""
-    for column, head in free.items():
-        unit = table.unit_of(column)
-        if words.named(each, head) and unit.doubt:
-            unit_given = "nm" if each == "depth" else "mN"
-            return (
-                f"{name}: the unit of {each} in {head!r} is not understood: {unit.doubt!r} is not a "
-                "unit of this package, or scales a unit. Convert the numbers if need be, and give the "
-                f'number of the column and its unit, columns={{"{each}": ({column}, "{unit_given}"), …}}, '
-                f"out of {_units(each)}"
-            )
-    kind = {"depth": "length"}.get(each, each)
-    fits = [head for k, head in free.items() if table.unit_of(k).kind == kind]
-    several = f"; {', '.join(map(repr, fits))} is not named as the {each}" if fits else ""
-    return (
-        f"{name} has no column of {each} with a unit in its header, {table.heads}{several}: {_GIVE}; a "
-        "deflection is not a force. NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)"
-    )
-
-
-def _units(each):
-    return ", ".join(unit for unit in SIZES[each] if not unit.startswith("−"))
-
-
-def _untimed(table, free):
-    """A remark on a time whose unit is not understood."""
-    for column, head in free.items():
-        unit = table.unit_of(column)
-        unknown = unit.doubt or not (unit.kind or _other_kind(unit, head))
-        if unknown and _TIME.search(words.normal(head)) and not words.is_none("time", head):
-            return [
-                f'{head!r} has no unit of time and is left out: give columns={{"time": ({column}, "s")}}'
-            ]
-    return []
-
-
-def _given(table, each, column, free, cantilever):
-    """Number and unit of one of the `free` columns that is given by its name or number."""
-    if column is None and each == "time":
-        return None
-    which, unit = column if isinstance(column, tuple | list) else (column, None)
-    number = next((k for k, head in free.items() if which in (k, head)), None)
-    if number is None and isinstance(which, str):
-        # A name without the unit in a line of its own.
-        named = [
-            k
-            for k, head in free.items()
-            if head.removesuffix(table.units.get(k, "")).strip() == which.strip()
-        ]
-        number = named[0] if len(named) == 1 else None
-    if number is not None:
-        unit = unit_named(unit) or unit if unit else table.unit(number)
-    if number is not None and each == "force" and unit and unit.lstrip("−") in _DEFLECTION:
-        _need_cantilever(table, "the table", number, unit, cantilever)
-        return number, unit
-    if number is None or unit not in SIZES[each]:
+def told(table, file, columns):
+    """Numbers and units of columns that are told by their names or numbers, None for those left out."""
+    if not isinstance(columns, dict):
         raise ValueError(
-            f"columns: {each} = {column!r} must be a number or name of {free}; a column without a unit "
-            f"needs one, as in ({which!r}, {list(SIZES[each])[1]!r}), out of {', '.join(SIZES[each])}"
+            f'columns = {columns!r:.80} must be like {{"depth": (0, "nm"), "force": (1, "mN")}}'
         )
-    return number, unit
+    if {"depth", "piezo"} <= columns.keys():
+        raise ValueError('columns: give "depth", or "piezo" for the position of a piezo, not both')
+    found = {each: _one(table, each, column) for each, column in columns.items()}
+    used = [column[0] for column in found.values() if column]
+    twice = next((k for k in used if used.count(k) > 1), None)
+    if twice is not None:
+        raise ValueError(f"columns = {columns!r:.200} of {file}: column {twice} is given twice")
+    return found
 
 
-def stiffness_of(table):
-    """Number and size (N/m) of the column of a contact stiffness, or None; "Contact" comes first."""
-    candidates = []
-    for column, head in table.heads.items():
-        unit, name = table.unit_of(column), words.normal(head)
-        if unit.kind != "stiffness" or unit.doubt or _NO_CONTACT.search(name):
-            continue
-        if re.search(r"stiffness|steifigkeit|raideur|rigid|刚度|^s\b|d[fpl] d[hdz]\b", name):
-            candidates.append(("contact" in name or "kontakt" in name, -column, unit.size))
-    if not candidates:
+def plain_beside(table, columns):
+    """Time and stiffness that have exact names, beside columns that are told."""
+    found = _exact(table, {})
+    return {
+        each: (found[each][0], table.unit(found[each][0]))
+        for each in ("time", "stiffness")
+        if each not in columns and len(found[each]) == 1
+    }
+
+
+def ask_for_parts(table, file, columns):
+    """Ask where a table may hold several curves."""
+    found = several(table, columns)
+    if found:
+        why, rows = found
+        suggestion = {"columns": columns, "by": guess.by(table, columns, rows)}
+        raise UnknownColumns(why, table, file, suggestion, hint=": several curves, or by='whole' for one")
+
+
+def _exact(table, given):
+    """Numbers of the columns whose names and units are taken without asking, by their quantity."""
+    found = {each: [] for each in TAKEN}
+    for column in table.heads:
+        name, kind, _ = table.parted(column)
+        for each, (wanted, names) in TAKEN.items():
+            if name in names and kind == wanted:
+                found[each].append(column)
+    for each, column in given.items():
+        found["depth" if each == "piezo" else each] = [column[0]] if column else []
+    return found
+
+
+def _lacking(found):
+    """What is asked where depth and force have not one exact name each; empty where they have."""
+    lacking = [each for each in ("depth", "force") if len(found[each]) != 1]
+    several = [each for each in lacking if len(found[each]) > 1]
+    if several:
+        return f"it has several columns of {' and of '.join(several)}: which belong together?"
+    which = " and which the ".join(lacking)
+    return f"which column is the {which}? The header does not say it plainly." if lacking else ""
+
+
+def _second_set(table, found, given):
+    """What is asked where there are both another length and another force."""
+    others = [
+        next((k for k in table.heads if k not in found[each] and table.parted(k)[1] == kind), None)
+        for each, kind in (("depth", "length"), ("force", "force"))
+    ]
+    if None in others or given:
+        return ""
+    heads = " and ".join(repr(table.heads[k]) for k in others)
+    return f"it has a second set of columns, {heads}: which is the curve?"
+
+
+def _variant(table, found, given):
+    """What is asked where another column has one of the names among other words, and its kind of unit."""
+    for each in ("depth", "force"):
+        kind = TAKEN[each][0]
+        for column in table.heads:
+            name, own, _ = table.parted(column)
+            told_or_taken = column in found[each] or each in given or (each == "depth" and "piezo" in given)
+            if not told_or_taken and own == kind and is_variant(name, each):
+                first = table.heads[found[each][0]]
+                return f"{first!r}, or {table.heads[column]!r}? Which is the {each}?"
+    return ""
+
+
+def _ask_for_piezo(table, file, columns, stiffness):
+    """Ask whether a displacement of a small force, or beside a stiffness that is given, is a piezo's."""
+    place, force = columns["depth"][0], np.abs(table.values[columns["force"][0]])
+    name, head = table.parted(place)[0], table.heads[place]
+    largest = np.nanmax(force) if np.isfinite(force).any() else 0.0
+    small = largest * size_of(columns["force"][1]) < _SMALL
+    if name not in DISPLACEMENT or not (small or stiffness is not None):
+        return
+    given = columns
+    if name != "h" or stiffness is not None:
+        given = {"piezo" if each == "depth" else each: column for each, column in columns.items()}
+    why = (
+        f"is {head!r} the depth of the tip, or the position of a piezo, from which spring_constant= "
+        "subtracts the deflection?"
+    )
+    hint = ' Give it as "depth" or as "piezo"'
+    raise UnknownColumns(why, table, file, _with_by(table, given), hint=hint)
+
+
+def ask_for_results(table, file, columns):
+    """Ask where the rows may be tests, not the samples of one."""
+    depth, force = (table.values[k] for k in (place_of(columns), columns["force"][0]))
+    others = [head for head in table.heads.values() if is_result(head)]
+    path = is_path(depth, force)
+    timed = "stiffness" in columns and "time" in columns
+    if path and (not others or _falls(force) or timed):
+        return
+    why = "are the rows samples of one test, or is this a table of results?"
+    why += " Depth and force go to and fro." * (not path)
+    why += f" It has {others[0]!r}." if others else ""
+    raise UnknownColumns(why, table, file, _with_by(table, columns), results=not path)
+
+
+def _may_be_curve(table):
+    """Whether a table without a likely depth and force may yet be a curve."""
+    return has_path(table) and not any(map(is_result, table.heads.values()))
+
+
+def _falls(force):
+    """Whether the force rises to a peak and falls again, some samples each."""
+    load = np.abs(force[np.isfinite(force)])
+    return load.size > 6 and load[-1] < 0.8 * load.max() and 2 < np.argmax(load) < load.size - 3
+
+
+def _with_by(table, columns):
+    """A suggestion of columns, with `by` where the depth starts anew."""
+    found = several(table, columns)
+    return {"columns": columns} | ({"by": guess.by(table, columns, found[1])} if found else {})
+
+
+def _merged(suggestion, given):
+    """A suggestion with the columns that are told."""
+    if not given or not isinstance(suggestion.get("columns", {}), dict):
+        return suggestion
+    free = {each: column for each, column in suggestion.get("columns", {}).items() if each not in given}
+    if {"depth", "piezo"} & given.keys():
+        free = {each: column for each, column in free.items() if each not in ("depth", "piezo")}
+    return suggestion | {"columns": given | free}
+
+
+def _one(table, each, column):
+    """Number and unit of a column that is told."""
+    _check.one_of("a key of columns", each, tuple(_KINDS))
+    if column is None:
         return None
-    _, column, size = max(candidates)
-    return -column, size
+    which, unit = column if isinstance(column, tuple | list) and len(column) == 2 else (column, None)
+    numbers = [
+        k for k, head in table.heads.items()
+        if not isinstance(which, bool)
+        and which in (k, head, head.removesuffix(table.units.get(k, "")).strip())
+    ]  # fmt: skip
+    if isinstance(unit, str) and unit:
+        unit = ("−" if unit[0] in "−-" else "") + (unit_named(unit.lstrip("−-")) or "?")
+    elif unit is None and numbers and not guess.scaled(table.heads[numbers[0]]):
+        # The header's own unit, where nothing scales it.
+        unit = table.unit(numbers[0])
+    allowed = [name for kind in _KINDS[each] for name in COLUMN_UNITS[kind]]
+    if len(numbers) != 1 or not unit or unit.lstrip("−") not in allowed:
+        first = next(iter(table.heads)) if isinstance(which, list | tuple) else which
+        raise ValueError(
+            f"columns: {each} = {column!r:.80} must be the number or the name of one column of "
+            f"{table.heads}, and its unit, as in ({first!r}, {_USUAL[each]!r}), out of {', '.join(allowed)}"
+        )
+    return numbers[0], unit

@@ -1,180 +1,156 @@
-"""Several curves in one table: below each other, distinguished by a column, or side by side."""
+"""Curves of several tables: of a text, or of the sheets of a workbook."""
 
-import re
+from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
-import numpy as np
-
-from . import words
-from .columns import SIZES
-from .units import unit_named
-
-#: Names of the approach and the retract in the names of columns that stand side by side.
-_PAIRS = (
-    ("ex", "rt"), ("ext", "ret"), ("extend", "retract"), ("extension", "retraction"),
-    ("approach", "retract"), ("approach", "withdraw"), ("trace", "retrace"), ("forward", "backward"),
-    ("loading", "unloading"), ("app", "ret"), ("hin", "rück"), ("aller", "retour"),
-)  # fmt: skip
-#: Most curves that a column tells apart; and largest step at the edge of two parts of one curve, as a share
-#: of the range of the depth, and in median steps.
-_MOST, _EDGE, _STEPS = 10_000, 0.1, 5.0
+from .columns import taken, told
+from .curve import curve_maker, curves_of
+from .formats import format_of
+from .question import NoCurve, UnknownColumns
+from .split import below, goes_on
+from .table import read_tables
 
 
-def below_each_other(table, columns, name):
-    """Names and tables of the curves of which a column of labels or of whole numbers tells the rows."""
-    blocks = _blocks(table, columns, name)
-    if blocks is None:
-        return [("", table)]
-    head, edges, labels = blocks
-    # These cells are in the names of the curves.
-    table = replace(
-        table, words={key: cells for key, cells in table.words.items() if key.partition(" ")[2] != head}
-    )
-    return [
-        (f"{head} {label}".strip(), _rows(table, slice(start, stop)))
-        for (start, stop), label in zip(edges, labels, strict=True)
-    ]
+def curves_of_text(text, file, options):
+    """Functions that make the curves of a text: of a known format, or of its tables."""
+    columns, by, given = options["columns"], options["by"], options["given"]
+    known = format_of(text)
+    if known and columns is None and by is None:
+        # What is not as the format has it, is read as a table.
+        with suppress(LookupError):
+            return known.curves(text, file, given)
+    tables = read_tables(known.body(text) if hasattr(known, "body") else text, file)
+    if len(tables) == 1:
+        return curves_of(tables[0], file, columns, by, given)
+    if by == "segments" and not isinstance(columns, list | tuple):
+        return _of_parts(tables, file, columns, given)
+    if by is None and columns is None:
+        _ask_for_segments(tables, file, given)
+    return curves_of_tables(tables, file, options)
 
 
-def _rows(table, part):
-    """A part of the rows of a table, with the odd lines between them."""
-    lines = table.lines[part]
-    odd = {number: line for number, line in table.odd.items() if lines[0] <= number <= lines[-1]}
-    cells = {key: cells[part] for key, cells in table.words.items()}
-    values = {k: each[part] for k, each in table.values.items()}
-    return replace(table, values=values, lines=lines, odd=odd, words=cells)
+def curves_of_tables(tables, file, options):
+    """Functions that make the curves of tables, read plainly, as told, or asked about when they are taken.
 
-
-def _blocks(table, columns, name):
-    """Name of the column that tells curves apart, their first and last rows, and labels; or None."""
-    used = {column[0] for column in columns.values() if column}
-    candidates = [(key.partition(" ")[2], cells) for key, cells in table.words.items()]
-    for k, values in table.values.items():
-        whole = k not in used and np.all(np.isfinite(values)) and np.all(values == np.round(values))
-        if whole and not table.unit_of(k).kind:
-            candidates.append((table.heads[k], [f"{value:.0f}" for value in values]))
-    for head, cells in candidates:
-        if len(cells) < 4 or not all(cell.strip() for cell in cells) or words.numbers_parts(head):
-            continue
-        changes = [i for i in range(1, len(cells)) if cells[i] != cells[i - 1]]
-        if not changes or len(changes) >= min(_MOST, len(cells) // 3):
-            continue
-        edges = list(zip([0, *changes], [*changes, len(cells)], strict=True))
-        labels = [cells[start] for start, _ in edges]
-        if min(stop - start for start, stop in edges) < 3 or _of_segments(labels):
-            continue
-        if len(set(labels)) < len(labels):
-            continue
-        restarts = _restarts(table, columns, edges)
-        if words.numbers_samples(head) and (restarts or _complete(table, columns, edges)):
-            return (head if head else "curve"), edges, labels
-        if not all(cell.lstrip("-").isdigit() for cell in labels) and restarts:
-            return head, edges, labels
-        if restarts:
-            raise ValueError(
-                f"{name}: depth and force start again where the column {head!r} changes, at line "
-                f"{table.lines[changes[0]]}: if these are several curves, name it 'test', or give "
-                "each a file"
-            )
-    return None
-
-
-def _of_segments(labels):
-    """Whether labels are names of segments, as load and unload."""
-    return all(
-        re.search("load|approach|retract|extend|hold|dwell|pause|withdraw|belast|entlast|halte|peak|begin|end|marker",
-                  label, re.I)
-        for label in labels
-    )  # fmt: skip
-
-
-def _restarts(table, columns, edges):
-    """Whether the depth, and the time if there is one, jump back where each part begins."""
-    depth = table.values[columns["depth"][0]]
-    if columns["time"]:
-        time = table.values[columns["time"][0]]
-        if all(time[start] >= time[start - 1] for start, _ in edges[1:]):
-            return False
-        if all(time[start] < time[start - 1] for start, _ in edges[1:]):
-            return True
-    return jumps(depth, [start for start, _ in edges[1:]])
-
-
-def jumps(depth, starts):
-    """Whether the depth jumps before each of some samples, by more than its steps."""
-    size = max(
-        _EDGE * np.nanmax(depth) - _EDGE * np.nanmin(depth), _STEPS * np.nanmedian(np.abs(np.diff(depth)))
-    )
-    return all(abs(depth[start] - depth[start - 1]) > size for start in starts)
-
-
-def _complete(table, columns, edges):
-    """Whether the force of each part begins at less than half of its largest value."""
-    force = np.abs(table.values[columns["force"][0]])
-    for start, stop in edges:
-        part = force[start:stop]
-        if not part[0] < 0.5 * part.max():
-            return False
-    return True
-
-
-def side_by_side(table, columns):
-    """Columns of each curve where the names of depth and force occur as often as there are curves.
-
-    The first entry are `columns`. Returns None where a name occurs in another number.
+    What is told holds for the tables with the heads and units of the one that is asked about: the first one
+    that is not plain, or the first one that has the columns that are told by their names. Tables of results
+    and settings are left out, with a remark.
     """
-    keys = {each: _key(table, columns[each][0]) for each in ("depth", "force")}
-    same = {
-        each: [k for k in table.heads if _key(table, k) == key and table.unit(k) in SIZES[each]]
-        for each, key in keys.items()
-    }
-    if columns["force"][1].lstrip("−") not in SIZES["force"]:
-        return [columns]
-    count = len(same["depth"])
-    if count == len(same["force"]) == 1:
-        return [columns]
-    if count != len(same["force"]):
-        # One quantity in several units is that of one curve.
-        units = [[table.unit(k) for k in each] for each in same.values()]
-        return [columns] if all(len(set(each)) == len(each) for each in units) else None
-    time = columns["time"]
-    times = [
-        k
-        for k in table.heads
-        if time and _key(table, k) == _key(table, time[0]) and table.unit(k) in SIZES["time"]
+    columns, by, given = options["columns"], options["by"], options["given"]
+    plain = [_tried(table, file, None, None, given) for table in tables]
+    found = plain
+    if columns is not None or by is not None:
+        key = _key_of_told(tables, plain, columns)
+        found = [
+            _tried(table, file, columns, by, given) if table.key == key else old
+            for table, old in zip(tables, plain, strict=True)
+        ]
+    left, makers = [], []
+    wanted = [not _no_curve(outcome) for outcome in found]
+    first = _asked(plain)
+    for table, outcome in zip(tables, found, strict=True):
+        if isinstance(outcome, list):
+            makers += outcome
+        elif any(wanted) and _no_curve(outcome):
+            left.append(f"{table.name!r} is left out, as it has no curve")
+        else:
+            makers.append(partial(_refuse, _for_pasting(outcome, table, tables, first)))
+    if all(make.func is _refuse for make in makers):
+        makers[0]()
+    return [partial(_said, make, tuple(left)) for make in makers] if left else makers
+
+
+def _tried(table, file, columns, by, given):
+    """Functions that make the curves of a table, or the error that is raised instead."""
+    try:
+        return curves_of(table, file, columns, by, given)
+    except ValueError as error:
+        return error
+
+
+def _no_curve(outcome):
+    return isinstance(outcome, NoCurve) or getattr(outcome, "results", False)
+
+
+def _asked(plain):
+    """Number of the first table that is asked about, or of the first one with a curve."""
+    asked = (i for i, each in enumerate(plain) if isinstance(each, UnknownColumns) and not each.results)
+    return next(asked, next((i for i, each in enumerate(plain) if not _no_curve(each)), 0))
+
+
+def _key_of_told(tables, plain, columns):
+    """Heads and units of the tables for which `columns` and `by` are told."""
+    parts = columns if isinstance(columns, list | tuple) else [columns or {}]
+    cells = [c for part in parts if isinstance(part, dict) for c in part.values()]
+    names = [c[0] if isinstance(c, list | tuple) else c for c in cells]
+    for table in tables if any(isinstance(name, str) for name in names) else ():
+        # A name that a table does not have is of another one.
+        with suppress(ValueError):
+            for part in parts:
+                told(table, "", part)
+            return table.key
+    return tables[_asked(plain)].key
+
+
+def _for_pasting(error, table, tables, first):
+    """A question whose suggestion names the columns, if their numbers would be another table's."""
+    if not isinstance(error, UnknownColumns) or table.key == tables[first].key or not error.suggestion:
+        return error
+
+    def named(layout):
+        heads = list(table.heads.values())
+        own = {
+            each: (table.heads[c[0]], c[1]) if c and heads.count(table.heads[c[0]]) == 1 else c
+            for each, c in layout.items()
+        }
+        return own
+
+    columns = error.suggestion["columns"]
+    columns = [*map(named, columns)] if isinstance(columns, list) else named(columns)
+    return error.elsewhere(error.suggestion | {"columns": columns})
+
+
+def _refuse(error):
+    raise error
+
+
+def _said(make, left):
+    """A curve that also says which tables are left out."""
+    curve = make()
+    return replace(curve, remarks=(*curve.remarks, *left))
+
+
+def _ask_for_segments(tables, file, given):
+    """Ask where a second header follows while the depth goes on: parts of one curve."""
+    if tables[0].key != tables[1].key:
+        return
+    try:
+        layout = taken(tables[0], file, {}, given.get("spring_constant"))
+    except ValueError:
+        return
+    if goes_on(tables[0], tables[1], layout):
+        why = "a second header follows where the depth goes on"
+        hint = ": parts of one curve, or by='whole' for several"
+        raise UnknownColumns(why, tables[0], file, {"columns": layout, "by": "segments"}, hint=hint)
+
+
+def _of_parts(tables, file, columns, given):
+    """Functions that make curves whose parts have a header each: a part goes on where one ends."""
+    layout = told(tables[0], file, columns) if columns else taken(tables[0], file, {})
+    groups = [[tables[0]]]
+    for table in tables[1:]:
+        same = table.key == tables[0].key
+        if same and goes_on(groups[-1][-1], table, layout):
+            groups[-1].append(table)
+        elif same:
+            groups.append([table])
+    if all(len(group) == 1 for group in groups):
+        raise ValueError(f"by = 'segments' joins nothing in {file}: no table goes on where one ends")
+    layout = {each: column for each, column in layout.items() if column}
+    label = f"{file}, curve {{}}" if len(groups) > 1 else file
+    source = "as told" if columns else "by its header"
+    return [
+        curve_maker(replace(below(group), name=""), label.format(i), layout, given, source)
+        for i, group in enumerate(groups, 1)
     ]
-    groups = []
-    for i in range(count):
-        group = {each: (same[each][i], table.unit(same[each][i])) for each in ("depth", "force")}
-        group["time"] = (times[i], table.unit(times[i])) if len(times) == count else time
-        groups.append(group)
-    return groups
-
-
-def _key(table, column):
-    """Name of a column without its unit and a number at its end."""
-    head = table.heads[column].removesuffix(table.units.get(column, ""))
-    head = re.sub(
-        r"[(\[{]([^()\[\]{}]*)[)\]}]", lambda match: " " if unit_named(match[1]) else match[0], head
-    )
-    name = words.normal(re.sub(r"/.*$", " ", head))
-    name = re.sub(r"[\s.]*\d+$", "", name)
-    unit = table.unit(column)
-    return re.sub(rf"\s*\b{re.escape(words.normal(unit))}$", "", name) if unit else name
-
-
-def retract_of(table, columns):
-    """Columns of the retract that stands beside the approach of `columns`, or None."""
-    heads = {words.normal(head): k for k, head in table.heads.items()}
-    for first, second in _PAIRS:
-        pattern = re.compile(rf"(?<![^\W\d_]){first}(?![^\W\d_])")
-        others = {}
-        for each, column in columns.items():
-            if each in ("depth", "force"):
-                name = words.normal(table.heads[column[0]])
-                other = heads.get(pattern.sub(second, name)) if pattern.search(name) else None
-                if other is not None and table.unit(other) == table.unit(column[0]):
-                    others[each] = (other, column[1])
-        if len(others) == 2:
-            return others | {"time": None}
-    return None

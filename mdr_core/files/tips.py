@@ -4,7 +4,7 @@ from pathlib import Path
 
 from .. import _check
 from ..profiles.samples import LENGTHS
-from .text import decoded, read_table
+from .table import decoded, read_table
 from .units import unit_named
 
 
@@ -22,9 +22,10 @@ def samples_of(text, name, unit, limit, remedy=""):
         _check.one_of("unit", unit, (*LENGTHS, "um"))
     table = read_table(text, name, limit)
     count = len(table.heads)
-    if table.odd or count < 2:
+    unnamed = count > 2 and bool(table.header) and not any(table.heads.values())
+    if table.odd or count < 2 or unnamed:
         number = min(table.odd, default=table.lines[0])
-        expected = "two numbers r, z" if count <= 2 else f"{count} numbers, r and z first"
+        expected = "two numbers r, z" if count <= 2 or unnamed else f"{count} numbers, r and z first"
         line = f", found {table.odd[number].strip()!r:.60}" if table.odd else ""
         raise ValueError(f"{name}, line {number}: expected {expected}{line}")
     columns = list(table.heads)[:2]

@@ -185,7 +185,7 @@ def test_a_drag_and_a_viscosity_are_fitted_where_there_are_times():
     d = 1e-6 * np.sin(np.pi * t / 2) - 0.2e-6
     F = mdr.indent_in_time(tip, made, d, t).force
     drag = 0.05 * F.max() / (1e-6 * np.pi / 2)
-    columns = {"t (s)": t, "h (nm)": 1e9 * d, "F (pN)": 1e12 * (F + drag * np.gradient(d, t))}
+    columns = {"t (s)": t, "Depth (nm)": 1e9 * d, "F (pN)": 1e12 * (F + drag * np.gradient(d, t))}
     page = opened(table(columns).encode(), "viscous", "paraboloid", radius=10e-6)
     assert page.fit.medium.E_star == approx(20e3, rel=0.01)
     assert page.fit.drag == approx(drag, rel=0.05)
@@ -203,7 +203,7 @@ def test_adhesion_is_fitted_from_a_pull_off():
     made = mdr.Medium(1e9, work_of_adhesion=0.2)
     d = np.append(np.linspace(-10e-9, 60e-9, 100), np.linspace(60e-9, -20e-9, 120))
     F = mdr.indent(mdr.Cone(0.3), made, d).force
-    data = table({"h (nm)": 1e9 * d, "F (nN)": 1e9 * F}).encode()
+    data = table({"Depth (nm)": 1e9 * d, "F (nN)": 1e9 * F}).encode()
     page = opened(data, "sticky", "cone", half_angle=float(np.arctan(1 / 0.3)))
     assert page.fit.medium.work_of_adhesion == approx(0.2, rel=1e-2)
     assert page.fit.medium.E_star == approx(1e9, rel=1e-2)
@@ -271,7 +271,7 @@ def test_a_table_without_a_header_asks_for_its_columns_and_units():
     F = mdr.indent(TIP, GLASS, DEPTH).force
     rows = "\n".join(f"{1e3 * f:.9g},{1e9 * h:.9g}" for f, h in zip(F, DEPTH, strict=True))
     page.take_file("bare.csv", rows.encode())
-    assert "bare.csv does not name its columns of depth and force" in plain(page.refused)
+    assert "bare.csv: which column is the depth and which the force?" in plain(page.refused)
     form = page.form
     assert form.reader.visible
     assert not form.reader.collapsed
@@ -280,6 +280,7 @@ def test_a_table_without_a_header_asks_for_its_columns_and_units():
     form.columns["force"].value = 0
     assert page.curve is None
     form.units["force"].value = "mN"
+    press(form.confirm)
     np.testing.assert_allclose(page.curve.depth, DEPTH, rtol=1e-8, atol=1e-16)
     assert page.refused == ""
     # The link has the columns, and asks for the same file.
@@ -290,6 +291,111 @@ def test_a_table_without_a_header_asks_for_its_columns_and_units():
     # A wrong unit is corrected.
     form.units["force"].value = "µN"
     np.testing.assert_allclose(page.curve.force, 1e-3 * F, rtol=1e-8, atol=1e-12)
+
+
+def press(button):
+    button.clicks += 1
+
+
+def german(scale=1.0):
+    """A curve whose names are no exact ones."""
+    F = scale * mdr.indent(TIP, GLASS, DEPTH).force
+    return table({"Tiefe (nm)": 1e9 * DEPTH, "Kraft (mN)": 1e3 * F}).encode()
+
+
+def test_a_question_is_one_click_and_a_folder_of_files_is_asked_about_once():
+    """The choosers have the suggestion, which is drawn; the link has what was told."""
+    page = page_of()
+    page.take_file("eine_datei_1.csv", german())
+    form = page.form
+    assert "eine_datei_1.csv: which column is the depth" in plain(page.refused)
+    assert "<sub>" not in page.refused.partition(":")[0]
+    assert (form.columns["depth"].value, form.units["force"].value) == (0, "mN")
+    assert (form.meaning.value, form.parts.value, form.confirm.visible) == ("depth", "whole", True)
+    assert form.preview.object.count(",") > DEPTH.size
+    # It is a suggestion: nothing is read before it is confirmed.
+    form.meaning.value = "depth"
+    assert page.curve is None
+    press(form.confirm)
+    np.testing.assert_allclose(page.curve.depth, DEPTH, rtol=1e-7, atol=1e-15)
+    assert (page.refused, form.confirm.visible) == ("", False)
+    again = Setting.read(page.setting.query())
+    assert (again.columns["depth"], again.by) == ((0, "nm"), None)
+    page.take_file("eine_datei_2.csv", german(2.0))
+    assert page.refused == ""
+    F = 2 * mdr.indent(TIP, GLASS, DEPTH).force
+    np.testing.assert_allclose(page.curve.force, F, atol=1e-9)
+    # Other heads are another question.
+    page.take_file("autre.csv", german().replace(b"Tiefe", b"Profondeur"))
+    assert "autre.csv: which column is the depth" in plain(page.refused)
+
+
+def test_a_piezo_is_asked_for_its_spring_constant():
+    F = 1e-6 * mdr.indent(TIP, GLASS, DEPTH).force
+    page = page_of()
+    data = table({"Piezo (nm)": 1e9 * (DEPTH + F / 0.05), "Force (nN)": 1e9 * F}).encode()
+    page.take_file("afm.csv", data)
+    form = page.form
+    assert form.meaning.value == "piezo"
+    press(form.confirm)
+    assert "give the spring constant" in plain(page.refused)
+    assert "spring constant" in page.wants
+    page.reread(spring_constant=0.05)
+    np.testing.assert_allclose(page.curve.depth, DEPTH, rtol=1e-6, atol=1e-13)
+    # The next file of the folder has the same instrument.
+    page.take_file("afm2.csv", data)
+    assert page.curve.spring_constant == 0.05
+
+
+@pytest.mark.parametrize("kind", ["map", "pairs", "segments", "restart"])
+def test_several_curves_are_one_click(kind):
+    F = mdr.indent(TIP, GLASS, DEPTH).force
+    two = np.tile(1e9 * DEPTH, 2), np.append(1e3 * F, 2e3 * F)
+    top = int(np.argmax(DEPTH))
+    columns = {
+        "map": {"x (um)": np.repeat([0, 5], DEPTH.size), "Depth (nm)": two[0], "Load (mN)": two[1]},
+        "restart": {"Depth (nm)": two[0], "Load (mN)": two[1]},
+        "pairs": {"Depth 1 (nm)": 1e9 * DEPTH, "Load 1 (mN)": 1e3 * F, "Depth 2 (nm)": 1e9 * DEPTH,
+                  "Load 2 (mN)": 2e3 * F},
+        "segments": {"Loading depth (nm)": 1e9 * DEPTH[: top + 1], "Loading load (mN)": 1e3 * F[: top + 1],
+                     "Unloading depth (nm)": np.linspace(1e9 * DEPTH[top], 1e9 * DEPTH[-1], top + 1),
+                     "Unloading load (mN)": np.linspace(1e3 * F[top], 0, top + 1)},
+    }[kind]  # fmt: skip
+    page = page_of()
+    page.take_file("run.csv", table(columns).encode())
+    form = page.form
+    assert (
+        form.parts.value
+        == {"map": "0", "pairs": "pairs", "segments": "segments", "restart": "restart"}[kind]
+    )
+    assert "=" not in plain(page.refused)
+    press(form.confirm)
+    assert page.refused == ""
+    assert page.count == (1 if kind == "segments" else 2)
+    again = page_of(page.setting.query())
+    again.take_file("run.csv", table(columns).encode())
+    assert again.count == page.count
+    np.testing.assert_array_equal(again.curve.force, page.curve.force)
+
+
+def test_a_sheet_is_asked_about_when_it_is_chosen(tmp_path):
+    """Each kind of heads is one question, and the curves of the others stay."""
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("openpyxl")
+    F = mdr.indent(TIP, GLASS, DEPTH).force
+    with pandas.ExcelWriter(tmp_path / "run.xlsx") as file:
+        for name, heads in (("A", ("Depth (nm)", "Load (mN)")), ("B", ("Tiefe (nm)", "Kraft (mN)"))):
+            frame = pandas.DataFrame(dict(zip(heads, (1e9 * DEPTH, 1e3 * F), strict=True)))
+            frame.to_excel(file, sheet_name=name, index=False)
+    page = page_of()
+    page.take_file("run.xlsx", (tmp_path / "run.xlsx").read_bytes())
+    assert (page.count, page.curve.name[-3:]) == (2, ", A")
+    page.choose_curve(1)
+    assert "which column is the depth" in plain(page.refused)
+    press(page.form.confirm)
+    assert page.curve.name.endswith(", B")
+    page.choose_curve(0)
+    assert page.curve.name.endswith(", A")
 
 
 def test_files_that_are_none_are_refused_in_words_and_the_next_one_is_read():

@@ -205,3 +205,20 @@ def test_a_job_is_stopped_and_the_next_one_is_done(tmp_path):
         assert heard == ["done", "ended", "done"]
     finally:
         worker.stop()
+
+
+def test_a_question_is_answered_by_one_click(measurement, tmp_path):
+    """A German file: the choosers have the suggestion, which is drawn, and a folder is asked about once."""
+    page = measurement.page
+    depth = 1e-6 * np.append(np.linspace(-0.05, 1, 240), np.linspace(1, 0.7, 160))
+    force = mdr.indent(TIP, mdr.Medium(E_star=80e9, hardness=8e9), depth).force
+    for name in ("eine_datei.csv", "noch_eine.csv"):
+        text = table({"Tiefe (nm)": 1e9 * depth, "Kraft (mN)": 1e3 * force})
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    drop(measurement, tmp_path / "eine_datei.csv")
+    page.get_by_text("eine_datei.csv: which column is the depth").wait_for()
+    assert page.locator("figure.preview polyline").count() == 1
+    page.get_by_role("button", name="Read", exact=True).click()
+    page.get_by_text("eine_datei.csv: 400 samples").wait_for()
+    drop(measurement, tmp_path / "noch_eine.csv")
+    page.get_by_text("noch_eine.csv: 400 samples").wait_for()

@@ -1,6 +1,8 @@
-"""Files that tests of the reading write."""
+"""Files that tests of the reading write, and the question that one raises."""
 
 import pytest
+
+import mdr_core as mdr
 
 
 @pytest.fixture
@@ -11,3 +13,15 @@ def write(tmp_path):
         return path
 
     return write
+
+
+@pytest.fixture
+def asked(write):
+    """The question about a text."""
+
+    def asked(content, **given):
+        with pytest.raises(mdr.UnknownColumns) as error:
+            mdr.read_curves(write(content), **given)
+        return error.value
+
+    return asked

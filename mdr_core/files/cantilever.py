@@ -1,0 +1,126 @@
+"""The constants of a cantilever, given or in the header of a file: those that a curve needs, no others."""
+
+from dataclasses import dataclass
+
+from .names import normal, parted
+from .question import UnknownColumns
+from .table import LONGEST_HEADER
+from .units import COLUMN_UNITS, size_of, unit_alone
+
+#: Names of the constants in the headers of files, and the kinds of their units.
+_NAMES = {
+    "spring_constant": ({
+        "spring constant", "springconstant", "k", "federkonstante", "constante de raideur",
+        "constante elastica", "constante de resorte", "costante elastica", "弹簧常数", "弹性常数",
+    }, "stiffness"),
+    "sensitivity": ({
+        "sensitivity", "deflection sensitivity", "invols", "empfindlichkeit", "sensibilité", "sensibilidad",
+        "sensibilità", "灵敏度",
+    }, "sensitivity"),
+}  # fmt: skip
+#: Names that stand in JPK's text without a unit, N/m and m/V.
+_OF_JPK = "springconstant", "sensitivity"
+#: What is asked for.
+_GIVE = {"spring_constant": "spring_constant= (N/m)", "sensitivity": "sensitivity= (m/V)"}
+
+
+@dataclass(frozen=True)
+class Cantilever:
+    """Stiffness (N/m) and sensitivity (m/V) of a cantilever, None if not known, and where they are from."""
+
+    stiffness: float | None = None
+    sensitivity: float | None = None
+    remarks: tuple[str, ...] = ()
+
+    def force_per_deflection(self, unit):
+        """Force (N) for a deflection of 1 m, or of 1 V."""
+        volts = unit.lstrip("−") in COLUMN_UNITS["voltage"]
+        return self.stiffness * (self.sensitivity if volts else 1.0)
+
+
+def constants(table, name, layout, given):
+    """The `Cantilever` of a curve with some columns; what lacks is asked for, what nothing uses is refused.
+
+    Raises `UnknownColumns` where a constant lacks, and ValueError where one is given for nothing.
+    """
+    unit = layout["force"][1].lstrip("−")
+    volts = unit in COLUMN_UNITS["voltage"]
+    deflection = unit not in COLUMN_UNITS["force"]
+    needed = {"spring_constant": deflection or "piezo" in layout, "sensitivity": volts}
+    _refuse_unused(name, given, needed, deflection, unit)
+    known, remarks = dict(given), []
+    for each, (names, kind) in _NAMES.items():
+        own = constant(table.header, kind, names)
+        if own is None or (each == "sensitivity" and not volts):
+            continue
+        text = f"{each} = {own:.6g} {'N/m' if kind == 'stiffness' else 'm/V'}"
+        if known.get(each) is None:
+            known[each] = own
+            if needed[each]:
+                remarks.append(f"{text} is taken from the file")
+        elif known[each] != own:
+            remarks.append(f"{each} = {known[each]:.6g} is taken as it is given; the file has {text}")
+    lacking = [_GIVE[each] for each in needed if needed[each] and known.get(each) is None]
+    if lacking:
+        _ask(table, name, layout, " and ".join(lacking), deflection)
+    return Cantilever(known.get("spring_constant"), known.get("sensitivity"), tuple(remarks))
+
+
+def _refuse_unused(name, given, needed, deflection, unit):
+    if given.get("spring_constant") is not None and not needed["spring_constant"]:
+        raise ValueError(
+            f"{name}: spring_constant is given, and nothing uses it: the depth of the tip stays as it is, "
+            'and the force is in units of force. Leave it out, or give the column as columns={"piezo": …} '
+            "if it is the position of a piezo"
+        )
+    if given.get("sensitivity") is not None and not needed["sensitivity"]:
+        what = (
+            f"the deflection of {name} is already a length, in {unit}"
+            if deflection
+            else f"the forces of {name} are already in units of force"
+        )
+        raise ValueError(f"{what}: leave out sensitivity")
+
+
+def _ask(table, name, layout, lacking, deflection):
+    head = table.heads[layout["force" if deflection else "piezo"][0]]
+    what = (
+        f"{head!r} is a deflection in {layout['force'][1]}"
+        if deflection
+        else f"{head!r} is the position of a piezo, from which the deflection F/k is subtracted"
+    )
+    remedy = "" if deflection else ', or columns={"depth": …} if it is the depth of the tip'
+    file = name.removesuffix(f", {table.name}") if table.name else name
+    why, suggestion = f"{what}: give {lacking}", {"columns": dict(layout)}
+    raise UnknownColumns(why, table, file, suggestion, hint=remedy)
+
+
+def constant(header, kind, names):
+    """A constant (SI) in a header, as "Spring constant: 0.05 N/m" or "# springConstant: 0.05", or None."""
+    for line in header:
+        if len(line) > LONGEST_HEADER:
+            continue
+        for sign in ("=", ":", "\t", ";", ","):
+            left, found, right = line.strip(' "#').partition(sign)
+            name, own, unit = parted(left)
+            if not found or name not in names:
+                continue
+            number, text = _number(right)
+            if own == "":
+                own, unit = (unit_alone(text.strip("()[] ")) if text else None) or ("", "")
+            if number is None or number <= 0:
+                continue
+            if own == kind:
+                return number * size_of(unit)
+            if not own and not text and line.startswith("#") and normal(left) in _OF_JPK:
+                return number
+    return None
+
+
+def _number(text):
+    """Number at the beginning of a text, with a decimal point or comma, and what stands behind it."""
+    first, _, rest = text.strip(' \t;:="').replace("\t", " ").replace(";", " ").partition(" ")
+    try:
+        return float(first.replace(",", ".")), rest.strip(' "')
+    except ValueError:
+        return None, ""

@@ -1,0 +1,214 @@
+"""Suggestions for a table that has to be asked about: they may be wrong, as a person confirms them."""
+
+import numpy as np
+
+from .names import TAKEN, normal
+from .split import at_gaps, goes_on_side, is_path, place_of, restarts, telling
+from .units import cleaned, size_of, unit_alone
+
+#: Parts of names in several languages.
+_PARTS = {
+    "depth": [
+        "depth", "indent", "penetr", "displ", "disp", "tief", "eindr", "weg", "profond", "enfonc", "déplac",
+        "deplac", "despl", "spost", "desloc", "prof", "glub", "глуб", "hloub", "głęb", "diept", "derin",
+        "separ", "sep", "tss", "tip", "abstand", "height", "höhe", "hauteur", "altura", "altezza", "piezo",
+        "piézo", "stage", "ramp", "sensor", "zsens", "extens", "stroke", "travel", "distance", "deform",
+        "compress", "stauch", "verform", "hub", "position", "pos", "depress", "gap", "pd",
+        "深", "压入", "压痕", "位移", "変位", "깊이",
+    ],
+    "force": [
+        "force", "load", "kraft", "last", "forza", "fuerza", "charge", "carga", "carico", "effort", "сил",
+        "нагруз", "kracht", "síla", "siła", "kuvvet", "力", "荷", "载", "하중", "fn", "lf", "defl", "fz",
+    ],
+    "time": ["time", "zeit", "temps", "tiempo", "tempo", "时间", "時間", "시간", "врем", "čas"],
+}  # fmt: skip
+_LETTERS = {
+    "depth": {"h", "d", "z", "δ", "u", "w", "δh", "∆h", "δd"},
+    "force": {"f", "p", "l", "δf"},
+    "time": {"t"},
+}
+#: Parts of names of other columns.
+_OTHER = [
+    "max", "peak", "min", "std", "dev", "mean", "avg", "average", "raw", "error", "noise", "set", "target",
+    "rate", "contact", "plastic", "residual", "resid", "lateral", "fric", "drift", "offset", "volt",
+    "status", "temp", "area", "radius", "x-pos", "y-pos", "pos_x", "pos_y", "squared", "mittel", "médi",
+    "moyen", "最大", "平均",
+]  # fmt: skip
+#: Parts of names of positions, from which the deflection of a cantilever is subtracted.
+_POSITION = [
+    "piezo", "piézo", "height", "höhe", "hauteur", "altura", "stage", "ramp", "sens", "scan", "z", "zpos",
+    "ext", "stroke", "travel", "pos", "hub", "weg", "drive", "motor", "raw", "actuator", "lvdt", "verfahr",
+    "stell", "déplac", "样品台", "ピエゾ", "压电",
+]  # fmt: skip
+#: Labels of parts of one record.
+_OF_ONE = "cycle", "loop", "segment", "step", "zyklus", "zyklen", "schritt", "phase"
+#: Largest force (N) of an instrument that may have a cantilever.
+_SMALL = 1e-5
+#: Most pairs that are found by what their names share.
+_MOST = 100
+#: Beginnings of words that scale, or change, what stands beside them.
+_SCALING = (
+    "pico", "piko", "nano", "micro", "mikro", "milli", "kilo", "mega", "deca", "deci", "tenth", "hundred",
+    "thousand", "million", "log", "sqrt", "squared", "normali", "scaled", "half", "div", "double", "twice",
+)  # fmt: skip
+
+
+def columns(table, stiffness=None):
+    """Columns of depth (or piezo), force and time, as `columns=`; a list of several such pairs; or {}."""
+    found, used = {}, set()
+    for each in ("force", "depth", "time"):
+        scores = {k: _score(each, table, k) for k in table.heads if k not in used}
+        found[each] = _best(scores, 6 if each == "time" else 2, each == "time")
+        used |= {*found[each]}
+    if not found["depth"] or not found["force"]:
+        return {}
+    layouts = []
+    for d, f in _paired(table, found["depth"], found["force"]):
+        layout = {_called(table, d, f, stiffness): (d, _unit(table, d, "depth"))}
+        layout["force"] = f, _unit(table, f, "force")
+        time = max((t for t in found["time"] if t < d), default=next(iter(found["time"]), None))
+        if time is not None and _unit(table, time, "time") != "?":
+            layout["time"] = time, _unit(table, time, "time")
+        layouts.append(layout)
+    return layouts if len(layouts) > 1 else layouts[0]
+
+
+def whole(table, given):
+    """A suggestion of columns as `columns` finds them, with `by` for parts of a curve or several curves."""
+    if not given or scatters(table, given):
+        return {}
+    if isinstance(given, list):
+        return {"columns": given} | ({"by": "segments"} if goes_on_side(table, given) else {})
+    rows = restarts(table.values[place_of(given)])
+    return {"columns": given} | ({"by": by(table, given, rows)} if rows else {})
+
+
+def scatters(table, given):
+    """Whether depth and force of likely columns go to and fro, as those of tests do."""
+    if not given or isinstance(given, list):
+        return False
+    return not is_path(table.values[place_of(given)], table.values[given["force"][0]])
+
+
+def by(table, given, rows):
+    """What `by=` tells apart the curves that begin at given rows."""
+    known = telling(table, given, rows)
+    heads = {int(key.split()[0]) - 1: key.partition(" ")[2] for key in table.words} | table.heads
+    of_curves = [
+        each for each in known
+        if isinstance(each, list) or not any(word in heads[each].lower() for word in _OF_ONE)
+    ]  # fmt: skip
+    if of_curves:
+        return of_curves[0]
+    if known:
+        return "whole"
+    return "gaps" if at_gaps(table, rows) else "restart"
+
+
+def scaled(head):
+    """Whether a number or a prefix in a header may scale its unit: any but that of a name, as "Test 2"."""
+    words = _words(head)
+    if any(_scales(word) or (word.lower().startswith(_SCALING) and not unit_alone(word)) for word in words):
+        return True
+    # "Force (m N)", "Depth (nm) [µm]": two units.
+    return len({unit for word in words[1:] if word != "h" and (unit := unit_alone(word))}) > 1
+
+
+def _scales(word):
+    name = word.rstrip("0123456789")
+    number = word[len(name) :]
+    if not any(map(str.isdigit, word)):
+        # "kForce (N)"
+        return len(word) > 3 and word[0] in "pnµumkM" and word[1].isupper() and word[2].islower()
+    of_a_name = (not name or name.isalpha()) and len(number) < 3
+    return not of_a_name or word == "10" or name.lower() in ("x", "e", "div")
+
+
+def _words(head):
+    for each in "_,:;()[]{}<>":
+        head = head.replace(each, " ")
+    return cleaned(head[:200]).split()
+
+
+def _unit_in(table, column):
+    """Kind and plain unit that stands anywhere in a header, or nothing."""
+    _, kind, unit = table.parted(column)
+    if kind:
+        return kind, unit
+    words = _words(table.heads[column])
+    if len(words) == 2 and len(words[0]) == len(words[1]) == 1:
+        # "F_N" may be a symbol.
+        return "", ""
+    found = [unit_alone(word) for word in words[1:] if word != "h"]
+    return next(filter(None, reversed(found)), ("", ""))
+
+
+def _unit(table, column, each):
+    """Plain unit of a column if it is of the kind that a quantity has and nothing scales it, else "?"."""
+    kind, unit = _unit_in(table, column)
+    kinds = {TAKEN[each][0]} | ({"length", "voltage"} if each == "force" else set())
+    return unit if kind in kinds and not scaled(table.heads[column]) else "?"
+
+
+def _score(each, table, column):
+    """How much a column looks like a quantity; 0 for one that cannot be it."""
+    name, wanted = table.parted(column)[0], TAKEN[each][0]
+    kind, low = _unit_in(table, column)[0], cleaned(table.heads[column][:200]).lower()
+    deflection = each == "force" and kind in ("length", "voltage") and "defl" in low
+    if kind and kind != wanted and not deflection:
+        return 0
+    first = [word.rstrip("0123456789") for word in normal(low).split()[:1]]
+    exact = name.rstrip("0123456789 ") in TAKEN[each][1]
+    likely = 3 * (not _LETTERS[each].isdisjoint(first)) + 2 * any(part in low for part in _PARTS[each])
+    score = 4 * (kind == wanted) + (6 if exact else likely)
+    if each == "depth" and ("defl" in low or "cantilever" in low):
+        score -= 3
+    other = any(part in low for part in _PARTS["force" if each == "depth" else "depth"])
+    score -= 2 * any(part in low for part in _OTHER) + (other and not kind)
+    return max(score, 0)
+
+
+def _best(scores, least, time):
+    """Columns of the best scores: several that are alike, or two that nearly are."""
+    best = max(scores.values(), default=0)
+    near = [k for k, score in scores.items() if score >= max(best - 1, least)]
+    near.sort(key=lambda k: (-scores[k], k))
+    alike = [k for k in near if scores[k] == best]
+    if time or len(alike) == len(near):
+        return near
+    return alike if len(alike) > 1 or len(near) == 2 else near
+
+
+def _called(table, depth, force, stiffness):
+    """Whether a column looks like the depth of the tip, "depth", or the position of a piezo, "piezo"."""
+    name, head = table.parted(depth)[0], normal(cleaned(table.heads[depth][:200]))
+    if name in TAKEN["depth"][1]:
+        return "depth"
+    if stiffness is not None:
+        # A stiffness that is given is meant.
+        return "piezo"
+    unit = table.unit(force)
+    loads = np.abs(table.values[force])
+    largest = np.nanmax(loads) if np.isfinite(loads).any() else 0.0
+    small = largest * (size_of(unit) if unit else 1.0) < _SMALL or "defl" in table.heads[force].lower()
+    words = head.split()
+    place = any(part in words or (len(part) > 2 and part in head) for part in _POSITION)
+    return "piezo" if small and place and "tip" not in head and "separ" not in head else "depth"
+
+
+def _paired(table, depths, forces):
+    """Pairs of a depth and a force: by what their names share, else in their order."""
+    if len(depths) == len(forces) > _MOST:
+        return list(zip(depths, forces, strict=True))
+    if len(depths) == len(forces):
+        names = {k: set(normal(table.heads[k]).replace("h ", " ").split()) for k in (*depths, *forces)}
+        pairs, left = [], list(forces)
+        for d, f in zip(depths, forces, strict=True):
+            best = max(left, key=lambda k, d=d, f=f: (len(names[d] & names[k]), k == f))
+            pairs.append((d, best))
+            left.remove(best)
+        return pairs
+    if len(depths) == 1:
+        stems = {normal(table.heads[f]).translate(str.maketrans("", "", "0123456789")) for f in forces}
+        return [(depths[0], f) for f in (forces if len(stems) == 1 else forces[:1])]
+    return [(depths[0], forces[0])]

@@ -1,0 +1,33 @@
+"""Bounds on packed files, whose contents may be a thousand times larger."""
+
+import zipfile
+
+#: Most bytes of a file, and of what is packed in one; and by how much what is larger may be packed.
+_BYTES, _UNPACKED, _RATIO = 2_000_000_000, 500_000_000, 20
+
+
+def refuse_large(path, sheets=None):
+    """Refuse a packed file that is too large, before it is unpacked; `sheets` is the most of a workbook.
+
+    Other files than workbooks may be larger, if they are not packed to a twentieth.
+    """
+    size = path.stat().st_size
+    if size > _BYTES:
+        raise ValueError(f"{path.name} has {size / 1e9:.3g} GB: at most {_BYTES / 1e9:g} GB are read")
+    if not zipfile.is_zipfile(path):
+        return
+    try:
+        with zipfile.ZipFile(path) as file:
+            inside = file.infolist()
+    except (zipfile.BadZipFile, OSError, ValueError):
+        # Its reader says what is wrong.
+        return
+    unpacked = sum(each.file_size for each in inside)
+    if unpacked > _UNPACKED and (sheets is not None or unpacked > _RATIO * size):
+        raise ValueError(
+            f"{path.name} unpacks to {unpacked / 1e9:.3g} GB, and at most {_UNPACKED / 1e9:g} GB are read: "
+            "save the curve as a CSV table"
+        )
+    count = sum(each.filename.startswith("xl/worksheets/") for each in inside)
+    if sheets is not None and count > sheets:
+        raise ValueError(f"{path.name} has {count} sheets: at most {sheets} are read")

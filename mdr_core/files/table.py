@@ -1,0 +1,317 @@
+"""Tables of numbers in text: cells, the rows, and the names above them."""
+
+import csv
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import pairwise
+from math import isfinite
+
+import numpy as np
+
+from .._check import Array
+from .names import normal, parted, symbols_in
+from .numbers import number_reader, numeric, with_comma
+from .units import cleaned, unit_alone
+
+#: Most characters of a line, and of one that is searched for names and constants; most columns.
+_LONGEST_LINE, LONGEST_HEADER, _MOST_COLUMNS = 10_000, 2_000, 1_000
+#: Most lines above the rows in which names are looked for.
+_ABOVE = 8
+_BRACKETS = " ()[]{}<>/"
+#: Words before the names or units of the columns.
+_LABELS = {"units", "columns", "names", "fields", "channels"}
+#: Units of other quantities, in small letters.
+_OTHER_UNITS = {
+    "pa", "kpa", "mpa", "gpa", "nm/s", "µm/s", "um/s", "mn/s", "µn/s", "un/s", "1/s", "hz", "khz", "%", "c",
+    "°c", "k", "deg", "°", "rad", "j", "nj", "µj", "nm^2", "µm^2", "um^2", "-", "a.u.",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Columns of numbers of a text file, by the number of the column from 0 on.
+
+    `heads` are their names and `values` their numbers, NaN for cells that are none. `lines` are the line
+    numbers of the rows, `odd` the text of lines with another number of cells or a cell that is no number,
+    by their number. `words` are the cells of the columns that have no numbers in most rows. `units` are the
+    cells of a line of units of its own, `header` the lines before the rows, and `gaps` the line numbers of
+    empty lines and of words between rows. `name` is that of the sheet, or of one table of several.
+    """
+
+    heads: dict[int, str]
+    values: dict[int, Array]
+    lines: Array
+    odd: dict[int, str]
+    words: dict[str, list[str]]
+    units: dict[int, str] = field(default_factory=dict)
+    header: tuple[str, ...] = ()
+    gaps: tuple[int, ...] = ()
+    name: str = ""
+
+    def parted(self, column):
+        """Name of a column, and kind and name of its unit."""
+        return self._parted[column]
+
+    @cached_property
+    def _parted(self):
+        symbols = symbols_in(self.heads.values())
+        found = {}
+        for column, head in self.heads.items():
+            cell = self.units.get(column, "")
+            symbol = not cell and head in symbols
+            name = head.removesuffix(cell).strip() if cell else head
+            found[column] = (normal(head), "", "") if symbol else parted(name, cell)
+        return found
+
+    def unit(self, column):
+        """Plain unit of a column, as in `COLUMN_UNITS`; else the empty text."""
+        return self.parted(column)[2]
+
+    @property
+    def key(self):
+        """What tables have in common for which the same columns may be told: heads and units."""
+        return tuple(self.heads.items()), tuple(self.units.items()), tuple(self.words)
+
+    def rows(self, chosen):
+        """The table with some of its rows, a slice or numbers, and the odd lines between them."""
+        lines = self.lines[chosen]
+        first, last = (lines.min(), lines.max()) if lines.size else (0, -1)
+        cells = {key: np.asarray(each)[chosen].tolist() for key, each in self.words.items()}
+        return replace(
+            self,
+            values={k: each[chosen] for k, each in self.values.items()},
+            lines=lines,
+            odd={number: line for number, line in self.odd.items() if first <= number <= last},
+            words=cells,
+            gaps=tuple(number for number in self.gaps if first < number < last),
+        )
+
+    def few(self, count=3):
+        """The heads and the first rows, which are enough to ask what the columns are."""
+        return replace(self.rows(slice(0, count)), odd={}, header=self.header[-_ABOVE:])
+
+
+class _Line:
+    """A line of a text: number, cells, their numbers; `width` is the number of cells of a row, else 0."""
+
+    __slots__ = "cells", "finite", "number", "text", "values", "width"
+
+    def __init__(self, number, text, cells, values):
+        self.number, self.text, self.cells, self.values = number, text, cells, values
+        self.finite = sum(map(isfinite, values))
+        row = self.finite and 2 * self.finite >= len(cells) - cells.count("")
+        self.width = len(cells) if row else 0
+
+    @property
+    def spare(self):
+        """How many cells are neither numbers nor empty."""
+        return len(self.cells) - self.cells.count("") - self.finite
+
+
+def decoded(data):
+    """Text of the bytes of a file in UTF-8, UTF-16 or Windows-1252."""
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return data.decode("utf-16", "replace")
+    if b"\0" in data[:2]:
+        return data.decode("utf-16-be" if data[0] == 0 else "utf-16-le", "replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", "replace")
+
+
+def read_table(text, name, limit=10**7):
+    """The table of a text: a header, and rows of numbers separated by commas, semicolons, tabs or blanks.
+
+    Lines that start with # belong to the header, or are comments. More samples than `limit` are refused.
+    """
+    lines, gaps = _lines(text, name, limit)
+    return _table(lines, gaps, name, limit)
+
+
+def read_tables(text, name, limit=10**7):
+    """All tables of a text: each begins with a line that has a word for each column."""
+    lines, gaps = _lines(text, name, limit)
+    widths = [line.width for line in lines]
+    starts, rows, last = [0], 0, 0
+    for i, line in enumerate(lines):
+        if line.width:
+            rows, last = rows + (line.finite == line.width), i
+        elif rows > 1 and _is_header(line.text, widths[last], next(filter(None, widths[i:]), 0)):
+            # What stands above a header, as a title, is the table's.
+            starts, rows = [*starts, last + 1], 0
+    parts = [lines[a:b] for a, b in zip(starts, [*starts[1:], len(lines)], strict=True)]
+    parts = [part for part in parts if any(line.width for line in part)] or parts
+    tables = [_table(part, gaps, name, limit) for part in parts]
+    if len(tables) == 1:
+        return tables
+    return [replace(table, name=f"table {k}") for k, table in enumerate(tables, 1)]
+
+
+def _is_header(line, *widths):
+    """Whether a line between rows has a word for each column, and no numbers."""
+    for width in widths:
+        cells = [cell for cell in _head_cells(line, width) or () if cell]
+        if len(cells) > 1 and not any(map(numeric, cells)):
+            return all(any(map(str.isalpha, cell)) for cell in cells)
+    return False
+
+
+def _lines(text, name, limit):
+    """Lines of a text that are not empty, and the numbers of those that are."""
+    every = list(enumerate(text.splitlines()[: 2 * limit], 1))
+    lines = [pair for pair in every if pair[1].strip()]
+    if not lines:
+        raise ValueError(f"{name} is empty")
+    if any(len(line) > _LONGEST_LINE for _, line in lines):
+        raise ValueError(
+            f"{name}: a line is longer than {_LONGEST_LINE} characters; use one line per sample"
+        )
+    separator = next((s for s in "\t;|" if 2 * sum(s in line for _, line in lines) > len(lines)), "")
+    cells = [
+        [] if line.lstrip().startswith("#") else _cells(line) if separator in line else [line.strip()]
+        for _, line in lines
+    ]
+    number = number_reader(cells, name)
+    found = [
+        _Line(i, line, row, [number(cell) for cell in row])
+        for (i, line), row in zip(lines, cells, strict=True)
+    ]
+    return found, [i for i, line in every if not line.strip()]
+
+
+def _cells(line):
+    """Cells of a line, separated by tabs, semicolons or bars, else by blanks or commas."""
+    for sign in ("\t", ";", "|"):
+        if sign in line:
+            return [cell.strip() for cell in line.replace('"', "").strip(" ").split(sign)]
+    if '"' in line and "," in line:
+        return [cell.strip() for cell in next(csv.reader([line.strip()], skipinitialspace=True))]
+    cells = line.replace('"', "").split()
+    # A comma is a decimal sign where the cells are separated otherwise.
+    if "," not in line or (len(cells) > 1 and any(map(with_comma, cells))):
+        return cells
+    return [cell.strip() for cell in line.replace('"', "").split(",")]
+
+
+def _head_cells(line, width, open_end=True):
+    """Cells of a line of a header, `width` of them, or None; `open_end`: rows end in a separator."""
+    line = line.lstrip("#%/ ").rstrip(" ")
+    label, found, after = line.partition(":")
+    if found and label.strip().lower() in _LABELS:
+        line = after
+    splits = [_cells(line)]
+    if "," in line:
+        splits.append([cell.strip() for cell in line.split(",")])
+    # Where the rows end in a separator, the header need not; else a name lacks, perhaps the first one.
+    splits += [[*cells, ""] for cells in splits[:1] if open_end and ("\t" in line or ";" in line)]
+    splits += [cells[:-1] for cells in splits if cells and not cells[-1]]
+    if not any(sign in line for sign in "\t;,|"):
+        splits.append([cell.strip(' "') for cell in line.replace("  ", "\t").split("\t") if cell.strip()])
+        ended = line.replace(")", ")\t").replace("]", "]\t").split("\t")
+        splits.append([cell.strip() for cell in ended if cell.strip()])
+    return next((cells for cells in splits if len(cells) == width), None)
+
+
+def _table(lines, gaps, name, limit):
+    """`Table` of lines."""
+    width, first = _begin(lines, name)
+    header = [line.text for line in lines[:first]]
+    rows = _rows(lines[first:], width)
+    open_end = not any(line.cells[-1] for line in rows)
+    names, units = _heads([line.text for line in lines[:first] if not line.width], width, open_end)
+    if not any(names):
+        _refuse_decimal_commas(header, width, f"{name}, line {lines[first].number}")
+    heads = [f"{name} {unit}".strip() for name, unit in zip(names, units, strict=True)]
+    if len(rows) > limit:
+        raise ValueError(f"{name}: more than {limit} samples; give fewer samples")
+    values = np.array([line.values for line in rows])
+    known = np.isfinite(values)
+    numbers = [k for k in range(width) if _has_numbers(known[:, k], k, rows)]
+    whole = known[:, numbers].all(axis=1).tolist()
+    good = {line.number for line, row in zip(rows, whole, strict=True) if row}
+    kept = {line.number for line in rows}
+    odd = {line.number: line.text for line in lines[first:] if line.cells and line.number not in good}
+    # A row of numbers before the rows, after which the header goes on.
+    early = {
+        line.number: line.text for line in lines[:first] if line.width == width and line.finite == width
+    }
+    between = [*gaps, *(line.number for line in lines[first:] if line.number not in kept)]
+    return Table(
+        {k: heads[k] for k in numbers}, {k: values[:, k] for k in numbers},
+        np.array([line.number for line in rows]), early | odd,
+        {f"{k + 1} {heads[k]}": [row.cells[k] for row in rows] for k in range(width) if k not in numbers},
+        {k: units[k] for k in numbers if units[k]}, tuple(header),
+        tuple(sorted(number for number in between if rows[0].number < number < rows[-1].number)),
+    )  # fmt: skip
+
+
+def _begin(lines, name):
+    """Number of columns of the rows, and the place of the first row."""
+    counts = [line.width for line in lines]
+    if not any(counts):
+        raise ValueError(f"{name}: no samples; expected rows of numbers")
+    width = Counter(filter(None, counts)).most_common(1)[0][0]
+    if width > _MOST_COLUMNS:
+        raise ValueError(f"{name} has {width} columns: at most {_MOST_COLUMNS} are read")
+    # Lines of a header, as "Depth limit, 200", have fewer numbers than rows.
+    finite = [line.finite for line in lines]
+    usual = Counter(finite[i] for i, count in enumerate(counts) if count == width).most_common(1)[0][0]
+    pairs = list(pairwise([i for i, line in enumerate(lines) if line.cells]))
+    whole = (i for i, j in pairs if counts[i] == counts[j] == width and min(finite[i], finite[j]) >= usual)
+    some = (i for i, j in pairs if counts[i] == counts[j] == width)
+    return width, next(whole, next(some, counts.index(width)))
+
+
+def _rows(lines, width):
+    """Lines that are rows: of the usual number of cells, and not words with a number, as "Test 2"."""
+    rows = [line for line in lines if len(line.cells) == width and line.finite]
+    usual = Counter(line.finite for line in rows).most_common(1)[0][0]
+    words = Counter(line.spare for line in rows if line.finite == usual).most_common(1)[0][0]
+    return [line for line in rows if 2 * line.finite > usual or line.spare <= words]
+
+
+def _has_numbers(known, column, lines):
+    """Whether half of the cells of a column are numbers, or all that are not empty."""
+    count = np.count_nonzero(known)
+    return 2 * count >= known.size or (
+        count > 1 and count == sum(bool(line.cells[column]) for line in lines)
+    )
+
+
+def _heads(header, width, open_end):
+    """Names of the columns, and their units in a line of its own: the lines nearest to the rows."""
+    near = []
+    for line in [line for line in header if any(map(str.isalpha, line))][: -_ABOVE - 1 : -1]:
+        cells = _head_cells(line, width, open_end)
+        if cells is not None and 2 * sum(map(numeric, cells)) <= sum(map(bool, cells)):
+            near.append(cells)
+    nothing = [""] * width
+    units = next((i for i, cells in enumerate(near) if _are_units(cells)), None)
+    if units is None:
+        return (near[0] if near else nothing), nothing
+    # Names stand above their units; below them where there is nothing above.
+    names = near[units + 1] if units + 1 < len(near) else near[units - 1] if units else nothing
+    return names, near[units]
+
+
+def _are_units(cells):
+    """Whether most cells of a line are units, one of them of more than a letter; or all are."""
+    cells = [cleaned(cell[:80]).strip(_BRACKETS) for cell in cells]
+    cells = [cell for cell in cells if cell]
+    units = [cell for cell in cells if unit_alone(cell) or cell.lower() in _OTHER_UNITS]
+    longer = any(len(cell) > 1 for cell in units) and 2 * len(units) >= len(cells)
+    return longer or 1 < len(units) == len(cells)
+
+
+def _refuse_decimal_commas(header, width, place):
+    """Refuse rows that have more cells than the header has names with units, as "1,5,2,3" has."""
+    line = header[-1] if header else ""
+    count = sum(bool(parted(cell.strip())[2]) for cell in line[:LONGEST_HEADER].split(","))
+    if count > 1 and width == 2 * count and count == line.count(",") + 1:
+        names = "two" if count == 2 else count
+        raise ValueError(
+            f"{place}: expected {names} numbers, as the header names {names} units, found {width}; "
+            "where commas are decimal ones, separate columns by semicolons"
+        )
