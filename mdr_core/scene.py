@@ -89,7 +89,7 @@ class Scene:
         return self.drive.solve(self.profile, self.medium, model)
 
     def to_json(self) -> str:
-        """The scene as JSON text with exact numbers; an infinite yield constant is null.
+        """The scene as JSON text with exact numbers; null is an infinite q_c, and no Poisson ratio.
 
         A law of hardness is refused: its class is not in the file.
         """
@@ -99,7 +99,7 @@ class Scene:
                 "format": _FORMAT,
                 "version": _VERSION,
                 "profile": _tagged(self.profile),
-                "medium": {k: None if np.isinf(v) else v for k, v in asdict(self.medium).items()},
+                "medium": {k: None if v == np.inf else v for k, v in asdict(self.medium).items()},
                 "drive": _tagged(self.drive),
             },
             indent=1,

@@ -18,8 +18,8 @@ from .approx import approx
 PACKAGE = Path(mdr.__file__).parent
 #: From the bottom up; what is of one folder may import what stands below it, and others of the folder.
 KERNEL = (
-    "_errors", "_hints", "_check", "numerics", "abel", "profiles", "hardness", "hardness_check", "medium",
-    "applicability", "foundation", "contact", "impacts",
+    "_errors", "_hints", "_check", "numerics", "abel", "profiles", "hardness", "hardness_check",
+    "transverse_isotropy", "medium", "applicability", "foundation", "contact", "impacts",
 )  # fmt: skip
 ORDER = (
     *KERNEL, "show", "oblique", "measured_curve", "files", "reading", "fit", "sweep_arguments", "sweep",
