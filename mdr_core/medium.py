@@ -339,7 +339,7 @@ class Medium(_check.Parameters):
         nu_in_plane : float
             Poisson ratio ν_p in the plane, −1 < ν_p < 1.
         nu_axial : float
-            Poisson ratio ν_zp for a stress along the axis: the strain in the plane over that along the axis,
+            Poisson ratio ν_zp for a stress along the axis: strain in the plane over strain along the axis,
             ε_p = −ν_zp σ_z/E_z. It is ν_pz E_z/E_p. 1 − ν_p − 2ν_zp² E_p/E_z must be positive, or 0 for an
             incompressible medium.
         G_axial : float

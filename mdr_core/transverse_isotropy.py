@@ -44,8 +44,8 @@ def _stable(n, nu_p, nu):
     if np.any(unstable):
         nu, largest = np.broadcast_arrays(nu, np.sqrt((1 - nu_p) / (2 * n)))
         bound = (
-            "leaves no stable medium: 1 − ν_p − 2ν_zp² E_p/E_z must be positive, so that |nu_axial| must be "
-            f"below {largest[unstable].min():.4g}"
+            "leaves no stable medium: 1 − ν_p − 2ν_zp² E_p/E_z must be positive, so that |nu_axial| must "
+            f"be below {largest[unstable].min():.4g}"
         )
         remedy = "nu_axial is ν_zp = ν_pz E_z/E_p, the strain in the plane for a stress along the axis"
         _check.refuse("Poisson ratio nu_axial", nu, unstable, bound, remedy=remedy)
