@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from .profiles.truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
     from .reading import read_curve, read_curves
     from .scene import Scene
+    from .structure import Structure
 
 __all__ = [
     "Ball",
@@ -69,6 +70,7 @@ __all__ = [
     "Scene",
     "Smooth",
     "Sphere",
+    "Structure",
     "TimedIndentation",
     "TruncatedCone",
     "TruncatedParaboloid",
@@ -167,6 +169,7 @@ _MODULES = {
         "read_curves",
     ),
     "scene": ("Scene",),
+    "structure": ("Structure",),
 }
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}
 

@@ -19,7 +19,7 @@ PACKAGE = Path(mdr.__file__).parent
 #: From the bottom up; what is of one folder may import what stands below it, and others of the folder.
 KERNEL = (
     "_errors", "_hints", "_check", "numerics", "abel", "profiles", "hardness", "hardness_check",
-    "transverse_isotropy", "medium", "applicability", "foundation", "contact", "impacts",
+    "transverse_isotropy", "medium", "structure", "applicability", "foundation", "contact", "impacts",
 )  # fmt: skip
 ORDER = (
     *KERNEL, "show", "oblique", "measured_curve", "files", "reading", "fit", "sweep_arguments", "sweep",
@@ -37,7 +37,7 @@ CHECKED = {
     "impacts.energy_balance", "impacts.adhesive", "impacts.contact_time", "impacts.time_quadrature",
     "impacts.result", "impacts.viscous", "impacts.equation_of_motion",
     "impacts.collocation_steps", "impacts.motion_solver", "impacts.dense_motion", "impacts.motion",
-    "impacts.scaling", "profiles.radius_table", "contact.stress",
+    "impacts.scaling", "impacts.snap", "profiles.radius_table", "contact.stress",
 }  # fmt: skip
 
 

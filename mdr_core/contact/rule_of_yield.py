@@ -113,6 +113,11 @@ class YieldRule(_check.Parameters, ABC):
         slower = np.where(c > 0, 1 - self.rate(interval.upper), 0.0)
         return integrals(self.profile).radius_drop(interval) + c * slower
 
+    def loading_width(self, interval, increase):
+        """a (m) on loading, a − c dp/ds where it increases the plastic depth: the stiffness over 2E*."""
+        width, yields = self.profile.radius_at(interval.upper), increase > 0
+        return np.where(yields, self.yielding_width(interval), width) if np.any(yields) else width
+
     def breaks(self, imprint, increase, onset):
         """Distances (m) past the penetration `onset` (m) at which a loading is cut into smooth pieces.
 

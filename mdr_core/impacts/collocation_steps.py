@@ -117,13 +117,15 @@ class DepthSteps(Steps):
         """Function from the unknown to slopes of unknown, time and work, and ∂(first)/∂(unknown)."""
         load, radius = self.equation.load(self.coordinate.depth(delta))
         damping, depth_rate = self.equation.damping(radius), 3 * (self.coordinate.root + delta) ** 2
+        depth_share = self.equation.depth_share(radius)
 
         def slopes(velocity):
             rate, acceleration, power = self.equation.rates(load, radius, velocity)
             # A step that is too long passes the turning point; it is not good.
             with np.errstate(all="ignore"):
                 time = depth_rate / rate
-                return (acceleration * time, time, power * time), -(damping + acceleration / rate) * time
+                change = damping + acceleration * depth_share / rate
+                return (acceleration * time, time, power * time), -change * time
 
         return slopes
 
@@ -150,7 +152,8 @@ class VelocitySteps(Steps):
         def slopes(depth):
             load, radius = self.equation.load(depth)
             rate, acceleration, power = self.equation.rates(load, radius, velocity)
-            stiffness = self.equation.stiffness(depth, radius, velocity)
+            stiffness = self.equation.stiffness(depth, load, radius, velocity)
+            stiffness = stiffness * self.equation.depth_share(radius)
             # Without contact there is no acceleration; such a step is not good.
             with np.errstate(all="ignore"):
                 jacobian = stiffness * velocity / self.equation.bodies.inertia / acceleration**2

@@ -16,14 +16,15 @@ from ..numerics.blocks import chunks
 from .time_quadrature import time_over_root
 
 
-def contact_time(rule, inertia, speed, interval, increase):
+def contact_time(rule, inertia, speed, interval, increase, give=None):
     """Time (s) from first contact to its loss, elementwise.
 
     From the `YieldRule`, inertia m/(2E*) (m s²), speed v₀ (m/s), and, of full shape, the live interval at
-    the turning point and the increase (m) of the plastic depth.
+    the turning point and the increase (m) of the plastic depth; with κ = 2E*/K (1/m) of a support, `give`.
     """
     exponent, similar = integrals(rule.profile).elastic_exponent, rule.similar
-    virgin = increase == interval.lower
+    # On a support there is one more length.
+    virgin = (increase == interval.lower) & (give is None)
     elastic = virgin & (interval.lower == 0) & (exponent is not None)
     yielded = virgin & (interval.lower > 0) & (similar is not None)
     time, passage = np.empty(np.shape(interval.upper)), interval.upper / speed
@@ -35,16 +36,17 @@ def contact_time(rule, inertia, speed, interval, increase):
     others = ~(elastic | yielded)
     if others.any():
         root = np.broadcast_to(np.sqrt(inertia / 2), time.shape)
-        time[others] = root[others] * _by_quadrature(rule, interval, increase, others)
+        time[others] = root[others] * _by_quadrature(rule, interval, increase, others, give)
     return time[()]
 
 
-def _by_quadrature(rule, interval, increase, chosen):
+def _by_quadrature(rule, interval, increase, chosen, give):
     """`time_over_root` (m^(−1/2)) of impacts at a mask `chosen`, in blocks, in units of profiles."""
     shape, numbers = chosen.shape, np.flatnonzero(chosen)
     unit, *scales = integrals(tabulated(rule.profile, interval.upper[chosen].max())).unit
     length, depth = (np.broadcast_to(scale, shape)[chosen] for scale in scales)
     interval, increase = interval[chosen].in_units_of(depth), increase[chosen] / depth
+    give = None if give is None else np.broadcast_to(give, shape)[chosen] * length
     # In ascending order, impacts that reach few kinks are together.
     order = np.argsort(interval.upper)
     kinks = np.sort([np.min(kink) for kink in unit.kinks])
@@ -55,7 +57,8 @@ def _by_quadrature(rule, interval, increase, chosen):
         rows = order[start:stop]
         own_unit = unit.flat_entries(numbers[rows], shape)
         own = rule.flat_entries(numbers[rows], shape).in_units_of(own_unit, length[rows], depth[rows])
-        time[rows] = time_over_root(own, interval[rows], increase[rows])
+        own_give = None if give is None else give[rows]
+        time[rows] = time_over_root(own, interval[rows], increase[rows], own_give)
         start = stop
     return time / np.sqrt(length)
 

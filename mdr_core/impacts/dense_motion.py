@@ -10,7 +10,14 @@ from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..numerics.gauss import gauss_integrals
-from .equation_of_motion import Bodies, MotionState
+from .equation_of_motion import (
+    Bodies,
+    Loading,
+    LoadingOnStructure,
+    MotionState,
+    Unloading,
+    UnloadingOnStructure,
+)
 from .motion_solver import solve
 
 #: Parts of a step in which Newton's method starts.
@@ -78,13 +85,17 @@ class Branch:
 
 
 class DenseState(NamedTuple):
-    """States of one impact (SI); viscous work over 2E* with the energy that released elements will lose."""
+    """States of one impact (SI), with the velocity of the equation of motion.
+
+    `work` (m³) is that of the dashpots over 2E*, with the energy that released elements will lose, or that
+    of the waves of a plate.
+    """
 
     depth: np.ndarray
     velocity: np.ndarray
     interval: LiveInterval
     increase: np.ndarray
-    viscous_work: np.ndarray
+    work: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,8 +150,10 @@ def dense_motion(hit):
     increase = hit.plastic_depth_increase
     imprint_depth = np.asarray(hit.plastic_depth - increase)
     penetration = penetration_of(hit.turning_point, increase)
-    bodies = Bodies.of(hit.profile, hit.medium, hit.mass, hit.speed, imprint_depth, penetration)
-    solution = solve(bodies, 1e-10)
+    given = hit.profile, hit.medium, hit.mass, hit.speed, imprint_depth, penetration, hit.structure
+    on_none = hit.structure.rigid
+    equations = (Loading, Unloading) if on_none else (LoadingOnStructure, UnloadingOnStructure)
+    solution = solve(Bodies.of(*given), 1e-10, equations, to_rest=True)
     loading, unloading = Branch(solution.loading), Branch(solution.unloading)
     return DenseMotion(hit.turning_point, imprint_depth, increase, loading, unloading)
 

@@ -2,7 +2,11 @@
 
 The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). Up to the penetration
 y = d − p₀ its work is the energy 2E* ∫(d − s) a ds that is stored over the live interval, plus the plastic
-work.
+work. A support of stiffness K takes up F²/2K besides: the kinetic energy is spent where
+
+    U + W_p + F²/2K = m v₀²/2
+
+and on the way back U and F²/2K are returned. With F = 2E* Φ and κ = 2E*/K the last term over 2E* is κ Φ²/2.
 """
 
 from dataclasses import dataclass, replace
@@ -16,47 +20,68 @@ from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..numerics.blocks import LONG, broadcast_flat, chunks
 from ..numerics.roots import increasing_root, largest_value
+from ..structure import RIGID
 from .contact_time import contact_time
 from .result import Impact
+from .snap import check_no_snap
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class DryImpact(Impact):
-    """Impacts on a medium without viscosity and adhesion."""
+    """Impacts on a medium without viscosity and adhesion, on a support or without one."""
 
     @_check.frozen_property
     def restitution(self):
-        """e = √(U/(U + W_p)), with the sum in the place of the kinetic energy: it is never above 1."""
+        """e = √(R/(R + W_p)), R = U + F²/2K, with the sum for the kinetic energy: it is never above 1."""
         profile, modulus = self._rule.profile, 2 * self.medium.E_star
-        stored = modulus * integrals(profile).energy_integral(self.turning_point.live_interval)
-        return np.sqrt(stored / (stored + self.plastic_work))
+        returned = modulus * integrals(profile).energy_integral(self.turning_point.live_interval)
+        if np.any(self.structure.is_support):
+            returned = returned + self.turning_point.force**2 / (2 * self.structure.stiffness)
+        return np.sqrt(returned / (returned + self.plastic_work))
 
     @_check.frozen_property
     def max_force(self):
         """Largest force (N): at the turning point, or before it if the force falls with depth."""
-        force, shape = self.turning_point.force, np.shape(self.mass)
-        if not self._rule.may_fall(self.max_depth):
-            return force
-        increase, interval = self.plastic_depth_increase, self.turning_point.live_interval
-        rule = self._rule.flat_entries(slice(None), shape).entries((slice(None), None), (np.size(force),))
-        imprint = np.reshape(interval.lower - increase, (-1, 1))
-        largest = _largest_area(rule, imprint, np.reshape(interval.length + increase, (-1, 1)))
-        return np.fmax(force, 2 * self.medium.E_star * largest.reshape(shape))
+        return largest_force(self._rule, self.turning_point, self.plastic_depth_increase)
 
     @_check.frozen_property
     def contact_time(self):
         """Time (s) from first contact to the loss of contact."""
         inertia = self.mass / (2 * self.medium.E_star)
         rule, interval = yield_rule(self.profile, self.medium), self.turning_point.live_interval
-        return contact_time(rule, inertia, self.speed, interval, self.plastic_depth_increase)
+        give = _give(self.medium, self.structure)
+        return contact_time(rule, inertia, self.speed, interval, self.plastic_depth_increase, give)
 
 
-def dry_impact(profile, medium, mass, speed, imprint_depth):
-    """Impacts over imprints of given plastic depth (m)."""
+def dry_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID):
+    """Impacts over imprints of given plastic depth (m); on plates as without them."""
     energy = mass * speed**2 / (4 * medium.E_star)
-    interval, increase = turning_interval(yield_rule(profile, medium), energy, imprint_depth)
+    rule, give = yield_rule(profile, medium), _give(medium, structure)
+    interval, increase = turning_interval(rule, energy, imprint_depth)
+    if give is not None:
+        check_no_snap(rule, imprint_depth, interval, increase, energy, give, structure)
+        interval, increase = turning_interval(rule, energy, imprint_depth, give)
     turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
-    return DryImpact(mass[()], speed[()], turning_point, increase)
+    return DryImpact(mass[()], speed[()], turning_point, increase, structure=structure)
+
+
+def _give(medium, structure):
+    """κ = 2E*/K (1/m) of supports, None if there are none."""
+    return 2 * medium.E_star / structure.stiffness if np.any(structure.is_support) else None
+
+
+def largest_force(rule, turning_point, increase):
+    """Largest force (N) of the springs: at the turning point, or before it if the force falls with depth.
+
+    `increase` (m) is that of the plastic depth.
+    """
+    force, interval, shape = turning_point.force, turning_point.live_interval, np.shape(increase)
+    if not rule.may_fall(turning_point.depth):
+        return force
+    rule = rule.flat_entries(slice(None), shape).entries((slice(None), None), (np.size(force),))
+    imprint = np.reshape(interval.lower - increase, (-1, 1))
+    largest = _largest_area(rule, imprint, np.reshape(interval.length + increase, (-1, 1)))
+    return np.fmax(force, 2 * turning_point.medium.E_star * largest.reshape(shape))
 
 
 def _largest_area(rule, imprint, penetration):
@@ -71,14 +96,14 @@ def _largest_area(rule, imprint, penetration):
     return largest_value(area, np.zeros_like(start), np.ones_like(start), grids=5)
 
 
-def turning_interval(rule, target, before):
+def turning_interval(rule, target, before, give=None):
     """Live interval at the turning point of a dry impact, and the increase Δ (m) of the plastic depth.
 
     Elementwise for kinetic energies `target` over 2E* (m³), to whose shape the imprint's depth `before` (m)
-    and the parameters of the `YieldRule` broadcast. The interval is infinite where the turning point is
-    deeper than the known depth.
+    and the parameters of the `YieldRule` broadcast, and κ = 2E*/K (1/m) of a support, `give`. The interval
+    is infinite where the turning point is deeper than the known depth.
     """
-    interval = None if np.any(before) else rule.turning_interval(target)
+    interval = None if np.any(before) or give is not None else rule.turning_interval(target)
     if interval is not None:
         return interval, interval.lower
     shape = target.shape
@@ -95,14 +120,15 @@ def turning_interval(rule, target, before):
     unit, *scales = integrals(rule.profile).unit
     rule = rule.flat_entries(slice(None), shape)
     # Apart from the results, arrays are no longer than a block.
-    _, arrays = broadcast_flat(target, before, *scales)
+    _, arrays = broadcast_flat(target, before, *scales, 0.0 if give is None else give)
     result = np.empty((4, target.size))
     for rows in chunks(target.size, LONG):
-        energy, imprint, length, depth = (array[rows] for array in arrays)
+        energy, imprint, length, depth, own_give = (array[rows] for array in arrays)
         part = rule.flat_entries(rows, (target.size,))
         part = part.in_units_of(unit.flat_entries(rows, shape), length, depth)
         imprint = imprint / depth
-        y = _penetration(part, energy / (length * depth**2), imprint)
+        own_give = None if give is None else own_give * length
+        y = _penetration(part, energy / (length * depth**2), imprint, give=own_give)
         interval, increase = part.loading(np.where(np.isinf(y), 0.0, y), imprint)
         upper = np.where(np.isinf(y), np.inf, interval.upper)
         result[:, rows] = depth * np.array([interval.lower, upper, interval.length, increase])
@@ -110,8 +136,10 @@ def turning_interval(rule, target, before):
     return LiveInterval(*interval), increase
 
 
-def _penetration(rule, target, before, close=1e-7):
+def _penetration(rule, target, before, close=1e-7, give=None):
     """y = d − p₀ (m) at which the work over 2E* is `target` (m³); infinite below the known depth.
+
+    With κ (1/m) of a support, `give`, its energy κ Φ²/2 is a part of the work.
 
     The work grows about as a power of y: Newton's method on their logarithms. After a step of less than
     `close` the next one would be about its square: with 10⁻⁷ that is rounding.
@@ -121,7 +149,11 @@ def _penetration(rule, target, before, close=1e-7):
         part = rule.flat_entries(rows, target.shape)
         interval, increase = part.loading(y, before[rows])
         force, stored = integrals(part.profile).radius_and_energy(interval)
-        return stored + part.plastic_integral(before[rows], increase), force
+        taken = stored + part.plastic_integral(before[rows], increase)
+        if give is None:
+            return taken, force
+        bend = give[rows] * force
+        return taken + bend * force / 2, force + bend * part.loading_width(interval, increase)
 
     highest = np.broadcast_to(rule.profile.known_depth - before, target.shape)
     y = np.minimum(_first_guess(rule, target, before), highest)

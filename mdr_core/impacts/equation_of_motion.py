@@ -11,6 +11,20 @@ y = d − p₀ into an imprint of plastic depth p₀, the plastic depth p, the l
 
 2E* w is the viscous work, with the energy that released elements are still to lose. `motion_solver`
 solves these equations, in the depth q = y or ℓ and the velocity v.
+
+On a structure without dashpots in the medium the deflection w of the structure obeys w′ = F/Z + F′/K, with
+F = 2E* Φ and one of Z and K infinite. Let v be the velocity of the body less F/Z, ω = dΦ/dq, which is a, or
+a − c dp/ds while the plastic depth grows, τ_w = m/Z, κ = 2E*/K and S = 1 + κ ω. Then on both branches
+
+    q̇ = v/S        μ v̇ = −(Φ + τ_w ω q̇)        ẇ = τ_w Φ²/μ
+
+and 2E* w is the energy that the waves carry away. On a plate S is 1: while nothing yields its loading is the
+viscous one with τ_w in the place of τ.
+
+A body never leaves a plate where τ_w² c ≥ 4μ with the radius c of the contact at ℓ → 0. With p = −v and the
+barrier p_b = 2Φ/(τ_w a), on unloading dp/dΦ = (Φ/p − τ_w a)/(μ a), which at p_b is −τ_w/(2μ), and p_b grows by
+2/(τ_w a) or less: p stays below p_b where τ_w² a ≥ 4μ, and a falls to c. So p goes to 0 with Φ. Below it the
+end is a focus, which the body leaves.
 """
 
 from dataclasses import dataclass, fields, replace
@@ -23,6 +37,7 @@ from ..contact.rule_of_yield import YieldRule
 from ..contact.yielding import yield_rule
 from ..numerics.results import Entries
 from ..profiles.profile import Profile
+from ..structure import RIGID
 
 
 @dataclass(frozen=True)
@@ -48,8 +63,9 @@ class MotionState(Entries):
 class Bodies:
     """Impacts to solve, one a row of each array of shape (N, 1).
 
-    Rule of yield for one indenter or N, relaxation time τ (s), inertia μ (m s²), speed v₀ (m/s), plastic
-    depth p₀ (m) of the imprint, and penetration y (m) of the same impact without viscosity.
+    Rule of yield for one indenter or N, relaxation time τ (s), that of the medium or τ_w of a plate, inertia
+    μ (m s²), speed v₀ (m/s), plastic depth p₀ (m) of the imprint, penetration y (m) of the same impact
+    without viscosity and plate, and κ (1/m) of a support.
     """
 
     rule: YieldRule
@@ -58,9 +74,10 @@ class Bodies:
     speed: np.ndarray
     imprint_depth: np.ndarray
     dry_penetration: np.ndarray
+    give: np.ndarray
 
     @classmethod
-    def of(cls, profile, medium, mass, speed, imprint_depth, dry_penetration):
+    def of(cls, profile, medium, mass, speed, imprint_depth, dry_penetration, structure=RIGID):
         """Impacts with one row each; `dry_penetration` is infinite where it exceeds the known depth."""
         shape, size = np.shape(speed), np.size(speed)
 
@@ -75,11 +92,13 @@ class Bodies:
         profile = tabulated(rule.profile, imprint_depth + 1.1 * dry_penetration)
         return cls(
             rule=replace(rule, profile=profile),
-            relaxation_time=column(medium.relaxation_time),
+            # In each row one of both is 0.
+            relaxation_time=column(medium.relaxation_time + mass / structure.impedance),
             inertia=column(mass / (2 * medium.E_star)),
             speed=column(speed),
             imprint_depth=imprint_depth,
             dry_penetration=dry_penetration,
+            give=column(2 * medium.E_star / structure.stiffness),
         )
 
     @property
@@ -94,14 +113,25 @@ class Bodies:
 
 @dataclass(frozen=True)
 class Equation(Entries):
-    """Base class of the equations of motion in a depth q."""
+    """Base class of the equations of motion in a depth q: those on a medium with or without viscosity."""
 
     bodies: Bodies
 
     def load(self, depth):
-        """Φ (m²) and contact radius a (m) at depths q (m)."""
+        """Φ (m²) and contact radius a (m) at depths q (m); on a structure ω (m) in its place."""
         interval, profile = self.interval(depth), self.bodies.profile
         return integrals(profile).radius_integral(interval), profile.radius_at(interval.upper)
+
+    def depth_share(self, radius):
+        """∂q̇/∂v."""
+        return 1.0
+
+    def damping_share(self, radius):
+        """Square of the damping of a contact that ends with a radius (m), over the critical one; (N, 1).
+
+        A body never leaves where it is 1 or more.
+        """
+        return np.zeros(radius.shape)
 
 
 @dataclass(frozen=True)
@@ -121,7 +151,7 @@ class Loading(Equation):
         """−∂v̇/∂v (1/s)."""
         return self.bodies.relaxation_time * radius / self.bodies.inertia
 
-    def stiffness(self, depth, radius, velocity):
+    def stiffness(self, depth, load, radius, velocity):
         """−μ ∂v̇/∂y (m): a (less c dp/ds while yielding), and the drag on a contact that grows."""
         rule, profile, slope = self.bodies.rule, self.bodies.profile, radius
         interval = self.interval(depth)
@@ -129,11 +159,7 @@ class Loading(Equation):
         if yields.any():
             c = profile.radius_at(interval.lower)
             slope = np.where(yields, radius - c * rule.rate(interval.upper), radius)
-        # At a wall the contact no longer grows.
-        with np.errstate(divide="ignore"):
-            spread = 1 / profile.reduced_slope_at(radius)
-        spread = np.where(radius < profile.wall, spread, 0.0)
-        return slope + self.bodies.relaxation_time * velocity * spread
+        return slope + self.bodies.relaxation_time * velocity * spread(profile, radius)
 
 
 @dataclass(frozen=True)
@@ -156,6 +182,85 @@ class Unloading(Equation):
         """−∂v̇/∂v (1/s): released elements do not brake."""
         return np.zeros_like(radius)
 
-    def stiffness(self, depth, radius, velocity):
+    def stiffness(self, depth, load, radius, velocity):
         """−μ ∂v̇/∂ℓ (m)."""
         return radius
+
+
+def spread(profile, radius):
+    """da/dd at contact radii (m)."""
+    with np.errstate(divide="ignore"):
+        rate = 1 / profile.reduced_slope_at(radius)
+    # At a wall the contact no longer grows.
+    return np.where(radius < profile.wall, rate, 0.0)
+
+
+class OnStructure:
+    """The equation of motion on a structure; a subclass has the interval of loading or of unloading."""
+
+    def rates(self, load, width, velocity):
+        """Rates of q (m/s), velocity (m/s²), work of the waves over 2E* (m³/s) at loads Φ, ω, velocities."""
+        bodies = self.bodies
+        rate = velocity * self.depth_share(width)
+        acceleration = -(load + bodies.relaxation_time * width * rate) / bodies.inertia
+        return rate, acceleration, bodies.relaxation_time * load**2 / bodies.inertia
+
+    def depth_share(self, width):
+        """∂q̇/∂v = 1/S."""
+        return 1 / (1 + self.bodies.give * width)
+
+    def damping(self, width):
+        """−∂v̇/∂v (1/s)."""
+        return self.bodies.relaxation_time * width * self.depth_share(width) / self.bodies.inertia
+
+    def stiffness(self, depth, load, width, velocity):
+        """Of the slope q̇/v̇ the derivative by q, times μ v̇²/q̇ (m): −μ ∂v̇/∂q on a plate."""
+        share, growth = self.depth_share(width), self.growth(depth)
+        drag = self.bodies.relaxation_time * velocity * share
+        return width + growth * share * (drag + self.bodies.give * (load + drag * width))
+
+    def damping_share(self, radius):
+        # A support is no damper: there τ_w is 0.
+        return self.bodies.relaxation_time**2 * radius / (4 * self.bodies.inertia)
+
+
+class LoadingOnStructure(OnStructure, Loading):
+    """Equation of motion on a structure up to the largest depth, in the penetration y."""
+
+    def load(self, depth):
+        rule = self.bodies.rule
+        interval, increase = rule.loading(np.maximum(depth, 0.0), self.bodies.imprint_depth)
+        return integrals(rule.profile).radius_integral(interval), rule.loading_width(interval, increase)
+
+    def growth(self, depth):
+        """∂ω/∂y; for Newton's method without the change of dp/ds."""
+        rule, interval = self.bodies.rule, self.interval(depth)
+        growth = spread(rule.profile, rule.profile.radius_at(interval.upper))
+        yields = interval.lower > self.bodies.imprint_depth
+        if yields.any():
+            lower = spread(rule.profile, rule.profile.radius_at(interval.lower))
+            growth = np.where(yields, growth - lower * rule.rate(interval.upper) ** 2, growth)
+        return growth
+
+
+class UnloadingOnStructure(OnStructure, Unloading):
+    """Equation of motion on a structure from the largest depth to the loss of contact, in the live depth ℓ."""
+
+    def oscillated(self, state, radius):
+        """States at the loss of contact of bodies whose contact keeps a radius (m) on a plate.
+
+        ℓ̈ + 2δ ℓ̇ + ω₀² ℓ = 0 with δ = τ_w c/(2μ), ω₀² = c/μ, up to ℓ = 0.
+        """
+        bodies, depth = self.bodies, state.depth
+        decay = bodies.relaxation_time * radius / (2 * bodies.inertia)
+        frequency = np.sqrt(radius / bodies.inertia * (1 - self.damping_share(radius)))
+        along, across = frequency * depth, state.velocity + decay * depth
+        time = np.arctan2(along, -across) / frequency
+        velocity = -np.hypot(along, across) * np.exp(-decay * time)
+        body_velocity = state.velocity + bodies.relaxation_time * radius * depth / bodies.inertia
+        lost = (bodies.inertia * (body_velocity**2 - velocity**2) + radius * depth**2) / 2
+        return MotionState(np.zeros_like(depth), velocity, state.time + time, state.work + lost)
+
+    def growth(self, depth):
+        """∂ω/∂ℓ."""
+        return spread(self.bodies.profile, self.bodies.profile.radius_at(self.interval(depth).upper))

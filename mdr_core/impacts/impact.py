@@ -11,6 +11,7 @@ from .._check import ArrayLike
 from ..applicability import check_pair, check_reached, refuse_adhesion, shape_with
 from ..medium import Medium
 from ..profiles.profile import Profile
+from ..structure import RIGID, Structure, structure_of
 from .adhesive import adhesive_impact
 from .energy_balance import dry_impact
 from .result import Impact
@@ -28,6 +29,7 @@ def impact(
     speed: ArrayLike,
     *,
     plastic_depth: ArrayLike = 0.0,
+    structure: Structure | None = None,
 ) -> Impact:
     """Solve the impact of a free body of given mass and speed on a medium.
 
@@ -45,6 +47,10 @@ def impact(
     plastic_depth : float or array_like, optional
         Plastic depth (m) of a relaxed imprint of the same indenter: for repeated impacts, the
         `plastic_depth` of the previous one. 0 (the default) is a virgin medium.
+    structure : Structure, optional
+        The plate, rod or support that carries the medium; by default the body behind the surface is at rest.
+        An endless plate stays displaced and at rest, so that a further impact on an imprint is a first one
+        for it.
 
     Returns
     -------
@@ -55,7 +61,9 @@ def impact(
     ------
     ValueError
         If an argument is out of its range, or the indenter would go deeper than its profile is known, or if
-        a law of hardness is not valid up to the largest contact radius (`HardnessLaw`).
+        a law of hardness is not valid up to the largest contact radius (`HardnessLaw`); on a structure if the
+        medium is viscous (`chain_impact` solves that) or adhesive, or if the contact snaps on a support,
+        because its force falls faster with depth than the support gives way.
 
     Examples
     --------
@@ -69,22 +77,28 @@ def impact(
     >>> print(round(hit.restitution, 9))
     0.461643536
     """
-    return solve_impact(profile, medium, mass, speed, plastic_depth)
+    return solve_impact(profile, medium, mass, speed, plastic_depth, structure)
 
 
-def solve_impact(profile, medium, mass, speed, plastic_depth, *, in_time=False):
+def solve_impact(profile, medium, mass, speed, plastic_depth, structure=None, *, in_time=False):
     """`impact`; `in_time` the equation of motion is solved also where there is no viscosity."""
     check_pair(profile, medium)
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
     imprint_depth = _check.positive("plastic_depth", plastic_depth, unit="m", zero=True)
-    shape = shape_with("impact", profile, medium, mass=mass, speed=speed, plastic_depth=imprint_depth)
+    values = {"mass": mass, "speed": speed, "plastic_depth": imprint_depth}
+    structure = structure_of(structure)
+    if structure.shape:
+        values["structure"] = np.empty(structure.shape)
+    shape = shape_with("impact", profile, medium, **values)
+    if not structure.rigid:
+        _refuse_losses(medium, structure, shape)
     mass, speed, imprint_depth = (np.broadcast_to(values, shape) for values in (mass, speed, imprint_depth))
     outside = imprint_depth > profile.known_depth
     if np.any(outside):
         bound, remedy = f"is {_too_deep(profile, outside)}", "give a smaller one"
         _check.refuse("plastic_depth", imprint_depth, outside, bound, unit="m", remedy=remedy)
-    hit = _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time)
+    hit = _solved_by_law(profile, medium, mass, speed, imprint_depth, structure, in_time)
     known = np.minimum(profile.known_depth, _check.LONGEST)
     unknown = ~(hit.turning_point.live_interval.upper <= known)
     if np.any(unknown):
@@ -98,11 +112,21 @@ def _too_deep(profile, where):
     return profile.flat_entries(int(np.argmax(where)), where.shape).too_deep()
 
 
-def _solved_by_law(profile, medium, mass, speed, imprint_depth, in_time):
+def _refuse_losses(medium, structure, shape):
+    """Refuses adhesion of an ensemble on structures, and viscosity of a row on one."""
+    refuse_adhesion(medium, "an impact on a structure")
+    eta = np.broadcast_to(medium.eta, shape)
+    bad = (eta > 0) & (structure.is_plate | structure.is_support)
+    bound = "is not computed together with a structure by `impact`"
+    remedy = "take chain_impact(…, structure=…), or set eta = 0"
+    _check.refuse("viscosity eta", eta, bad, bound, unit="Pa·s", remedy=remedy)
+
+
+def _solved_by_law(profile, medium, mass, speed, imprint_depth, structure, in_time):
     """The `Impact`, refused if a law of hardness is not valid up to its largest contact radius."""
     if medium.has_own_law:
         _check_elastic(profile, medium, mass, speed, imprint_depth)
-    hit = _solved(profile, medium, mass, speed, imprint_depth, in_time)
+    hit = _solved(profile, medium, mass, speed, imprint_depth, structure, in_time)
     check_reached(profile, medium, hit.turning_point.live_interval.upper)
     return hit
 
@@ -116,16 +140,16 @@ def _check_elastic(profile, medium, mass, speed, imprint_depth):
     rows = np.unique(np.linspace(0, mass.size - 1, min(mass.size, _SOME)).astype(int))
     some = (values.ravel()[rows] for values in (mass, speed, imprint_depth))
     own, medium = (each.flat_entries(rows, mass.shape) for each in (profile, medium))
-    elastic = _solved(own, Medium(medium.E_star, eta=medium.eta), *some, False)
+    elastic = _solved(own, Medium(medium.E_star, eta=medium.eta), *some, RIGID, False)
     check_reached(own, medium, elastic.turning_point.live_interval.upper)
 
 
-def _solved(profile, medium, mass, speed, imprint_depth, in_time):
+def _solved(profile, medium, mass, speed, imprint_depth, structure, in_time):
     """The `Impact` by the solver for its medium, with an infinite depth below the known depth."""
     if np.any(np.asarray(medium.work_of_adhesion) > 0):
         if in_time:
             refuse_adhesion(medium, "an equation of motion")
         return adhesive_impact(profile, medium, mass, speed, imprint_depth)
-    if in_time or np.any(np.asarray(medium.eta) > 0):
-        return viscous_impact(profile, medium, mass, speed, imprint_depth, in_time)
-    return dry_impact(profile, medium, mass, speed, imprint_depth)
+    if in_time or np.any(np.asarray(medium.eta) > 0) or np.any(structure.is_plate):
+        return viscous_impact(profile, medium, mass, speed, imprint_depth, structure, in_time)
+    return dry_impact(profile, medium, mass, speed, imprint_depth, structure)

@@ -21,26 +21,38 @@ def motion(hit, n, before_yield=0):
         # Just before yield, at even steps of the depth.
         onset = rule.penetration(imprint, imprint) * (1 - 1e-9)
         time = np.union1d(time, dense.loading.when(onset * np.linspace(0, 1, before_yield + 1)[1:]))
-    state, released = dense.at(time), _released_energy(hit, dense, time)
+    state, released, structure = dense.at(time), _released_energy(hit, dense, time), hit.structure
     uniform_load = 4 * medium.eta * np.maximum(state.velocity, 0.0)
     states = Indentation(hit.profile, medium, state.depth, state.interval, uniform_load, in_time=True)
     # Energy of the elements at the rim at their release, by parts: dissipated, or still stored in them.
     elastic = -medium.relaxation_time * np.minimum(state.velocity, 0.0)
     rim = elastic**2 * states.contact_radius / 2
     plastic = rule.plastic_integral(state.interval.lower - state.increase, state.increase)
+    work = modulus * (state.work - rim - released)
+    # The velocity of the equation of motion is that of the body less F/Z.
+    body_velocity = state.velocity + states.force / structure.impedance
+    velocity = state.velocity
+    if structure.is_support:
+        velocity = velocity / (1 + states.stiffness / structure.stiffness)
+    deflection = states.force / structure.stiffness
+    deflection = deflection + hit.mass * (hit.speed - body_velocity) / structure.impedance
     return Motion(
         time=time,
         depth=state.depth,
-        velocity=state.velocity,
+        velocity=velocity,
         force=states.force,
         contact_radius=states.contact_radius,
         plastic_radius=states.plastic_radius,
         plastic_depth=state.interval.lower,
         live_depth=state.interval.length,
-        kinetic_energy=hit.mass * state.velocity**2 / 2,
+        kinetic_energy=hit.mass * body_velocity**2 / 2,
         stored_energy=states.stored_energy + modulus * released,
         plastic_work=modulus * plastic,
-        viscous_work=modulus * (state.viscous_work - rim - released),
+        viscous_work=work if structure.rigid else np.zeros_like(work),
+        deflection=deflection,
+        body_velocity=body_velocity,
+        structure_work=np.zeros_like(work) if structure.rigid else work,
+        support_energy=states.force**2 / (2 * structure.stiffness),
         states=states,
         impact=hit,
     )

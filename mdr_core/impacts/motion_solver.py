@@ -46,6 +46,13 @@ _SHORTER = 0.3
 #: function that is singular at zero has Legendre coefficients ∝ ρ⁻ⁿ over the share s, with s = 4ρ/(1 + ρ)²:
 #: for 0.85 that is 2·10⁻⁸ at degree 22, and 0.93 is where it is the tolerance of 10⁻⁵.
 _AGAIN = 0.85
+#: Live depth, over that at the turning point, at which a motion that never ends is cut off.
+_AT_REST = 1e-3
+#: Share of the critical damping, squared, from which the end of a motion is taken from the damped oscillator:
+#: bodies return with less than 10⁻⁴⁰ of their speed. And the live depth there, over that at the turning
+#: point, by which the contact is wider than at the end.
+_NEARLY_CRITICAL = 0.999
+_OSCILLATES = 1e-12
 #: A largest deceleration is looked for in steps that have this share of it at a node. Nodes are at most
 #: 0.064 of a step apart: a peak as wide as a step has 0.996 at one.
 _NEAR = 0.98
@@ -56,11 +63,13 @@ class Solution:
     """States (N, 1) of N impacts at the turning point and at the end, and their steps.
 
     The depth of a turning point below the known depth is infinite. `loading` and `unloading` are lists of
-    pairs: the numbers of impacts, and the steps that these have taken.
+    pairs: the numbers of impacts, and the steps that these have taken. The motion of a body that never leaves
+    has no end: `endless`, (N, 1), says which.
     """
 
     turning_point: MotionState
     end: MotionState
+    endless: np.ndarray
     loading: list
     unloading: list
 
@@ -86,21 +95,23 @@ class Unsolved(ValueError):
         self.rows = rows
 
 
-def solve(bodies, tolerance=1e-5):
-    """The `Solution` of impacts.
+def solve(bodies, tolerance=1e-5, equations=(Loading, Unloading), to_rest=False):
+    """The `Solution` of impacts by their equations of loading and of unloading.
 
     `tolerance` is the relative error of a step between its nodes; at its end the error is far smaller.
+    Motions that never end are followed beyond the turning point if they are asked for `to_rest`.
     """
-    turning_point, loading = _load(bodies, tolerance)
-    end, unloading = _unload(bodies, turning_point, tolerance)
-    return Solution(turning_point, end, loading, unloading)
+    on_loading, on_unloading = equations
+    turning_point, loading = _load(bodies, tolerance, on_loading)
+    end, endless, unloading = _unload(bodies, turning_point, tolerance, on_unloading, to_rest)
+    return Solution(turning_point, end, endless, loading, unloading)
 
 
-def _load(bodies, tolerance):
+def _load(bodies, tolerance, equation_of):
     """State at the turning point (of infinite depth below the known depth), and the steps of loading."""
     profile, rule, imprint = bodies.profile, bodies.rule, bodies.imprint_depth
     onset = rule.penetration(imprint, imprint)
-    equation, steps, zero = Loading(bodies), [], np.zeros_like(bodies.speed)
+    equation, steps, zero = equation_of(bodies), [], np.zeros_like(bodies.speed)
     state = MotionState(zero, bodies.speed, zero, zero)
     kinks = [kink - imprint for kink in profile.kinks]
     end = np.broadcast_to(profile.known_depth - imprint, zero.shape)
@@ -121,21 +132,32 @@ def _load(bodies, tolerance):
     return state.replaced(rows, too_deep), steps
 
 
-def _unload(bodies, turning_state, tolerance):
-    """State at the loss of contact, and the steps of unloading."""
+def _unload(bodies, turning_state, tolerance, equation_of, to_rest):
+    """State at the loss of contact, for which bodies it never comes, and the steps of unloading."""
     profile, steps, zero = bodies.profile, [], np.zeros_like(bodies.speed)
     interval, _ = bodies.rule.loading(turning_state.depth, bodies.imprint_depth)
-    equation = Unloading(bodies, interval.lower)
+    equation = equation_of(bodies, interval.lower)
     state = replace(turning_state, depth=interval.length, velocity=zero)
+    radius = profile.radius_at(interval.lower)
+    damping = equation.damping_share(radius)
+    endless = damping >= 1
+    oscillates = (damping > _NEARLY_CRITICAL) & ~endless
+    last = np.where(endless, _AT_REST if to_rest else 1.0, np.where(oscillates, _OSCILLATES, 0.0))
+    # The depth of a turning point may be infinite.
+    last = np.where(last > 0, last * state.depth, zero)
     below = interval.lower - kink_above(profile, interval.lower)
-    for edge in [*(kink - interval.lower for kink in profile.kinks[::-1]), zero]:
+    for kink in [*profile.kinks[::-1], interval.lower]:
+        edge = np.maximum(kink - interval.lower, last)
         rows = np.flatnonzero(((edge >= 0) & (edge < state.depth) & (interval.upper < np.inf))[:, 0])
         root = np.cbrt(np.where(edge == 0, below, 0.0))
         coordinate = DepthCoordinate(edge, root)
         leg = _UnloadingLeg(equation, coordinate, edge, coordinate.delta(edge))
         ended, _ = leg.run(leg.from_states(state, rows), tolerance, steps)
         state = state.replaced(ended.row, ended.state)
-    return state, steps
+    if oscillates.any():
+        rows = np.flatnonzero(oscillates[:, 0])
+        state = state.replaced(rows, equation[rows].oscillated(state[rows], radius[rows]))
+    return state, endless, steps
 
 
 @dataclass(frozen=True)
@@ -211,6 +233,8 @@ class _Leg(Entries):
         # In the depth while it changes faster, relative to itself, than the velocity.
         in_depth = np.abs(rate * state.velocity) > np.abs(acceleration * state.depth)
         in_depth |= impacts.depth_only | (impacts.delta == 0)
+        # On a plate a body that returns may get slower, and steps in velocity go to a faster one.
+        in_depth |= (rate < 0) & (acceleration >= 0)
         return in_depth[:, 0], np.abs(acceleration)
 
     def _by_depth(self, impacts, deceleration, tolerance):

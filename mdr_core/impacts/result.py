@@ -1,8 +1,8 @@
 """Impacts of a free rigid body, as results."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ..medium import Medium
 from ..numerics.motions import ImpactResult, Motion
 from ..numerics.results import CLOSED_FORM, Entries, Limit, Model, above
 from ..profiles.profile import Profile
+from ..structure import RIGID, Structure
 from .motion import motion
 from .scaling import FastLimit, fast_limit
 
@@ -39,10 +40,18 @@ class Impact(Entries, ImpactResult):
     speed: Array
     turning_point: Indentation
     plastic_depth_increase: Array
+    #: What carries the medium; rigid, where none is given.
+    structure: Structure = field(default=RIGID, kw_only=True)
 
     _name = "Impact"
     #: How it was solved: by the energy balance in closed form, or by the equation of motion.
     model: ClassVar[Model] = CLOSED_FORM
+
+    def __getitem__(self, index: Any) -> Self:
+        values = {each.name: getattr(self, each.name) for each in fields(self)}
+        structure = values.pop("structure").entries(index, self.shape)
+        entries = {name: value[index] for name, value in values.items()}
+        return type(self)(**entries, structure=structure)
 
     @property
     def profile(self) -> Profile:
@@ -81,13 +90,26 @@ class Impact(Entries, ImpactResult):
 
     @property
     def stored_energy(self) -> Array:
-        """Elastic energy (J) at the turning point; without viscosity all of it is returned."""
+        """Elastic energy (J) of the medium at the turning point.
+
+        All of it is returned, unless the medium is viscous or stands on a plate.
+        """
         return self.turning_point.stored_energy
 
     @_check.frozen_property
     def max_force(self):
         """Largest force (N), with adhesion that at the turning point; a viscous one is before it."""
         return self.turning_point.force
+
+    @_check.frozen_property
+    def max_deflection(self):
+        """Largest deflection (m) of the structure under the contact; 0 without a structure.
+
+        On a plate m v₀ (1 + e)/Z: it is that at the end of the contact, and it stays. On a support F/K of the
+        largest force F.
+        """
+        momentum = self.mass * self.speed * (1 + self.restitution)
+        return momentum / self.structure.impedance + self.max_force / self.structure.stiffness
 
     @_check.frozen_property
     def plastic_work(self):
@@ -99,6 +121,11 @@ class Impact(Entries, ImpactResult):
     @_check.frozen_property
     def viscous_work(self):
         """Energy (J) dissipated by viscosity, during the contact and by relaxation after it."""
+        return np.zeros(np.shape(self.mass))
+
+    @_check.frozen_property
+    def structure_work(self):
+        """Energy (J) that the waves of a plate or a rod carry away; 0 without one."""
         return np.zeros(np.shape(self.mass))
 
     @property

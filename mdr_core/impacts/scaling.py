@@ -201,6 +201,11 @@ def depth_in_fast_limit(hit):
 def fast_limit(hit):
     """The `FastLimit` of an `Impact`."""
     profile, medium = hit.profile, hit.medium
+    if not hit.structure.rigid:
+        raise ValueError(
+            "the fast limit is not for impacts on a structure, which takes up a part of the energy; leave "
+            "the structure out"
+        )
     refuse_other_classes(medium, "the fast limit", "ScalingLaw has the powers of each class")
     d_c = np.asarray(medium.critical_depth)
     bound = "is infinite, so that nothing yields"

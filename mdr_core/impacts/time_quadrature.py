@@ -21,7 +21,7 @@ TRANSITIONS = np.array([1.0, 6.0])
 NODES = (28, 12)
 
 
-def time_over_root(rule, interval, increase):
+def time_over_root(rule, interval, increase, give=None):
     """∫ ds/√W over loading and unloading (m^(−1/2)), one impact a row.
 
     W = ∫∫ a ds ds (m³) is the work from a depth to the turning point: 2E* W is the kinetic energy there.
@@ -36,6 +36,9 @@ def time_over_root(rule, interval, increase):
     The distance s (m) along a stretch is counted from its start, on unloading from the loss of contact.
     Past yield both ends of the interval move. Where nothing yields y₀ is ℓ, and that stretch has no length.
 
+    A support of stiffness K gives way by F/K. The body then goes by S dd with S = 1 + (dF/dd)/K, so that it
+    is ∫ S ds/√W with W = ∫ S ∫ a ds ds.
+
     Parameters
     ----------
     rule : YieldRule
@@ -44,6 +47,8 @@ def time_over_root(rule, interval, increase):
         Live interval at the turning point, [p, p + ℓ].
     increase : ndarray, shape (N,)
         p − p₀ (m).
+    give : ndarray, shape (N,), optional
+        2E*/K (1/m) of a support.
     """
     profile = rule.profile
     column = rule.entries((slice(None), None), increase.shape)
@@ -55,11 +60,11 @@ def time_over_root(rule, interval, increase):
     kinks = _kinks_above(profile, interval.upper.max())
     transitions = _transitions(profile)
 
-    unloading, _ = _elastic(profile, after, live_depth, kinks, transitions)
+    unloading, _ = _elastic(profile, after, live_depth, kinks, transitions, give)
     length = increase + (live_depth - onset)
-    past_yield, work = _past_yield(rule, before, onset, increase, length, kinks, transitions)
-    distance = _distance_to_rest(profile, before[:, 0], onset[:, 0], work)[:, None]
-    before_yield, _ = _elastic(profile, before, onset, kinks, transitions, distance, work)
+    past_yield, work = _past_yield(rule, before, onset, increase, length, kinks, transitions, give)
+    distance = _distance_to_rest(profile, before[:, 0], onset[:, 0], work, give)[:, None]
+    before_yield, _ = _elastic(profile, before, onset, kinks, transitions, give, distance, work)
     return unloading + past_yield + before_yield
 
 
@@ -84,7 +89,7 @@ def _transitions(profile):
     return np.atleast_2d(np.multiply.outer(profile.transition_depth, TRANSITIONS))
 
 
-def _elastic(profile, bottom, length, kinks, transitions, distance=0.0, work=0.0):
+def _elastic(profile, bottom, length, kinks, transitions, give, distance=0.0, work=0.0):
     """`_stretch` of the live intervals [bottom, bottom + s], for s from 0 to a length (m).
 
     Kinks and transitions are depths (m) from the undeformed surface, and so is the bottom, (N, 1).
@@ -93,12 +98,16 @@ def _elastic(profile, bottom, length, kinks, transitions, distance=0.0, work=0.0
     def interval_at(s, rows):
         return bottom[rows], s
 
+    def way_at(s, rows):
+        own = profile.entries((rows[:, None],), (len(bottom),))
+        return 1 + give[rows, None] * own.radius_at(bottom[rows] + s)
+
     above = kink_above(profile, bottom[:, 0])[:, None]
     cuts = _Cuts(above - bottom, kinks - bottom, transitions - bottom)
-    return _stretch(profile, interval_at, cuts, length, distance, work)
+    return _stretch(profile, interval_at, give is not None and way_at, cuts, length, distance, work)
 
 
-def _past_yield(rule, before, onset, increase, length, kinks, transitions):
+def _past_yield(rule, before, onset, increase, length, kinks, transitions, give):
     """`_stretch` of loading past the penetration `onset` (m) into an imprint, down to the turning point.
 
     `before` is the depth (m) of the bottom of the imprint, and it grows by `increase` (m) while the depth
@@ -110,6 +119,11 @@ def _past_yield(rule, before, onset, increase, length, kinks, transitions):
     def interval_at(s, rows):
         interval = rule.entries((rows[:, None],), size).past_onset(before[rows], onset[rows], s)
         return interval.lower, interval.length
+
+    def way_at(s, rows):
+        own = rule.entries((rows[:, None],), size)
+        interval = own.past_onset(before[rows], onset[rows], s)
+        return 1 + give[rows, None] * own.yielding_width(interval)
 
     def passed_by_lower(depth):
         """s (m) at which the lower end of the interval, the plastic depth, has reached a depth (m)."""
@@ -128,16 +142,18 @@ def _past_yield(rule, before, onset, increase, length, kinks, transitions):
         # twice the depth does as well.
         transitions=np.hstack([transitions - before, column.breaks(before, increase, onset)]),
     )
-    return _stretch(profile, interval_at, cuts, length)
+    return _stretch(profile, interval_at, give is not None and way_at, cuts, length)
 
 
-def _distance_to_rest(profile, bottom, length, work):
+def _distance_to_rest(profile, bottom, length, work, give):
     """About the distance (m) over which a contact that does not yield would take up a work over 2E* (m³).
 
-    From the live interval [bottom, bottom + length] on: x at F x + a x²/2 = W, with F = ∫ a ds.
+    From the live interval [bottom, bottom + length] on: x at S (F x + a x²/2) = W, with F = ∫ a ds, and
+    S = 1 + a give of a support.
     """
     force = _flow(profile, bottom, length)
     a = profile.radius_at(bottom + length)
+    work = work if give is None else work / (1 + give * a)
     total = force + np.sqrt(force**2 + 2 * a * work)
     # Under a sharp tip that yields from first touch on there is none.
     return 2 * work / np.where(total > 0, total, np.inf)
@@ -177,8 +193,8 @@ class _Pieces(NamedTuple):
         return _Pieces(*(values[chosen] for values in self))
 
 
-def _stretch(profile, interval_at, cuts, length, distance=0.0, work=0.0):
-    """∫ ds/√W over a stretch of the path, shape (N,), and the work W (m³) from its start on.
+def _stretch(profile, interval_at, way_at, cuts, length, distance=0.0, work=0.0):
+    """∫ S ds/√W over a stretch of the path, shape (N,), and the work W (m³) from its start on.
 
     All distances s (m) are counted from the start of the stretch. In each piece between cuts the work is
     integrated from its end back, so that next to the turning point it does not cancel.
@@ -190,6 +206,9 @@ def _stretch(profile, interval_at, cuts, length, distance=0.0, work=0.0):
     interval_at : callable
         Lower end and length (m) of the live interval at distances s, from an array (P, K) of these and the
         numbers (P,) of the impacts to which its rows belong.
+    way_at : callable or False
+        S at the same places: the way of the body over that of the depth. False without a support, where it
+        is 1.
     cuts : _Cuts
         Ends of pieces.
     length : ndarray, shape (N, 1)
@@ -211,6 +230,8 @@ def _stretch(profile, interval_at, cuts, length, distance=0.0, work=0.0):
             node, weight, tail = _rule(count)
             s, rate = _nodes(group, node)
             entries = profile.entries((group.row[:, None],), (len(length),))
+            if way_at:
+                rate = rate * way_at(s, group.row)
             flow = _flow(entries, *interval_at(s, group.row)) * rate
             # Not by @: for sums as short as these the threads of BLAS take a second core, and no less time.
             own_work[group.row, group.number] = np.einsum("ij,j", flow, weight)

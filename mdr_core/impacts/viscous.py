@@ -1,6 +1,6 @@
-"""Impacts by the equation of motion: on a viscous medium, and for a comparison on others."""
+"""Impacts by the equation of motion: on a viscous medium, on a plate, and for a comparison on others."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -12,8 +12,9 @@ from ..contact.yielding import yield_rule
 from ..numerics.blocks import chunks
 from ..numerics.results import SCALAR_ODE
 from ..profiles.shape_check import check_slopes
-from .energy_balance import dry_impact
-from .equation_of_motion import Bodies
+from ..structure import RIGID
+from .energy_balance import dry_impact, largest_force
+from .equation_of_motion import Bodies, Loading, LoadingOnStructure, Unloading, UnloadingOnStructure
 from .motion_solver import Unsolved, solve
 from .result import Impact
 
@@ -27,53 +28,73 @@ class ViscousImpact(Impact):
     contact_time: Array = field()
     max_force: Array = field()
     viscous_work: Array = field()
+    structure_work: Array = field()
 
     model = SCALAR_ODE
 
+    @property
+    def captured(self):
+        """Whether the body never leaves: on a plate its velocity goes to 0 with the force."""
+        return np.isinf(self.contact_time)
 
-def viscous_impact(profile, medium, mass, speed, imprint_depth, in_time=False):
+
+def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID, in_time=False):
     """Impacts over imprints of given plastic depth (m).
 
-    Where the medium has no viscosity they are solved by the energy balance, unless `in_time`.
+    Where the medium has no viscosity, and the structure no waves, they are solved by the energy balance,
+    unless `in_time`. In a row with viscosity the structure is rigid.
     """
-    dry = dry_impact(profile, medium, mass, speed, imprint_depth)
+    dry = dry_impact(profile, medium, mass, speed, imprint_depth, structure)
     interval, increase = dry.turning_point.live_interval, dry.plastic_depth_increase
     penetration = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
     # Steps with a wrong slope would not end.
     check_slopes(profile, interval.upper)
-    bodies = Bodies.of(profile, medium, mass, speed, imprint_depth, penetration)
-    viscous = (bodies.relaxation_time.reshape(mass.shape) > 0) | in_time
+    bodies = Bodies.of(profile, medium, mass, speed, imprint_depth, penetration, structure)
+    moving = (bodies.relaxation_time.reshape(mass.shape) > 0) | in_time
+    on_structure = np.broadcast_to(structure.is_plate | structure.is_support, mass.shape)
     motions = np.zeros((4, *mass.shape))
-    if not viscous.all():
-        remainder = dry[~viscous]
+    if not moving.all():
+        remainder = dry[~moving]
         deceleration = remainder.max_force / remainder.mass
         work = np.zeros_like(deceleration)
-        motions[:, ~viscous] = remainder.restitution, remainder.contact_time, work, deceleration
+        motions[:, ~moving] = remainder.restitution, remainder.contact_time, work, deceleration
     penetrations = penetration.ravel()
     # A view, with one column for each impact.
     columns = motions.reshape(4, -1)
-    numbers = np.flatnonzero(viscous)
-    for block in chunks(numbers.size, 256):
-        rows = numbers[block]
-        try:
-            penetrations[rows], columns[:, rows] = _solved(bodies[rows])
-        except Unsolved as error:
-            # A shape or a law that is at fault is known at the depths without viscosity, which are larger.
-            check_reached(profile, medium, interval.upper)
-            _refuse_unsolved(error, rows[error.rows], speed, profile, interval.upper)
+    for chosen, equations in (
+        (moving & ~on_structure, (Loading, Unloading)),
+        (moving & on_structure, (LoadingOnStructure, UnloadingOnStructure)),
+    ):
+        numbers = np.flatnonzero(chosen)
+        for block in chunks(numbers.size, 256):
+            rows = numbers[block]
+            try:
+                penetrations[rows], columns[:, rows] = _solved(bodies[rows], equations)
+            except Unsolved as error:
+                # A shape or a law that is at fault is known at the depths without losses, which are larger.
+                check_reached(profile, medium, interval.upper)
+                _refuse_unsolved(error, rows[error.rows], speed, profile, interval.upper)
     restitution, end_time, work, deceleration = motions
     rule = yield_rule(profile, medium)
     interval, increase = rule.loading(penetrations.reshape(mass.shape), imprint_depth)
-    return ViscousImpact(
+    turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
+    force = mass * deceleration
+    if np.any(on_structure & moving):
+        force = np.where(on_structure, largest_force(rule, turning_point, increase), force)
+    work = 2 * medium.E_star * work
+    hit = ViscousImpact(
         mass=mass[()],
         speed=speed[()],
-        turning_point=Indentation(profile, medium, interval.upper, interval, in_time=True),
+        turning_point=turning_point,
         plastic_depth_increase=increase,
         restitution=_check.frozen(np.minimum(restitution, 1.0)),
         contact_time=_check.frozen(end_time),
-        max_force=_check.frozen(mass * deceleration),
-        viscous_work=_check.frozen(2 * medium.E_star * work),
+        max_force=_check.frozen(force),
+        viscous_work=_check.frozen(np.where(on_structure, 0.0, work)),
+        structure_work=_check.frozen(np.where(on_structure, work, 0.0)),
+        structure=structure,
     )
+    return _completed(hit)
 
 
 def _refuse_unsolved(error, rows, speed, profile, depth):
@@ -92,9 +113,19 @@ def _refuse_unsolved(error, rows, speed, profile, depth):
     raise _check.InvalidEntries("speed", speed, bad.reshape(speed.shape), bound, "m/s", remedy) from error
 
 
-def _solved(bodies):
-    """Penetrations (m); restitution, contact time, viscous work over 2E*, largest deceleration."""
-    solution = solve(bodies)
-    end = solution.end
-    values = -end.velocity / bodies.speed, end.time, end.work, solution.max_deceleration[:, None]
+def _completed(hit):
+    """The impacts, with all that is left of the energy for the work of waves where a body never leaves."""
+    if not np.any(hit.captured):
+        return hit
+    left = hit.mass * hit.speed**2 / 2 - hit.plastic_work
+    return replace(hit, structure_work=_check.frozen(np.where(hit.captured, left, hit.structure_work)))
+
+
+def _solved(bodies, equations):
+    """Penetrations (m); restitution, contact time, work over 2E*, largest deceleration."""
+    solution = solve(bodies, equations=equations)
+    end, endless = solution.end, solution.endless
+    restitution = np.where(endless, 0.0, -end.velocity / bodies.speed)
+    time = np.where(endless, np.inf, end.time)
+    values = restitution, time, end.work, solution.max_deceleration[:, None]
     return solution.turning_point.depth[:, 0], np.hstack(values).T

@@ -15,7 +15,7 @@ class ImpactResult(Result):
     _quantities = (
         "mass", "speed", "restitution", "rebound_speed", "contact_time", "max_depth", "max_force",
         "contact_radius", "plastic_radius", "plastic_depth", "damaged_area", "stored_energy",
-        "plastic_work", "viscous_work", "adhesive_work",
+        "plastic_work", "viscous_work", "adhesive_work", "structure_work", "max_deflection",
     )  # fmt: skip
     _dimensions = ("impact",)
 
@@ -40,7 +40,11 @@ class ImpactResult(Result):
 
     @property
     def captured(self) -> Any:
-        """Whether adhesion holds the body, so that it does not rebound."""
+        """Whether the body does not rebound: adhesion holds it, or it never leaves a plate.
+
+        On a plate whose waves take so much energy that the velocity of the body goes to 0 with the force: then
+        e is 0, and the contact time infinite.
+        """
         return np.zeros(np.shape(self.speed), bool)[()]
 
     @property
@@ -84,6 +88,8 @@ class MotionResult(Result):
 class Motion(MotionResult):
     """Motion of one impact from first contact to loss of contact, as arrays of equal length.
 
+    That of a body that never leaves a plate goes to where a thousandth of the largest live depth is left.
+
     The turning point is among the instants. On unloading from a viscous medium the edge of the contact is
     where g = d_p + ℓ, which is less than the depth d; elements outside are released and relax. The sum of
     the energies is the same at every instant.
@@ -100,7 +106,13 @@ class Motion(MotionResult):
         Plastic depth d_p and length ℓ of the live interval [d_p, d_p + ℓ] (m); ℓ is the elastic
         compression of the spring at the axis under the load.
     kinetic_energy, stored_energy, plastic_work, viscous_work : ndarray
-        Energies (J). The stored energy includes released springs.
+        Energies (J) of the body and of the medium. The stored energy includes released springs.
+    deflection : ndarray
+        Deflection w (m) of the structure under the contact, 0 without one.
+    body_velocity : ndarray
+        Velocity (m/s) of the body, the sum of the rates of depth and deflection.
+    structure_work, support_energy : ndarray
+        Energies (J) that waves of the structure have carried away, and that a support stores.
     states : Indentation or None
         States of the contact at each instant, with pressure and surface; None for the chain.
     impact : Impact, ChainImpact or None
@@ -126,12 +138,17 @@ class Motion(MotionResult):
     stored_energy: Array
     plastic_work: Array
     viscous_work: Array
+    deflection: Array
+    body_velocity: Array
+    structure_work: Array
+    support_energy: Array
     states: Any = None
     impact: Any = None
 
     _quantities = (
         "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "plastic_depth",
-        "live_depth", "kinetic_energy", "stored_energy", "plastic_work", "viscous_work",
+        "live_depth", "kinetic_energy", "stored_energy", "plastic_work", "viscous_work", "deflection",
+        "body_velocity", "structure_work", "support_energy",
     )  # fmt: skip
     _shown = ("time", "depth", "velocity", "force", "contact_radius", "plastic_radius")
 

@@ -271,7 +271,8 @@ def impact_limits(hit):
 
 def how_fast(hit):
     """`Limit`s of the fast limit (23), (24) for an `Impact`, from its errors; none without yield."""
-    if not (hit.medium.inverse_to_radius and np.any(hit.plastic_depth_increase > 0)):
+    first_class = hit.medium.inverse_to_radius and hit.structure.rigid
+    if not (first_class and np.any(hit.plastic_depth_increase > 0)):
         return ()
     if np.any(np.isinf(hit.medium.critical_depth)):
         return ()
