@@ -15,6 +15,7 @@ from .impacts.impact import solve_impact
 from .medium import Medium
 from .numerics.results import CHAIN, CLOSED_FORM, CREEP_LAW, SCALAR_ODE, Model
 from .oblique.oblique_impact import FRICTION, oblique_impact
+from .structure import Structure, structure_of
 
 
 class _Path:
@@ -143,6 +144,8 @@ class FreeImpact:
         Mass m (kg), and speed v₀ (m/s) at first contact, positive.
     plastic_depth : float
         Plastic depth (m) after earlier impacts on the same spot; 0, the default, for a virgin surface.
+    structure : Structure, optional
+        A single plate, rod or support that carries the medium; by default the body behind it is at rest.
 
     Examples
     --------
@@ -155,6 +158,7 @@ class FreeImpact:
     mass: float
     speed: float
     plastic_depth: float = 0.0
+    structure: Structure | None = None
 
     def __post_init__(self):
         _check.store(
@@ -165,21 +169,30 @@ class FreeImpact:
                 "FreeImpact plastic_depth", self.plastic_depth, unit="m", zero=True
             ),
         )
+        if structure_of(self.structure).shape:
+            raise ValueError(
+                "FreeImpact needs a single structure, but its parameters are arrays of shape "
+                f"{self.structure.shape}; take one at a time, as in structure.entries(i)"
+            )
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
         """Names of the models for this drive, the cheapest exact one first."""
         if medium.work_of_adhesion > 0:
             return (CLOSED_FORM,)
+        structure = structure_of(self.structure)
+        if medium.eta > 0 and not structure.rigid and self.plastic_depth == 0:
+            return (CHAIN,)
         # The state of a chain with an imprint is more than the plastic depth: `chain_impact(start=…)`.
-        models = (SCALAR_ODE, CHAIN) if medium.eta > 0 else (CLOSED_FORM, SCALAR_ODE, CHAIN)
+        in_time = medium.eta > 0 or structure.is_plate
+        models = (SCALAR_ODE, CHAIN) if in_time else (CLOSED_FORM, SCALAR_ODE, CHAIN)
         return models[:-1] if self.plastic_depth > 0 else models
 
     def solve(self, profile, medium, model):
         """The `Impact` of this body, or on the chain the `ChainImpact`."""
         if model == CHAIN:
-            return chain_impact(profile, medium, self.mass, self.speed)
-        in_time = model == SCALAR_ODE
-        return solve_impact(profile, medium, self.mass, self.speed, self.plastic_depth, in_time=in_time)
+            return chain_impact(profile, medium, self.mass, self.speed, structure=self.structure)
+        given = self.mass, self.speed, self.plastic_depth, self.structure
+        return solve_impact(profile, medium, *given, in_time=model == SCALAR_ODE)
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from .oblique.oblique_impact import ObliqueImpact
 from .profiles import power, rounded, sampled, truncated
 from .profiles.profile import Profile
 from .show.quantities import at_default
+from .structure import Structure
 
 _PROFILES = (
     power.FlatPunch, power.Cone, power.Paraboloid, power.PowerLaw, rounded.Sphere, rounded.Hyperboloid,
@@ -28,7 +29,9 @@ _PROFILES = (
 _DRIVES = (DepthPath, ForcePath, FreeImpact, FreeObliqueImpact)
 #: Values of entries that are optional in a file.
 _OPTIONAL = {"time": None, "poisson": 0.5, "work_of_adhesion": 0.0, "plastic_depth": 0.0}
-_OPTIONAL |= {"hardness": None, "f_c": None}
+_OPTIONAL |= {"hardness": None, "f_c": None, "structure": None}
+#: Parameters that are null where they are infinite.
+_INFINITE = {Medium: ("q_c",), Structure: ("impedance", "stiffness")}
 #: Remedy for a law of hardness, whose class is not in a file.
 _NOT_KEPT = "keep the script that makes the law, or pickle the scene where its class can be imported"
 _FORMAT, _VERSION = "mdr-scene", 1
@@ -89,7 +92,7 @@ class Scene:
         return self.drive.solve(self.profile, self.medium, model)
 
     def to_json(self) -> str:
-        """The scene as JSON text with exact numbers; null is an infinite q_c, and no Poisson ratio.
+        """The scene as JSON text with exact numbers; null is an infinite value, and no Poisson ratio.
 
         A law of hardness is refused: its class is not in the file.
         """
@@ -99,7 +102,7 @@ class Scene:
                 "format": _FORMAT,
                 "version": _VERSION,
                 "profile": _tagged(self.profile),
-                "medium": {k: None if v == np.inf else v for k, v in asdict(self.medium).items()},
+                "medium": _with_null(self.medium),
                 "drive": _tagged(self.drive),
             },
             indent=1,
@@ -157,13 +160,13 @@ class Scene:
                 f"scene: format {shown(data['format'])} version {shown(data['version'])} cannot be read; "
                 f"expected {_FORMAT!r} version {_VERSION}"
             )
-        medium = data["medium"]
-        if isinstance(medium, dict) and "q_c" in medium and medium["q_c"] is None:
-            medium = medium | {"q_c": np.inf}
+        drive = data["drive"]
+        if isinstance(drive, dict) and drive.get("structure") is not None:
+            drive = drive | {"structure": _build("structure", drive["structure"], Structure)}
         return cls(
             _untagged("profile", data["profile"], _PROFILES),
-            _build("medium", medium, Medium),
-            _untagged("drive", data["drive"], _DRIVES),
+            _build("medium", data["medium"], Medium),
+            _untagged("drive", drive, _DRIVES),
         )
 
 
@@ -179,7 +182,14 @@ def _constructed(value):
 def _tagged(value):
     if type(value) not in _PROFILES + _DRIVES:
         raise ValueError(f"a {type(value).__name__} cannot be written as JSON")
-    return {"type": type(value).__name__} | asdict(value)
+    parts = {field.name: getattr(value, field.name) for field in fields(value)}
+    nested = {name: _with_null(part) for name, part in parts.items() if isinstance(part, Structure)}
+    return {"type": type(value).__name__} | asdict(value) | nested
+
+
+def _with_null(value):
+    """The parameters of a medium or a structure, with null for infinite ones."""
+    return {k: None if v is not None and np.isinf(v) else v for k, v in asdict(value).items()}
 
 
 def _untagged(what, data, kinds):
@@ -193,6 +203,7 @@ def _build(what, data, kind):
     names = {field.name for field in fields(kind)}
     if isinstance(data, dict):
         data = {name: _OPTIONAL[name] for name in names & _OPTIONAL.keys()} | data
+        data |= {name: np.inf for name in _INFINITE.get(kind, ()) if name in data and data[name] is None}
     _keys(f"scene {what}", data, names)
     try:
         return kind(**data)

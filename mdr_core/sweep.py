@@ -56,6 +56,7 @@ from .profiles.profile import Profile, check_known
 from .show.progress import tracked_chunks
 from .show.quantities import QUANTITIES, described
 from .show.report import imported
+from .structure import Structure
 from .sweep_arguments import (
     InvalidParticles,
     check_alignment,
@@ -94,6 +95,8 @@ def impacts(
     mass: "Given",
     speed: "Given",
     plastic_depth: "Given" = 0.0,
+    impedance: "Given" = np.inf,
+    stiffness: "Given" = np.inf,
     quantities: str | Iterable[str] = ("restitution",),
     invalid: str = "raise",
     **shape_parameters: "Given",
@@ -111,6 +114,9 @@ def impacts(
         Mass (kg) and speed (m/s) at first contact.
     plastic_depth : float or DataArray
         Plastic depth (m) of the imprint before the impact.
+    impedance, stiffness : float or DataArray
+        Impedance (N·s/m) of the plate or rod, or stiffness (N/m) of the support, that carries the medium, as
+        in `Structure`; infinite, the default, is rigid.
     quantities : sequence of str
         Names of quantities of `Impact`: "restitution", "max_depth", "damaged_area", "contact_time", …
     invalid : {"raise", "nan"}
@@ -148,6 +154,7 @@ def impacts(
     parameters = {"E_star": E_star, "eta": eta, "work_of_adhesion": work_of_adhesion}
     constants, law = hardness_parameters(q_c, hardness, f_c)
     parameters |= constants | {"mass": mass, "speed": speed, "plastic_depth": plastic_depth}
+    parameters |= {"impedance": impedance, "stiffness": stiffness}
     return _sweep(Impact, _hit, law, shape, parameters, shape_parameters, quantities, invalid)
 
 
@@ -296,9 +303,10 @@ def _in_blocks(solve, shape, values, own, names, refused):
     return tuple(results) if len(names) > 1 else results[0]
 
 
-def _hit(profile, E_star, eta, work_of_adhesion, mass, speed, plastic_depth, **hardness):
+def _hit(profile, E_star, eta, work_of_adhesion, mass, speed, plastic_depth, impedance, stiffness, **hardness):
     medium = Medium(E_star, eta=eta, work_of_adhesion=work_of_adhesion, **hardness)
-    return impact(profile, medium, mass, speed, plastic_depth=plastic_depth)
+    structure = Structure(impedance, stiffness)
+    return impact(profile, medium, mass, speed, plastic_depth=plastic_depth, structure=structure)
 
 
 def _hit_at_angle(profile, E_star, eta, poisson, q_c=None, hardness=None, f_c=None, **given):

@@ -20,9 +20,15 @@ def radius(profile, depth):
 
 def radius_rate(profile, depth):
     """da/ds (dimensionless); 0 at a wall."""
-    slope = profile.reduced_slope_at(profile.radius_at(depth))
+    return growth_at(profile, profile.radius_at(depth))
+
+
+def growth_at(profile, a):
+    """da/ds (dimensionless) at contact radii (m); 0 at a wall."""
     with np.errstate(divide="ignore"):
-        return 1 / slope
+        rate = 1 / profile.reduced_slope_at(a)
+    # The slope at the wall itself may be that of the tip before it.
+    return np.where(a < profile.wall, rate, 0.0)
 
 
 def integrate(profile, interval, function, moment):

@@ -15,6 +15,7 @@ from ..medium import Medium
 from ..numerics.motions import ImpactResult, Motion, instants
 from ..numerics.results import CHAIN, Limit, above
 from ..profiles.profile import Profile
+from ..structure import Structure, structure_of
 from .cap import plastic_depth
 from .foundation import Foundation, foundation_of
 from .free_body import ImpactSolver, impact_depth_bound, row_before
@@ -26,7 +27,7 @@ _ELEMENTS, _STEPS, _RUNS = 150, 12, 8
 #: Quantities that are refined, and their smallest errors as a share of the correction by extrapolation.
 _TRUST = {
     "restitution": 0.1, "max_depth": 0.2, "max_force": 2.0, "contact_time": 1.0,
-    "stored_energy": 0.0, "plastic_work": 0.0, "viscous_work": 0.0,
+    "stored_energy": 0.0, "plastic_work": 0.0, "viscous_work": 0.0, "structure_work": 0.0,
 }  # fmt: skip
 
 
@@ -38,6 +39,7 @@ def chain_impact(
     speed: float,
     *,
     start: Foundation | None = None,
+    structure: Structure | None = None,
     n: int | None = None,
     tolerance: float = 1e-6,
 ) -> "ChainImpact":
@@ -52,6 +54,9 @@ def chain_impact(
     start : Foundation, optional
         The foundation before the impact, at the depth where the body starts; by default undeformed at first
         contact. Its moves are repeated on the grids of the solver.
+    structure : Structure, optional
+        The plate, rod or support that carries the medium, also a viscous one; by default the body behind the
+        surface is at rest.
     n : int, optional
         A fixed number of elements, whose error is not estimated; by default it is refined.
     tolerance : float, optional
@@ -81,6 +86,12 @@ def chain_impact(
     0.29844
     """
     check_pair(profile, medium, "an impact on the chain")
+    structure = structure_of(structure)
+    if structure.shape:
+        raise ValueError(
+            "an impact on the chain needs a single structure, but its parameters are arrays of shape "
+            f"{structure.shape}; take one at a time, as in structure.entries(i)"
+        )
     refuse_adhesion(medium, "an impact on the chain")
     mass = _check.positive_number("mass", mass, unit="kg")
     speed = _check.positive_number("speed", speed, unit="m/s")
@@ -94,7 +105,7 @@ def chain_impact(
 
     def solve(elements, depth, steps):
         row = row_before(profile, medium, history, count or elements, depth)
-        return ImpactSolver(row, mass, speed, steps, bound).solved()
+        return ImpactSolver(row, mass, speed, steps, bound, structure, depth).solved()
 
     # A first run determines the largest depth, at whose radius the next one has an edge.
     runs = [solve(_ELEMENTS, bound, _STEPS / 2)]
@@ -113,10 +124,12 @@ def chain_impact(
     error = max(errors["restitution"], errors["max_depth"])
     # Close to zero, the limit may be negative within its error.
     restitution = quantities["restitution"] = max(0.0, quantities["restitution"])
+    if runs[-1].endless:
+        quantities["contact_time"], errors["contact_time"] = np.inf, 0.0
     errors["restitution"] = errors["restitution"] / restitution if restitution > 0 else np.inf
     errors = ChainErrors(**{name: errors[name] for name in ChainErrors._fields})
     return ChainImpact(
-        profile, medium, mass, speed, **quantities, error=error, errors=errors,
+        profile, medium, mass, speed, structure, **quantities, error=error, errors=errors,
         foundation=foundation_of(runs[-1].row), _motion=runs[-1].motion,
     )  # fmt: skip
 
@@ -156,6 +169,8 @@ class ChainImpact(ImpactResult):
     medium: Medium
     mass: float
     speed: float
+    #: What carries the medium; rigid, where none is given.
+    structure: Structure
     #: Coefficient of restitution, rebound speed over impact speed.
     restitution: float
     #: Largest indentation depth d_max (m), largest force (N), time (s) from first contact to its end.
@@ -167,6 +182,8 @@ class ChainImpact(ImpactResult):
     #: Energies (J) dissipated by yielding, and by the dashpots including the final relaxation.
     plastic_work: float
     viscous_work: float
+    #: Energy (J) that waves of the structure carry away.
+    structure_work: float
     #: Estimated error that the tolerance bounds: the larger one of rebound speed (over `speed`) and depth.
     error: float
     errors: ChainErrors
@@ -179,7 +196,18 @@ class ChainImpact(ImpactResult):
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
         """Limits of the model's assumptions for this impact."""
-        return above("show.limits").contact_limits(self.profile, self.medium, self.contact_radius)
+        return above("show.limits").chain_limits(self)
+
+    @property
+    def captured(self) -> bool:
+        """Whether the body never leaves, because a plate damps it to rest in the contact."""
+        return bool(np.isinf(self.contact_time))
+
+    @property
+    def max_deflection(self) -> float:
+        """Largest deflection (m) of the structure under the contact; at its end on a plate, where it stays."""
+        momentum = self.mass * self.speed * (1 + self.restitution)
+        return momentum / self.structure.impedance + self.max_force / self.structure.stiffness
 
     def motion(self, n: int | None = None) -> Motion:
         """The `Motion` of the finest run at every step, or interpolated at n equally spaced instants.

@@ -10,14 +10,7 @@ from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..numerics.gauss import gauss_integrals
-from .equation_of_motion import (
-    Bodies,
-    Loading,
-    LoadingOnStructure,
-    MotionState,
-    Unloading,
-    UnloadingOnStructure,
-)
+from .equation_of_motion import ON_MEDIUM, ON_STRUCTURE, Bodies, MotionState
 from .motion_solver import solve
 
 #: Parts of a step in which Newton's method starts.
@@ -151,8 +144,7 @@ def dense_motion(hit):
     imprint_depth = np.asarray(hit.plastic_depth - increase)
     penetration = penetration_of(hit.turning_point, increase)
     given = hit.profile, hit.medium, hit.mass, hit.speed, imprint_depth, penetration, hit.structure
-    on_none = hit.structure.rigid
-    equations = (Loading, Unloading) if on_none else (LoadingOnStructure, UnloadingOnStructure)
+    equations = ON_MEDIUM if hit.structure.rigid else ON_STRUCTURE
     solution = solve(Bodies.of(*given), 1e-10, equations, to_rest=True)
     loading, unloading = Branch(solution.loading), Branch(solution.unloading)
     return DenseMotion(hit.turning_point, imprint_depth, increase, loading, unloading)

@@ -23,7 +23,7 @@ from ..numerics.roots import increasing_root, largest_value
 from ..structure import RIGID
 from .contact_time import contact_time
 from .result import Impact
-from .snap import check_no_snap
+from .snap import depth_before_snap
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,8 +59,8 @@ def dry_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID):
     rule, give = yield_rule(profile, medium), _give(medium, structure)
     interval, increase = turning_interval(rule, energy, imprint_depth)
     if give is not None:
-        check_no_snap(rule, imprint_depth, interval, increase, energy, give, structure)
-        interval, increase = turning_interval(rule, energy, imprint_depth, give)
+        deepest = depth_before_snap(rule, imprint_depth, interval, increase, energy, give, structure)
+        interval, increase = turning_interval(rule, energy, imprint_depth, give, deepest)
     turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
     return DryImpact(mass[()], speed[()], turning_point, increase, structure=structure)
 
@@ -96,12 +96,13 @@ def _largest_area(rule, imprint, penetration):
     return largest_value(area, np.zeros_like(start), np.ones_like(start), grids=5)
 
 
-def turning_interval(rule, target, before, give=None):
+def turning_interval(rule, target, before, give=None, deepest=np.inf):
     """Live interval at the turning point of a dry impact, and the increase Δ (m) of the plastic depth.
 
     Elementwise for kinetic energies `target` over 2E* (m³), to whose shape the imprint's depth `before` (m)
-    and the parameters of the `YieldRule` broadcast, and κ = 2E*/K (1/m) of a support, `give`. The interval
-    is infinite where the turning point is deeper than the known depth.
+    and the parameters of the `YieldRule` broadcast, and κ = 2E*/K (1/m) of a support, `give`, with a
+    penetration (m) which it does not reach, `deepest`. The interval is infinite where the turning point is
+    deeper than the known depth.
     """
     interval = None if np.any(before) or give is not None else rule.turning_interval(target)
     if interval is not None:
@@ -120,15 +121,16 @@ def turning_interval(rule, target, before, give=None):
     unit, *scales = integrals(rule.profile).unit
     rule = rule.flat_entries(slice(None), shape)
     # Apart from the results, arrays are no longer than a block.
-    _, arrays = broadcast_flat(target, before, *scales, 0.0 if give is None else give)
+    _, arrays = broadcast_flat(target, before, *scales, 0.0 if give is None else give, deepest)
     result = np.empty((4, target.size))
     for rows in chunks(target.size, LONG):
-        energy, imprint, length, depth, own_give = (array[rows] for array in arrays)
+        energy, imprint, length, depth, own_give, end = (array[rows] for array in arrays)
         part = rule.flat_entries(rows, (target.size,))
         part = part.in_units_of(unit.flat_entries(rows, shape), length, depth)
         imprint = imprint / depth
         own_give = None if give is None else own_give * length
-        y = _penetration(part, energy / (length * depth**2), imprint, give=own_give)
+        energy = energy / (length * depth**2)
+        y = _penetration(part, energy, imprint, give=own_give, deepest=end / depth)
         interval, increase = part.loading(np.where(np.isinf(y), 0.0, y), imprint)
         upper = np.where(np.isinf(y), np.inf, interval.upper)
         result[:, rows] = depth * np.array([interval.lower, upper, interval.length, increase])
@@ -136,10 +138,11 @@ def turning_interval(rule, target, before, give=None):
     return LiveInterval(*interval), increase
 
 
-def _penetration(rule, target, before, close=1e-7, give=None):
+def _penetration(rule, target, before, close=1e-7, give=None, deepest=np.inf):
     """y = d − p₀ (m) at which the work over 2E* is `target` (m³); infinite below the known depth.
 
-    With κ (1/m) of a support, `give`, its energy κ Φ²/2 is a part of the work.
+    With κ (1/m) of a support, `give`, its energy κ Φ²/2 is a part of the work, which grows up to the
+    penetration `deepest` (m).
 
     The work grows about as a power of y: Newton's method on their logarithms. After a step of less than
     `close` the next one would be about its square: with 10⁻⁷ that is rounding.
@@ -155,7 +158,7 @@ def _penetration(rule, target, before, close=1e-7, give=None):
         bend = give[rows] * force
         return taken + bend * force / 2, force + bend * part.loading_width(interval, increase)
 
-    highest = np.broadcast_to(rule.profile.known_depth - before, target.shape)
+    highest = np.minimum(np.broadcast_to(rule.profile.known_depth - before, target.shape), deepest)
     y = np.minimum(_first_guess(rule, target, before), highest)
     rows = np.arange(y.size)
     for _ in range(12):

@@ -33,6 +33,7 @@ import numpy as np
 
 from ..contact.integrals import integrals, tabulated
 from ..contact.live_interval import LiveInterval
+from ..contact.quadrature import growth_at, radius_rate
 from ..contact.rule_of_yield import YieldRule
 from ..contact.yielding import yield_rule
 from ..numerics.results import Entries
@@ -159,7 +160,7 @@ class Loading(Equation):
         if yields.any():
             c = profile.radius_at(interval.lower)
             slope = np.where(yields, radius - c * rule.rate(interval.upper), radius)
-        return slope + self.bodies.relaxation_time * velocity * spread(profile, radius)
+        return slope + self.bodies.relaxation_time * velocity * growth_at(profile, radius)
 
 
 @dataclass(frozen=True)
@@ -185,14 +186,6 @@ class Unloading(Equation):
     def stiffness(self, depth, load, radius, velocity):
         """−μ ∂v̇/∂ℓ (m)."""
         return radius
-
-
-def spread(profile, radius):
-    """da/dd at contact radii (m)."""
-    with np.errstate(divide="ignore"):
-        rate = 1 / profile.reduced_slope_at(radius)
-    # At a wall the contact no longer grows.
-    return np.where(radius < profile.wall, rate, 0.0)
 
 
 class OnStructure:
@@ -235,10 +228,10 @@ class LoadingOnStructure(OnStructure, Loading):
     def growth(self, depth):
         """∂ω/∂y; for Newton's method without the change of dp/ds."""
         rule, interval = self.bodies.rule, self.interval(depth)
-        growth = spread(rule.profile, rule.profile.radius_at(interval.upper))
+        growth = radius_rate(rule.profile, interval.upper)
         yields = interval.lower > self.bodies.imprint_depth
         if yields.any():
-            lower = spread(rule.profile, rule.profile.radius_at(interval.lower))
+            lower = radius_rate(rule.profile, interval.lower)
             growth = np.where(yields, growth - lower * rule.rate(interval.upper) ** 2, growth)
         return growth
 
@@ -263,4 +256,9 @@ class UnloadingOnStructure(OnStructure, Unloading):
 
     def growth(self, depth):
         """∂ω/∂ℓ."""
-        return spread(self.bodies.profile, self.bodies.profile.radius_at(self.interval(depth).upper))
+        return radius_rate(self.bodies.profile, self.interval(depth).upper)
+
+
+#: Equations of loading and of unloading.
+ON_MEDIUM = Loading, Unloading
+ON_STRUCTURE = LoadingOnStructure, UnloadingOnStructure

@@ -15,7 +15,7 @@ from ..contact.quadrature import kink_above
 from ..numerics.results import Entries
 from ..numerics.stable import cube_way
 from .collocation_steps import DepthCoordinate, DepthSteps, VelocitySteps
-from .equation_of_motion import Loading, MotionState, Unloading
+from .equation_of_motion import ON_MEDIUM, Loading, MotionState, Unloading
 
 #: Tries of steps of one leg, after which it is given up. Legs of impacts with τ from 10⁻⁴ to 10⁴ contact
 #: times take 17 at most; under profiles r^0.02 to r^20, with τ from 10⁻⁶ to 10⁸ and the tolerance of a
@@ -95,7 +95,7 @@ class Unsolved(ValueError):
         self.rows = rows
 
 
-def solve(bodies, tolerance=1e-5, equations=(Loading, Unloading), to_rest=False):
+def solve(bodies, tolerance=1e-5, equations=ON_MEDIUM, to_rest=False):
     """The `Solution` of impacts by their equations of loading and of unloading.
 
     `tolerance` is the relative error of a step between its nodes; at its end the error is far smaller.
@@ -146,8 +146,7 @@ def _unload(bodies, turning_state, tolerance, equation_of, to_rest):
     # The depth of a turning point may be infinite.
     last = np.where(last > 0, last * state.depth, zero)
     below = interval.lower - kink_above(profile, interval.lower)
-    for kink in [*profile.kinks[::-1], interval.lower]:
-        edge = np.maximum(kink - interval.lower, last)
+    for edge in [*(np.maximum(kink - interval.lower, last) for kink in profile.kinks[::-1]), last]:
         rows = np.flatnonzero(((edge >= 0) & (edge < state.depth) & (interval.upper < np.inf))[:, 0])
         root = np.cbrt(np.where(edge == 0, below, 0.0))
         coordinate = DepthCoordinate(edge, root)

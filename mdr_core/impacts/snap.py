@@ -16,14 +16,14 @@ _PLACES = 65
 _GRIDS = 5
 
 
-def check_no_snap(rule, imprint, interval, increase, energy, give, structure):
-    """Refuses impacts that snap on a support before they turn round.
+def depth_before_snap(rule, imprint, interval, increase, energy, give, structure):
+    """Penetrations (m) up to which the contact does not snap; impacts that reach them are refused.
 
     `interval` and `increase` (m) are those without a support, which are deeper, `energy` the kinetic energy
-    over 2E* (m³), `give` 2E*/K (1/m).
+    over 2E* (m³), `give` 2E*/K (1/m). Infinite where it does not snap.
     """
     if not rule.may_fall(interval.upper):
-        return
+        return np.inf
     shape = energy.shape
     rule = rule.flat_entries(slice(None), shape).entries((slice(None), None), (energy.size,))
     columns = (np.broadcast_to(each, shape).reshape(-1, 1) for each in (imprint, give, energy))
@@ -43,7 +43,8 @@ def check_no_snap(rule, imprint, interval, increase, energy, give, structure):
         force, stored = integrals(rule.profile).radius_and_energy(part)
         return stored + rule.plastic_integral(imprint, grown) + give * force**2 / 2
 
-    y = _first_snap(way, start, end)
+    # Just before it: at the very place the work has no slope.
+    y = (1 - 1e-9) * _first_snap(way, start, end)
     snaps = np.reshape((y < np.inf) & (taken(np.minimum(y, end)) <= energy), shape)
     if np.any(snaps):
         # The steepest fall on the way to the depth that the impact has without a support.
@@ -55,6 +56,7 @@ def check_no_snap(rule, imprint, interval, increase, energy, give, structure):
         )
         remedy = "give a stiffer support, less speed, or a hardness without f_c"
         _check.refuse("stiffness", stiffness, snaps, bound, unit="N/m", remedy=remedy)
+    return np.reshape(y, shape)
 
 
 def _first_snap(way, start, end):

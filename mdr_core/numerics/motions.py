@@ -20,6 +20,7 @@ class ImpactResult(Result):
     _dimensions = ("impact",)
 
     medium: Any
+    structure: Any
     speed: Any
     restitution: Any
     contact_time: Any
@@ -29,9 +30,12 @@ class ImpactResult(Result):
     def _shown(self):  # type: ignore[override]
         # Adhesion and dashpots exclude each other.
         adhesive = np.any(np.asarray(self.medium.work_of_adhesion) > 0)
-        loss = "adhesive_work" if adhesive else "viscous_work"
+        losses = ("adhesive_work",) if adhesive else ("viscous_work",)
+        if not self.structure.rigid:
+            viscous = np.any(np.asarray(self.medium.eta) > 0)
+            losses = (*losses[: int(viscous)], "structure_work", "max_deflection")
         names = "speed", "restitution", "max_depth", "max_force", "contact_time"
-        return *names, "stored_energy", "plastic_work", loss
+        return *names, "stored_energy", "plastic_work", *losses
 
     @property
     def rebound_speed(self) -> Array:

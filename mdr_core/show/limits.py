@@ -8,6 +8,7 @@ from ..numerics.results import Limit
 from ..profiles.power import Cone
 from ..profiles.sampled import Sampled, bent_vertices
 from .quantities import engineering
+from .structure_limits import structure_limits
 
 #: Slope up to which results are good, above which they are estimates, and above which the slope is
 #: probably a mistake.
@@ -266,7 +267,13 @@ def path_limits(path):
 def impact_limits(hit):
     """Limits of an `Impact`, that of the fast limit (23), (24) included."""
     limits = contact_limits(hit.profile, hit.medium, hit.contact_radius)
-    return (*limits, *how_fast(hit))
+    return (*limits, *structure_limits(hit), *how_fast(hit))
+
+
+def chain_limits(hit):
+    """Limits of a `ChainImpact`."""
+    limits = contact_limits(hit.profile, hit.medium, hit.contact_radius)
+    return (*limits, *structure_limits(hit))
 
 
 def how_fast(hit):

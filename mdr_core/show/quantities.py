@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _check
+from ..structure import Structure
 from .units import KINDS, Unit, fitting, with_unit
 
 
@@ -46,6 +47,11 @@ QUANTITIES = {
         ("viscous_work", "W_v", "J", "viscous work"),
         ("surface_energy", "U_s", "J", "surface energy"),
         ("adhesive_work", "W_a", "J", "work of adhesion of an impact"),
+        ("structure_work", "W_s", "J", "work of the waves of a structure"),
+        ("support_energy", "U_s", "J", "energy of a support"),
+        ("deflection", "w", "m", "deflection of the structure"),
+        ("max_deflection", "w_max", "m", "largest deflection of the structure"),
+        ("body_velocity", "V", "m/s", "velocity of the body"),
         ("pull_off_force", "F_a", "N", "pull-off force"),
         ("mass", "m", "kg", "mass"),
         ("speed", "v₀", "m/s", "impact speed"),
@@ -71,6 +77,11 @@ QUANTITIES = {
         ("contact_area_error", "ΔA/A", "", "relative error of the contact area"),
         ("restitution_error", "Δe/e", "", "relative error of the restitution"),
         # Parameters of media and shapes.
+        ("impedance", "Z", "N·s/m", "impedance"),
+        ("edge", "x_e", "m", "distance to the edge"),
+        ("thickness", "h", "m", "thickness"),
+        ("wave_spread", "√(D/ρh)", "m²/s", "spread of bending waves"),
+        ("shear_speed", "c_s", "m/s", "speed of shear waves"),
         ("E_star", "E*", "Pa", "effective modulus"),
         ("q_c", "q_c", "N/m", "yield constant"),
         ("hardness", "H", "Pa", "constant hardness"),
@@ -134,11 +145,16 @@ def at_default(field, value):
     return value == field.default
 
 
+#: Parameters of structures that are quantities of contacts under the same name.
+_OF_STRUCTURE = {"stiffness": Quantity("K", "N/m", "stiffness of the support")}
+
+
 def described(thing):
-    """One line on a profile or a medium: its name, and its parameters that are not at their defaults."""
+    """One line on a profile, a medium or a structure: its name, and its parameters but for defaults."""
     parts = [type(thing).__name__]
+    own = _OF_STRUCTURE if isinstance(thing, Structure) else {}
     for name, field in thing.__dataclass_fields__.items():
-        known, value = QUANTITIES.get(name), getattr(thing, name)
+        known, value = own.get(name, QUANTITIES.get(name)), getattr(thing, name)
         if np.ndim(value) == 0 and at_default(field, value):
             continue
         if value is None:

@@ -76,10 +76,17 @@ def dimensions(result):
 def _parameters(result):
     """Array-valued parameters of profile and medium, by name."""
     source, parameters = Presentation(result).source, {}
-    for owner in (source.profile, source.medium) if source else ():
+    for owner in owners(source) if source else ():
         values = {name: getattr(owner, name) for name in owner.__dataclass_fields__}
         parameters |= {name: value for name, value in values.items() if isinstance(value, np.ndarray)}
     return parameters
+
+
+def owners(source):
+    """What has parameters: profile and medium, and the structure of an impact that has one."""
+    structure = getattr(source, "structure", None)
+    given = () if structure is None or structure.rigid else (structure,)
+    return source.profile, source.medium, *given
 
 
 def attributes(result):
@@ -88,7 +95,7 @@ def attributes(result):
     source, texts = about.source, {"result": about.name}
     if source:
         texts |= {"model": str(source.model), "indenter": described(source.profile)}
-        texts["medium"] = described(source.medium)
+        texts |= dict(zip(("medium", "structure"), map(described, owners(source)[1:]), strict=False))
     exceeded = [limit.sentence for limit in about.limits if limit.exceeded]
     return texts | ({"limits": " ".join(exceeded)} if exceeded else {})
 
@@ -106,8 +113,8 @@ def rows(result):
     """Pairs of a label and a text, one for each line of the `repr`."""
     about, many = Presentation(result), np.prod(result.shape) > _MANY
     if source := about.source:
-        yield "indenter", described(source.profile)
-        yield "medium", described(source.medium)
+        names = "indenter", "medium", "structure"
+        yield from zip(names, map(described, owners(source)), strict=False)
     for name in about.shown:
         quantity, label = QUANTITIES[name], name.replace("_", " ")
         # Quantities of a large ensemble are shown if they are there already.
