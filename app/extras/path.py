@@ -200,7 +200,7 @@ class Path(Drive):
         time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
         return numbers if _in_time(state) else numbers | {"path.ramp_time": time}
 
-    def converted(self, state, choice):
+    def converted(self, state, choice, wanted):
         return equivalent(state, "path") if choice == "path.pattern" else {}
 
 
