@@ -165,7 +165,8 @@ def _penetration(rule, target, before, close=1e-7, give=None, deepest=np.inf):
         value, slope = work(y[rows], rows)
         # Far from the root powers leave double precision.
         with np.errstate(all="ignore"):
-            step = np.log(target[rows] / value) * value / (slope * y[rows])
+            # Where the force has nearly no slope, as past the onset on a soft support, a step is no guess.
+            step = np.clip(np.log(target[rows] / value) * value / (slope * y[rows]), -60.0, 60.0)
             new = np.minimum(y[rows] * np.exp(step), highest[rows])
         # At the known depth the work is still less than the energy.
         y[rows] = np.where((y[rows] == highest[rows]) & (step > 1e-13), np.inf, new)
