@@ -104,6 +104,7 @@ def _motion(states, time):
     return mdr.Motion(
         time, states.depth, rate, states.force, states.contact_radius, states.plastic_radius,
         live.lower, live.length, none, states.stored_energy, states.plastic_work, viscous,
+        deflection=none, body_velocity=rate, structure_work=none, support_energy=none,
     )  # fmt: skip
 
 
