@@ -35,7 +35,7 @@ class Drive(ABC):
         """Drive of a scene, from the state of the page."""
 
     def given(self, state: State) -> dict[str, Any]:
-        """Arguments of the core's function for this drive, beside shape and medium; of a sweep with arrays."""
+        """Arguments of the core's function for this drive; arrays where the state of a sweep has them."""
         return {}
 
     def follow(self, scene: mdr.Scene, progress: float) -> Course:

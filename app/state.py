@@ -167,7 +167,7 @@ include_presets(_DATA)
 
 
 def preset_values(key: str) -> dict[str, Any]:
-    """All that a preset sets: its values, and choices in the form of its drive, the others at their defaults."""
+    """All that a preset sets: its values, and the other choices in the form of its drive."""
     values = PRESETS[key].values
     form = CHOICES["drive"].options[values["drive"]].form
     return {name: OF_EXTRAS[name] for name in form} | values

@@ -48,6 +48,8 @@ _LIMITS = {
     "max_depth": "fast_limit.max_depth",
     "restitution": "fast_limit.restitution",
 }
+#: Of a ratio, as the restitution, what is nothing beside its largest value.
+_NOTHING = 1e-3
 #: Shapes with closed forms.
 _SHAPES = ("cone", "paraboloid", "power_law")
 
@@ -214,7 +216,7 @@ def found(course, sweep: Sweep):
 
 
 def _axes(sweep, values, present):
-    """Both logarithmic, to show powers, or linear; a ratio that is 0 somewhere has a linear one."""
+    """Both logarithmic, to show powers, or linear; a ratio that is nearly 0 somewhere has a linear one."""
     quantity, result = known(sweep.swept), RESULTS[sweep.against]
     x = axis(lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, sweep.high)
     log = sweep.logarithmic and sweep.low > 0
@@ -223,7 +225,7 @@ def _axes(sweep, values, present):
     sizes = sizes[np.isfinite(sizes)]
     title = CHOICES["sweep.against"].options[sweep.against].label
     y = axis(title, KINDS[result.unit], max(sizes, default=1.0))
-    if not (log and (sizes > 0).any() and (result.unit or (sizes > 0).all())):
+    if not (log and (sizes > 0).any() and (result.unit or (sizes > _NOTHING * max(sizes)).all())):
         return x, y
     # At most six decades, between powers of ten.
     least, most = max(min(sizes[sizes > 0]), 1e-6 * max(sizes)), max(sizes)

@@ -2,9 +2,9 @@
 Restitution on a plate
 ======================
 
-Steel balls of 10 mm hit carbon-fibre plates of 1 to 32 mm at 0.1 to 10 m/s. Bending waves carry energy away.
-Without yield the restitution depends on one number, λ = m^(3/5) (k² v)^(1/5)/Z with k = 4/3 E* √R: all plates
-are on Zener's curve (1941), of s″ + (1 + λ d/dτ) s^(3/2) = 0. With yield, of a hardness of 0.5 GPa, they part.
+Steel balls of 10 mm hit carbon-fibre plates of 1 to 32 mm at 0.1 to 10 m/s. Bending waves carry energy
+away. Without yield the restitution depends on λ = m^(3/5) (k² v)^(1/5)/Z alone, with k = 4/3 E* √R: all
+plates are on Zener's curve (1941), of s″ + (1 + λ d/dτ) s^(3/2) = 0. With yield they part.
 """
 
 import matplotlib.pyplot as plt
