@@ -3,6 +3,7 @@
 from dataclasses import dataclass, fields, replace
 from math import exp, inf, log
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -13,9 +14,11 @@ from mdr_core.show.units import written
 from ..courses import Course
 from ..drives import DRIVES, Impact, follow
 from ..extra import Extra
-from ..plot import View
+from ..parts import Part, button
+from ..plot import Plot, View
+from ..plots import PLOTS
 from ..quantities import QUANTITIES
-from ..state import State, medium, preset_values, profile
+from ..state import State, medium, preset_values, profile, used_by
 from ..ui import marked
 
 #: What is said of a body that never leaves.
@@ -161,4 +164,13 @@ def _far(course: StructureCourse) -> float:
     return float(np.sqrt(limit.value / limit.bound))
 
 
-EXTRA = Extra("structure", drives={"impact": OnStructure()}, notes=notes)
+def e_over_h(page: Any, plot: Plot, view: View) -> Part | None:
+    """The button above the force that shows the restitution over the thickness of the plate."""
+    thickness = "structure.thickness"
+    if plot.name != "force" or "sweep" not in PLOTS or thickness not in used_by(view.state, "drive"):
+        return None
+    shown = {"tiles": ("sweep",), "sweep.swept": thickness, "sweep.against": "restitution"}
+    return button("e over h", lambda: page.apply(lambda state: state.replace(**shown)))
+
+
+EXTRA = Extra("structure", drives={"impact": OnStructure()}, notes=notes, on_plots=e_over_h)

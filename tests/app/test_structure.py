@@ -14,7 +14,7 @@ from app.state import PRESETS, altered, medium, preset_state, profile
 
 from ..approx import approx
 from .conftest import DROP, GOLD, PUNCH
-from .states import linked_state, numbers, state_with, view_of
+from .states import linked_state, numbers, press, state_with, view_of
 
 PLATE, SUPPORT = "small_ball-carbon_epoxy", "striker-glass_epoxy-plate"
 
@@ -159,8 +159,9 @@ def test_a_body_that_stays_is_not_held_by_adhesion():
 
 
 def test_the_sweep_over_the_thickness_goes_from_a_ball_that_stays_to_a_half_space():
-    values = {"sweep.swept": "structure.thickness", "sweep.against": "restitution"}
-    state = preset_state(PLATE).replace(**values)
+    page = Page(f"preset={PLATE}")
+    press(page, "e over h")
+    state = page.state
     asked = sweep.asked(state)
     found = sweep.found(follow(state), asked)
     thickness, restitution = found.rows["this scene"]
