@@ -8,8 +8,8 @@ A plate without edges, and the end of a long rod, carry waves away that do not c
     dw/dt = F/Z        energy carried away ∫F²/Z dt
 
 with the impedance Z (N·s/m). A thin plate of bending stiffness D (N·m) and mass ρh per area (kg/m²) has
-Z = 8√(D ρh) (Boussinesq; Zener 1941), a rod of cross-section A has Z = A√(Eρ). A support whose mass does not
-matter has a stiffness K (N/m): w = F/K.
+Z = 8√(D ρh) (Boussinesq; Zener 1941), a rod of cross-section A has Z = A√(Eρ). A support whose mass does
+not matter has a stiffness K (N/m): w = F/K.
 """
 
 from dataclasses import KW_ONLY, dataclass
@@ -28,8 +28,8 @@ class Structure(_check.Parameters):
 
     Give one of the two. In series they are not a plate on its support: under a constant force an endless
     plate would go on for ever. Take the plate for a light and fast body, whose contact is over before the
-    waves are back from the edges, and the support for a body at least as heavy as the plate. Between a tenth
-    of the mass of the plate and all of it neither model holds.
+    waves are back from the edges, and the support for a body at least as heavy as the plate. Between a
+    tenth of the mass of the plate and all of it neither model holds.
 
     Parameters
     ----------
@@ -49,14 +49,15 @@ class Structure(_check.Parameters):
     shear_speed : float, optional
         Speed (m/s) of shear waves in the plate.
 
-    The last four change no number of an impact. `hit.limits` compares with them what the model neglects: the
-    edges, and the thickness. None means that a value is not known. Parameters may be arrays that broadcast.
+    The last four change no number of an impact. `hit.limits` compares with them what the model neglects:
+    the edges, and the thickness. None means that a value is not known. Parameters may be arrays that
+    broadcast.
 
     Raises
     ------
     ValueError
-        If a parameter is not a positive number, both `impedance` and `stiffness` are finite, or arrays do not
-        broadcast.
+        If a parameter is not a positive number, both `impedance` and `stiffness` are finite, or arrays do
+        not broadcast.
 
     Examples
     --------
@@ -93,8 +94,8 @@ class Structure(_check.Parameters):
             "an endless plate goes on for ever under a constant force"
         )
         remedy = (
-            "take the impedance for a light and fast body, whose contact is over before waves are back from "
-            "the edges, or the stiffness for a body at least as heavy as the plate"
+            "take the impedance for a light and fast body, whose contact is over before waves are back "
+            "from the edges, or the stiffness for a body at least as heavy as the plate"
         )
         _check.refuse("stiffness", stiffness, both, bound, unit="N/m", remedy=remedy)
 
@@ -167,7 +168,8 @@ class Structure(_check.Parameters):
 
         where K is the complete elliptic integral of a parameter. 1/√D is the mean over all directions θ of
         1/√D(θ), D(θ) = D₁₁ cos⁴θ + 2 (D₁₂ + 2 D₆₆) cos²θ sin²θ + D₂₂ sin⁴θ. D₁₆ and D₂₆, which couple
-        bending with twist, are left out: they are 0 in cross-ply laminates and small where layers alternate.
+        bending with twist, are left out: they are 0 in cross-ply laminates and small where layers
+        alternate.
 
         Parameters
         ----------
@@ -193,7 +195,9 @@ class Structure(_check.Parameters):
         root = np.sqrt(D11) * np.sqrt(D22)
         bound = "is not below √(D11 D22): no laminate has such stiffnesses"
         D12 = np.broadcast_to(D12, shape)
-        _check.refuse("bending stiffness D12", D12, np.abs(D12) >= root, bound, unit="N·m", remedy="check it")
+        _check.refuse(
+            "bending stiffness D12", D12, np.abs(D12) >= root, bound, unit="N·m", remedy="check it"
+        )
         mean = np.sqrt(root) * (np.pi / 2) / scipy.special.ellipk((1 - (D12 + 2 * D66) / root) / 2)
         return cls(
             8 * np.sqrt(mass) * mean,

@@ -115,8 +115,8 @@ def impacts(
     plastic_depth : float or DataArray
         Plastic depth (m) of the imprint before the impact.
     impedance, stiffness : float or DataArray
-        Impedance (N·s/m) of the plate or rod, or stiffness (N/m) of the support, that carries the medium, as
-        in `Structure`; infinite, the default, is rigid.
+        Impedance (N·s/m) of the plate or rod, or stiffness (N/m) of the support, that carries the medium,
+        as in `Structure`; infinite, the default, is rigid.
     quantities : sequence of str
         Names of quantities of `Impact`: "restitution", "max_depth", "damaged_area", "contact_time", …
     invalid : {"raise", "nan"}
@@ -303,7 +303,9 @@ def _in_blocks(solve, shape, values, own, names, refused):
     return tuple(results) if len(names) > 1 else results[0]
 
 
-def _hit(profile, E_star, eta, work_of_adhesion, mass, speed, plastic_depth, impedance, stiffness, **hardness):
+def _hit(
+    profile, E_star, eta, work_of_adhesion, mass, speed, plastic_depth, impedance, stiffness, **hardness
+):
     medium = Medium(E_star, eta=eta, work_of_adhesion=work_of_adhesion, **hardness)
     structure = Structure(impedance, stiffness)
     return impact(profile, medium, mass, speed, plastic_depth=plastic_depth, structure=structure)

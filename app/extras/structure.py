@@ -123,18 +123,16 @@ def structure_of(state: State) -> mdr.Structure | None:
             f"a {behind} is not computed together with {losses}: choose “thick block” as the structure, "
             f"or no {losses} (More about the medium)"
         )
-    own = {name.removeprefix("structure."): state[name] for name in QUANTITIES if name in _NUMBERS}
+    own = {name.removeprefix("structure."): state[name] for name in used_by(state, "structure.behind")}
     if behind == "support":
-        return mdr.Structure(stiffness=own["stiffness"])
-    edge = own["edge"] or None
+        return mdr.Structure(**own)
+    # 0 is an edge that is not known.
+    edge = own.pop("edge") or None
     if state["structure.plate"] == "bending":
         D = own["D"]
-        # An isotropic plate, of any Poisson ratio, by its bending stiffness.
+        # An isotropic plate by its bending stiffness: its Poisson ratio, here 0, does not matter.
         return mdr.Structure.laminate(D, 0.0, D, D / 2, own["mass_per_area"], edge=edge)
-    return mdr.Structure.plate(own["thickness"], own["E"], own["nu"], own["density"], edge=edge)
-
-
-_NUMBERS = {name for name in QUANTITIES if name.startswith("structure.")}
+    return mdr.Structure.plate(**own, edge=edge)
 
 
 def notes(view: View) -> dict[str, str]:

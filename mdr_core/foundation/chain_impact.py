@@ -55,8 +55,8 @@ def chain_impact(
         The foundation before the impact, at the depth where the body starts; by default undeformed at first
         contact. Its moves are repeated on the grids of the solver.
     structure : Structure, optional
-        The plate, rod or support that carries the medium, also a viscous one; by default the body behind the
-        surface is at rest.
+        The plate, rod or support that carries the medium, also a viscous one; by default the body behind
+        the surface is at rest.
     n : int, optional
         A fixed number of elements, whose error is not estimated; by default it is refined.
     tolerance : float, optional
@@ -205,7 +205,7 @@ class ChainImpact(ImpactResult):
 
     @property
     def max_deflection(self) -> float:
-        """Largest deflection (m) of the structure under the contact; at its end on a plate, where it stays."""
+        """Largest deflection (m) of the structure under the contact; on a plate it stays."""
         momentum = self.mass * self.speed * (1 + self.restitution)
         return momentum / self.structure.impedance + self.max_force / self.structure.stiffness
 

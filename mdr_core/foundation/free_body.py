@@ -5,8 +5,8 @@
    method. The kinetic energy changes by the work of this force: energy is conserved for every step size.
    On a structure ḋ is V less the mean rate of the deflection, which changes by J/Z + (F₁ − F₀)/K along the
    step, with the forces F₀ and F₁ at its ends. The waves take J²/Z over the duration of the step.
-2. One step ends at the turning point ḋ = 0, because the elements remember the largest depth, and one where yield
-   begins, because the force has a kink there.
+2. One step ends at the turning point ḋ = 0, because the elements remember the largest depth, and one where
+   yield begins, because the force has a kink there.
 3. Steps are equal in ln(T₀ + t), with the time t since first contact, then since the turning point.
 """
 

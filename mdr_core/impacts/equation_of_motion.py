@@ -18,13 +18,16 @@ a − c dp/ds while the plastic depth grows, τ_w = m/Z, κ = 2E*/K and S = 1 + 
 
     q̇ = v/S        μ v̇ = −(Φ + τ_w ω q̇)        ẇ = τ_w Φ²/μ
 
-and 2E* w is the energy that the waves carry away. On a plate S is 1: while nothing yields its loading is the
-viscous one with τ_w in the place of τ.
+and 2E* w is the energy that the waves carry away. On a plate S is 1: while nothing yields its loading is
+the viscous one with τ_w in the place of τ.
 
-A body never leaves a plate where τ_w² c ≥ 4μ with the radius c of the contact at ℓ → 0. With p = −v and the
-barrier p_b = 2Φ/(τ_w a), on unloading dp/dΦ = (Φ/p − τ_w a)/(μ a), which at p_b is −τ_w/(2μ), and p_b grows by
-2/(τ_w a) or less: p stays below p_b where τ_w² a ≥ 4μ, and a falls to c. So p goes to 0 with Φ. Below it the
-end is a focus, which the body leaves.
+A body never leaves a plate where τ_w² c ≥ 4μ with the radius c of the contact at ℓ → 0. Let p = −v on
+unloading. Its barrier p_b = 2Φ/(τ_w a) falls with ℓ by 2/τ_w or less. At the barrier p falls by
+
+    dp/dℓ = (τ_w a − Φ/p)/μ = τ_w a/(2μ)
+
+which is more where τ_w² a ≥ 4μ, and a falls to c: p stays below its barrier, and goes to 0 with Φ. Where
+τ_w² c < 4μ the end is a focus, which the body leaves.
 """
 
 from dataclasses import dataclass, fields, replace
@@ -64,9 +67,9 @@ class MotionState(Entries):
 class Bodies:
     """Impacts to solve, one a row of each array of shape (N, 1).
 
-    Rule of yield for one indenter or N, relaxation time τ (s), that of the medium or τ_w of a plate, inertia
-    μ (m s²), speed v₀ (m/s), plastic depth p₀ (m) of the imprint, penetration y (m) of the same impact
-    without viscosity and plate, and κ (1/m) of a support.
+    Rule of yield for one indenter or N, relaxation time τ (s), that of the medium or τ_w of a plate,
+    inertia μ (m s²), speed v₀ (m/s), plastic depth p₀ (m) of the imprint, penetration y (m) of the same
+    impact without viscosity and plate, and κ (1/m) of a support.
     """
 
     rule: YieldRule
@@ -192,7 +195,7 @@ class OnStructure:
     """The equation of motion on a structure; a subclass has the interval of loading or of unloading."""
 
     def rates(self, load, width, velocity):
-        """Rates of q (m/s), velocity (m/s²), work of the waves over 2E* (m³/s) at loads Φ, ω, velocities."""
+        """Rates of q (m/s), velocity (m/s²), work of waves over 2E* (m³/s) at loads Φ, ω, velocities."""
         bodies = self.bodies
         rate = velocity * self.depth_share(width)
         acceleration = -(load + bodies.relaxation_time * width * rate) / bodies.inertia
@@ -208,7 +211,7 @@ class OnStructure:
 
     def stiffness(self, depth, load, width, velocity):
         """Of the slope q̇/v̇ the derivative by q, times μ v̇²/q̇ (m): −μ ∂v̇/∂q on a plate."""
-        share, growth = self.depth_share(width), self.growth(depth)
+        share, growth = self.depth_share(width), self.growth(depth, width)
         drag = self.bodies.relaxation_time * velocity * share
         return width + growth * share * (drag + self.bodies.give * (load + drag * width))
 
@@ -225,19 +228,19 @@ class LoadingOnStructure(OnStructure, Loading):
         interval, increase = rule.loading(np.maximum(depth, 0.0), self.bodies.imprint_depth)
         return integrals(rule.profile).radius_integral(interval), rule.loading_width(interval, increase)
 
-    def growth(self, depth):
+    def growth(self, depth, width):
         """∂ω/∂y; for Newton's method without the change of dp/ds."""
         rule, interval = self.bodies.rule, self.interval(depth)
-        growth = radius_rate(rule.profile, interval.upper)
         yields = interval.lower > self.bodies.imprint_depth
-        if yields.any():
-            lower = radius_rate(rule.profile, interval.lower)
-            growth = np.where(yields, growth - lower * rule.rate(interval.upper) ** 2, growth)
-        return growth
+        if not yields.any():
+            return growth_at(rule.profile, width)
+        lower = radius_rate(rule.profile, interval.lower) * rule.rate(interval.upper) ** 2
+        growth = radius_rate(rule.profile, interval.upper)
+        return np.where(yields, growth - lower, growth)
 
 
 class UnloadingOnStructure(OnStructure, Unloading):
-    """Equation of motion on a structure from the largest depth to the loss of contact, in the live depth ℓ."""
+    """Equation of motion on a structure after the turning point, in the live depth ℓ."""
 
     def oscillated(self, state, radius):
         """States at the loss of contact of bodies whose contact keeps a radius (m) on a plate.
@@ -254,9 +257,9 @@ class UnloadingOnStructure(OnStructure, Unloading):
         lost = (bodies.inertia * (body_velocity**2 - velocity**2) + radius * depth**2) / 2
         return MotionState(np.zeros_like(depth), velocity, state.time + time, state.work + lost)
 
-    def growth(self, depth):
+    def growth(self, depth, width):
         """∂ω/∂ℓ."""
-        return radius_rate(self.bodies.profile, self.interval(depth).upper)
+        return growth_at(self.bodies.profile, width)
 
 
 #: Equations of loading and of unloading.

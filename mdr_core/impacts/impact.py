@@ -48,9 +48,9 @@ def impact(
         Plastic depth (m) of a relaxed imprint of the same indenter: for repeated impacts, the
         `plastic_depth` of the previous one. 0 (the default) is a virgin medium.
     structure : Structure, optional
-        The plate, rod or support that carries the medium; by default the body behind the surface is at rest.
-        An endless plate stays displaced and at rest, so that a further impact on an imprint is a first one
-        for it.
+        The plate, rod or support that carries the medium; by default the body behind the surface is at
+        rest. An endless plate stays displaced and at rest, so that a further impact on an imprint is a
+        first one for it.
 
     Returns
     -------
@@ -61,9 +61,9 @@ def impact(
     ------
     ValueError
         If an argument is out of its range, or the indenter would go deeper than its profile is known, or if
-        a law of hardness is not valid up to the largest contact radius (`HardnessLaw`); on a structure if the
-        medium is viscous (`chain_impact` solves that) or adhesive, or if the contact snaps on a support,
-        because its force falls faster with depth than the support gives way.
+        a law of hardness is not valid up to the largest contact radius (`HardnessLaw`); on a structure if
+        the medium is viscous (`chain_impact` solves that) or adhesive, or if the contact snaps on a
+        support, because its force falls faster with depth than the support gives way.
 
     Examples
     --------

@@ -48,9 +48,9 @@ _SHORTER = 0.3
 _AGAIN = 0.85
 #: Live depth, over that at the turning point, at which a motion that never ends is cut off.
 _AT_REST = 1e-3
-#: Share of the critical damping, squared, from which the end of a motion is taken from the damped oscillator:
-#: bodies return with less than 10⁻⁴⁰ of their speed. And the live depth there, over that at the turning
-#: point, by which the contact is wider than at the end.
+#: Share of the critical damping, squared, from which the end of a motion is taken from the damped
+#: oscillator: bodies return with less than 10⁻⁴⁰ of their speed. And the live depth there, over that at the
+#: turning point, by which the contact is wider than at the end.
 _NEARLY_CRITICAL = 0.999
 _OSCILLATES = 1e-12
 #: A largest deceleration is looked for in steps that have this share of it at a node. Nodes are at most
@@ -63,8 +63,8 @@ class Solution:
     """States (N, 1) of N impacts at the turning point and at the end, and their steps.
 
     The depth of a turning point below the known depth is infinite. `loading` and `unloading` are lists of
-    pairs: the numbers of impacts, and the steps that these have taken. The motion of a body that never leaves
-    has no end: `endless`, (N, 1), says which.
+    pairs: the numbers of impacts, and the steps that these have taken. The motion of a body that never
+    leaves has no end: `endless`, (N, 1), says which.
     """
 
     turning_point: MotionState

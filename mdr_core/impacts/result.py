@@ -105,8 +105,8 @@ class Impact(Entries, ImpactResult):
     def max_deflection(self):
         """Largest deflection (m) of the structure under the contact; 0 without a structure.
 
-        On a plate m v₀ (1 + e)/Z: it is that at the end of the contact, and it stays. On a support F/K of the
-        largest force F.
+        On a plate m v₀ (1 + e)/Z: it is that at the end of the contact, and it stays. On a support F/K of
+        the largest force F.
         """
         momentum = self.mass * self.speed * (1 + self.restitution)
         return momentum / self.structure.impedance + self.max_force / self.structure.stiffness

@@ -1,8 +1,8 @@
 """Whether a contact snaps on a support: where its force falls faster with depth than the support gives way.
 
-On loading the body goes by S dd with S = 1 + F′/K. Where the force falls after the onset of yield, as with a
-hardness f_c/a², S may be 0: there the depth jumps at a fixed place of the body, and energy is lost that is in
-no term of the balance, which would close over the jump.
+On loading the body goes by S dd with S = 1 + F′/K. Where the force falls after the onset of yield, as with
+a hardness f_c/a², S may be 0: there the depth jumps at a fixed place of the body, and energy is lost that
+is in no term of the balance, which would close over the jump.
 """
 
 import numpy as np
@@ -60,7 +60,7 @@ def depth_before_snap(rule, imprint, interval, increase, energy, give, structure
 
 
 def _first_snap(way, start, end):
-    """Penetration (m) at which S falls to 0 first on the way from `start` to `end` (N, 1); ∞ if it does not."""
+    """Penetration (m) between `start` and `end` (N, 1) at which S is 0 first; infinite if nowhere."""
     rows = np.arange(len(start))
     low, high = np.zeros_like(start), np.ones_like(start)
     share = np.linspace(0, 1, _PLACES)
@@ -69,8 +69,9 @@ def _first_snap(way, start, end):
         places = low + (high - low) * share
         value = way(start + (end - start) * places**3)
         negative = value <= 0
-        first = np.where(negative.any(axis=1), negative.argmax(axis=1), value.argmin(axis=1))
         snapped = negative.any(axis=1)
-        below, above = np.maximum(first - 1, 0), np.where(snapped, first, np.minimum(first + 1, _PLACES - 1))
+        first = np.where(snapped, negative.argmax(axis=1), value.argmin(axis=1))
+        below = np.maximum(first - 1, 0)
+        above = np.where(snapped, first, np.minimum(first + 1, _PLACES - 1))
         low, high = places[rows, below, None], places[rows, above, None]
     return np.where(snapped[:, None], start + (end - start) * high**3, np.inf)

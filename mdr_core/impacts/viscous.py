@@ -18,10 +18,12 @@ from .equation_of_motion import ON_MEDIUM, ON_STRUCTURE, Bodies
 from .motion_solver import Unsolved, solve
 from .result import Impact
 
-
 #: Errors of steps. On a plate a depth may have a small share in the work: ten thousand critical depths deep
 #: the ledger has an error of 5·10⁻¹⁰ with the first of them, and of 3·10⁻¹² with the second.
 _TOLERANCE = {ON_MEDIUM: 1e-5, ON_STRUCTURE: 1e-7}
+#: Impacts that are solved at once. On a plate they take steps of more kinds, so that fewer are left in
+#: each: 1000 elastic impacts of a paraboloid are 1.3 times as fast as by 256.
+_TOGETHER = {ON_MEDIUM: 256, ON_STRUCTURE: 1024}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -68,7 +70,7 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID,
     columns = motions.reshape(4, -1)
     for chosen, equations in (moving & ~on_structure, ON_MEDIUM), (moving & on_structure, ON_STRUCTURE):
         numbers = np.flatnonzero(chosen)
-        for block in chunks(numbers.size, 256):
+        for block in chunks(numbers.size, _TOGETHER[equations]):
             rows = numbers[block]
             try:
                 penetrations[rows], columns[:, rows] = _solved(bodies[rows], equations)
@@ -118,7 +120,7 @@ def _refuse_unsolved(error, rows, speed, profile, depth):
 
 
 def _solved(bodies, equations):
-    """Penetrations (m); restitution, contact time, work over 2E*, largest deceleration without a structure."""
+    """Penetrations (m); restitution, contact time, work over 2E*, largest deceleration on no structure."""
     solution = solve(bodies, _TOLERANCE[equations], equations)
     end, endless = solution.end, solution.endless
     restitution = np.where(endless, 0.0, -end.velocity / bodies.speed)

@@ -46,8 +46,8 @@ class ImpactResult(Result):
     def captured(self) -> Any:
         """Whether the body does not rebound: adhesion holds it, or it never leaves a plate.
 
-        On a plate whose waves take so much energy that the velocity of the body goes to 0 with the force: then
-        e is 0, and the contact time infinite.
+        On a plate whose waves take so much energy that the velocity of the body goes to 0 with the force:
+        then e is 0, and the contact time infinite.
         """
         return np.zeros(np.shape(self.speed), bool)[()]
 

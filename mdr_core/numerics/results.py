@@ -91,8 +91,8 @@ class Limit:
         compression at the turning point (d_c of a hardness q_c/a) and "mass" over the tangential one; with
         a constant hardness "flow", the area of a contact that flows over that of the model; the length (m)
         of a "jump" of a path given by force; and on a plate "edges", the contact time over that in which
-        waves are back from the nearest edge, and "thin", the contact radius over half of the thickness, or 6
-        thicknesses over the speed of shear waves and the contact time.
+        waves are back from the nearest edge, and "thin", the contact radius over half of the thickness, or
+        6 thicknesses over the speed of shear waves and the contact time.
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool

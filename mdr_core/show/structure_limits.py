@@ -32,14 +32,14 @@ def _edge_limit(structure, hit, plate):
         return
     if endless.any():
         text = (
-            "The body never leaves a plate without edges. A plate has edges, from which the waves come back "
+            "The body never leaves a plate without edges. A plate has edges, from which waves come back "
             "and lift it: take a support, Structure(stiffness=K), for a body at least as heavy as the plate."
         )
         yield Limit("edges", np.inf, _EDGES, True, text)
         return
     if structure.wave_spread is None:
         text = (
-            "The time in which waves are back from the edge is not known, because wave_spread is not given: "
+            "The time in which waves are back from the edge is not known without wave_spread: "
             "make the plate by Structure.plate or Structure.laminate."
         )
         yield Limit("edges", np.inf, _EDGES, True, text, severe=False)

@@ -63,7 +63,7 @@ def rows(count=10**6):
 
 
 def _on_plate(shape, speeds, viscous, runs):
-    """Impacts on a plate that takes about half of the energy, beside as many viscous ones in the same run."""
+    """Impacts on a plate, beside as many viscous ones in the same run."""
     middle = mdr.impact(shape, MEDIUM, 1e-9, 0.1)
     plate = mdr.Structure(float(1e-9 / middle.contact_time))
     taken = seconds(lambda: mdr.impact(shape, MEDIUM, 1e-9, 0.1, structure=plate).restitution, runs=runs)

@@ -27,7 +27,9 @@ def covered(hit, expected):
 
 @pytest.mark.slow
 @pytest.mark.few(4)
-@pytest.mark.parametrize("structure", [PLATE, mdr.Structure(60.0), SUPPORT], ids=["plate", "thin", "support"])
+@pytest.mark.parametrize(
+    "structure", [PLATE, mdr.Structure(60.0), SUPPORT], ids=["plate", "thin", "support"]
+)
 @pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
 @pytest.mark.parametrize("profile", [mdr.Paraboloid(R), mdr.FlatPunch(3e-4), mdr.Cone(0.3)], ids=repr)
 def test_agrees_with_the_impact_that_it_knows_nothing_of(profile, medium, structure):
@@ -121,7 +123,9 @@ def viscous_on_a_support(tau, structure):
     turning.terminal, turning.direction, lost.terminal, lost.direction = True, -1, True, -1
     options = {"method": "Radau", "rtol": 1e-9, "atol": 1e-15}
     # Past the first picosecond, in which nearly all of the way is of the support.
-    first = solve_ivp(loading, [0, 1.0], [1e-9 * SPEED, SPEED, 1e-11], events=turning, first_step=1e-12, **options)
+    first = solve_ivp(
+        loading, [0, 1.0], [1e-9 * SPEED, SPEED, 1e-11], events=turning, first_step=1e-12, **options
+    )
     state = first.y[:, -1]
     last = solve_ivp(unloading, [first.t[-1], 1.0], state, events=lost, first_step=1e-9, **options)
     return {"restitution": -last.y[1, -1] / SPEED, "contact_time": last.t[-1] + 1e-9, "max_depth": state[2]}

@@ -154,7 +154,9 @@ def test_a_flat_face_on_a_plate_is_a_damped_oscillator(damping):
     assert hit.restitution == approx(np.exp(-np.pi * damping / root), abs=1e-12)
     # ζ is known to rounding, and its distance from 1 so much worse.
     assert hit.contact_time == approx(np.pi / (np.sqrt(k / MASS) * root), rel=1e-12 + 1e-15 / root**2)
-    assert hit.max_deflection == approx(MASS * SPEED * (1 + hit.restitution) / structure.impedance, rel=1e-13)
+    assert hit.max_deflection == approx(
+        MASS * SPEED * (1 + hit.restitution) / structure.impedance, rel=1e-13
+    )
     assert not hit.captured
 
 
@@ -207,7 +209,7 @@ def test_a_flat_face_on_a_support_is_two_springs(share):
 
 
 def test_a_drop_weight_on_a_simply_supported_plate():
-    """ASTM D7136: 5.5 kg, 1 m/s, 16 mm on 75 × 125 × 4.5 mm; K by Navier's series for a force in the middle."""
+    """ASTM D7136: 5.5 kg, 1 m/s, 16 mm on 75 × 125 × 4.5 mm; K by Navier's series."""
     thickness, modulus, nu, a, b = 4.5e-3, 25e9, 0.3, 0.075, 0.125
     bending = modulus * thickness**3 / 12 / (1 - nu**2)
     m, n = np.meshgrid(np.arange(1, 2001, 2), np.arange(1, 2001, 2))
@@ -328,7 +330,9 @@ class TestAForceThatFalls:
         assert hit.max_depth > self.ONSET
         support = hit.turning_point.force**2 / (2 * 1.01 * self.FALL)
         assert hit.stored_energy + hit.plastic_work + support == approx(0.5, rel=1e-12)
-        assert hit.motion(30).support_energy.max() <= hit.max_force**2 / (2 * 1.01 * self.FALL) * (1 + 1e-12)
+        assert hit.motion(30).support_energy.max() <= hit.max_force**2 / (2 * 1.01 * self.FALL) * (
+            1 + 1e-12
+        )
 
     @pytest.mark.parametrize("structure", [mdr.Structure(5.0), mdr.Structure(stiffness=100.0)])
     def test_has_its_largest_force_at_the_onset(self, structure):
@@ -349,7 +353,8 @@ class TestStructures:
         assert laminate.wave_spread == approx(plate.wave_spread, rel=1e-14)
 
     @pytest.mark.parametrize(
-        "stiffnesses", [(135, 2.7, 9, 5), (80, 2.7, 60, 5), (1, 0, 1, 1e-9), (1, -0.9, 1, 0.1), (1, 0.9, 1, 50)]
+        "stiffnesses",
+        [(135, 2.7, 9, 5), (80, 2.7, 60, 5), (1, 0, 1, 1e-9), (1, -0.9, 1, 0.1), (1, 0.9, 1, 50)],
     )
     def test_a_laminate_is_the_mean_over_directions(self, stiffnesses):
         D11, D12, D22, D66 = stiffnesses
@@ -493,9 +498,10 @@ class TestHardCases:
             structure = mdr.Structure(stiffness=float(elastic.stiffness) * 10 ** rng.uniform(-5, 5))
         try:
             hit = mdr.impact(profile, medium, mass, speed, structure=structure)
-        except ValueError as refused:
+        except ValueError:
             # Too deep for the shape, on a rigid body as well.
-            assert "presses deeper" in str(refused)
+            with pytest.raises(ValueError, match="presses deeper"):
+                mdr.impact(profile, medium, mass, speed)
             return
         energy = mass * speed**2 / 2
         if structure.is_support:
@@ -508,7 +514,11 @@ class TestHardCases:
 
 
 def test_a_scene_keeps_its_structure():
-    for structure in (None, mdr.Structure.plate(4e-3, 50e9, 0.3, 1600.0, edge=0.1), mdr.Structure(stiffness=1e7)):
+    for structure in (
+        None,
+        mdr.Structure.plate(4e-3, 50e9, 0.3, 1600.0, edge=0.1),
+        mdr.Structure(stiffness=1e7),
+    ):
         scene = mdr.Scene(BALL, YIELDING, mdr.FreeImpact(MASS, SPEED, structure=structure))
         again = mdr.Scene.from_json(scene.to_json())
         assert again == scene
