@@ -44,6 +44,8 @@ CALLS = {
     "Sampled": (mdr.Sampled, {"r": RADIUS, "z": 0.3 * RADIUS}),
     "Sampled.fit": (mdr.Sampled.fit, {"r": RADIUS, "z": 0.3 * RADIUS + 1e5 * RADIUS**2}),
     "Sphere": (mdr.Sphere, {"radius": ONE}),
+    "Structure": (mdr.Structure, {"impedance": ONE, "edge": ONE, "thickness": ONE}),
+    "Structure.plate": (mdr.Structure.plate, {"thickness": ONE, "E": ONE, "nu": 0.1 * TWO, "density": ONE}),
     "TruncatedCone": (mdr.TruncatedCone, {"flat_radius": ONE, "slope": TWO}),
     "TruncatedParaboloid": (mdr.TruncatedParaboloid, {"flat_radius": ONE, "radius": ONE}),
     "at_angle": (mdr.at_angle, {"speed": ONE, "angle": TWO}),

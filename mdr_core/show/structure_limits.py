@@ -33,7 +33,7 @@ def _edge_limit(structure, hit, plate):
     if endless.any():
         text = (
             "The body never leaves a plate without edges. A plate has edges, from which waves come back "
-            "and lift it: take a support, Structure(stiffness=K), for a body at least as heavy as the plate."
+            "and lift it. Take a support, Structure(stiffness=K), for a body as heavy as the plate or more."
         )
         yield Limit("edges", np.inf, _EDGES, True, text)
         return
