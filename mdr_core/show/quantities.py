@@ -161,8 +161,8 @@ def described(thing):
             parts.append(f"no {known.long_name}")
             continue
         if isinstance(value, _check.Parameters):
-            kind, *own = described(value).split(", ")
-            parts.append(f"σ_c by {kind}({', '.join(own)})")
+            kind, *given = described(value).split(", ")
+            parts.append(f"σ_c by {kind}({', '.join(given)})")
             continue
         try:
             text = engineering(value, known.unit if known else "")
