@@ -8,7 +8,7 @@ import mdr_core as mdr
 from .drives import DRIVES, follow, turning_point
 from .plots import PLOTS
 from .quantities import CHOICES, QUANTITIES
-from .state import PRESETS, VIEW, State, checked, medium, preset_state, yield_constant
+from .state import PRESETS, VIEW, State, checked, kept_extras, medium, preset_state, yield_constant
 
 #: Constants of the hardness, by the power of the contact radius in them.
 CONSTANTS = ("volume_hardness", "q_c", "f_c")
@@ -35,14 +35,14 @@ def choose(state: State, name: str, wanted: str) -> State:
     if wanted not in known:
         raise ValueError(f"{wanted!r:.40} is not one of {', '.join(known)}")
     if name == "preset":
-        return preset_state(wanted, tiles=state.tiles, dark=state.dark, **state.extras)
+        return preset_state(wanted, tiles=state.tiles, dark=state.dark, **kept_extras(state))
     if wanted == option(state, name):
         return state
     # Another drive is shown at its largest depth, as it opens: a place after unloading has no contact.
     view = {"at": VIEW["at"]} if name == "drive" else {}
     changed = state.replace(**{name: wanted}, **view)
     convert = _CONVERT.get(name)
-    numbers = convert(state, wanted) if convert else DRIVES[state.drive].converted(state, name)
+    numbers = convert(state, wanted) if convert else DRIVES[state.drive].converted(state, name, wanted)
     for number, value in numbers.items():
         changed = put(changed, number, value)
     return changed

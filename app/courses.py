@@ -20,7 +20,10 @@ def onset_depth(scene: mdr.Scene, imprint: float = 0.0) -> float:
 
 
 #: Terms of the balance of energy.
-_ENERGIES = ("stored_energy", "plastic_work", "viscous_work", "kinetic_energy", "friction_work")
+_ENERGIES = (
+    "stored_energy", "plastic_work", "viscous_work", "kinetic_energy", "friction_work", "structure_work",
+    "support_energy",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -85,6 +88,11 @@ class Course:
         return getattr(self.scene.drive, "plastic_depth", 0.0)
 
     @property
+    def structure(self) -> mdr.Structure | None:
+        """What gives way behind the medium; None for a body at rest."""
+        return getattr(self.scene.drive, "structure", None)
+
+    @property
     def adhesive(self) -> bool:
         return self.scene.medium.work_of_adhesion > 0
 
@@ -92,6 +100,12 @@ class Course:
     def dashpots(self) -> bool:
         """Whether dashpots carry load along this path."""
         return self.motion is not None and self.scene.medium.eta > 0
+
+    @property
+    def in_place(self) -> dict[str, str]:
+        """Readouts above the plots that have the place of others."""
+        # The damaged area is known from c.
+        return {"damaged_area": "viscous_work"} if self.dashpots else {}
 
     @property
     def ledger(self) -> Any:
@@ -142,8 +156,11 @@ class Course:
 
     @property
     def yield_speed(self) -> Any:
-        """Speed (m/s) above which the body makes a virgin medium without viscosity or adhesion yield."""
-        more = self.dashpots or self.adhesive or self.initial_plastic_depth
+        """Speed (m/s) above which the body makes a virgin medium yield, without viscosity or adhesion.
+
+        None on a structure, which takes a part of the energy.
+        """
+        more = self.dashpots or self.adhesive or self.initial_plastic_depth or self.structure
         if self.hit is None or self.onset is None or more:
             return None
         return mdr.yield_speed(self.scene.profile, self.scene.medium, self.scene.drive.mass)

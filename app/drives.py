@@ -34,6 +34,10 @@ class Drive(ABC):
     def make(self, state: State) -> Any:
         """Drive of a scene, from the state of the page."""
 
+    def given(self, state: State) -> dict[str, Any]:
+        """Arguments of the core's function for this drive; arrays where the state of a sweep has them."""
+        return {}
+
     def follow(self, scene: mdr.Scene, progress: float) -> Course:
         """States of a scene, one of them at a progress; approximate where an exact solution is slow.
 
@@ -45,8 +49,8 @@ class Drive(ABC):
     def equivalent(self, state: State, turning_point: mdr.Indentation) -> dict[str, Any]:
         """Numbers of this drive that lead to the same largest depth."""
 
-    def converted(self, state: State, choice: str) -> dict[str, Any]:
-        """Numbers that keep their meaning when a choice of this drive is about to change."""
+    def converted(self, state: State, choice: str, wanted: str) -> dict[str, Any]:
+        """Numbers that keep their meaning under another option of a choice of this drive."""
         return {}
 
 
@@ -81,7 +85,10 @@ class Depth(Drive):
     """Pressed to a depth."""
 
     def make(self, state):
-        return mdr.DepthPath(state.max_depth)
+        return mdr.DepthPath(**self.given(state))
+
+    def given(self, state):
+        return {"depth": state.max_depth}
 
     def equivalent(self, state, turning_point):
         return {"max_depth": float(turning_point.depth)}
@@ -91,7 +98,10 @@ class Force(Drive):
     """Pressed to a force."""
 
     def make(self, state):
-        return mdr.ForcePath(state.max_force)
+        return mdr.ForcePath(**self.given(state))
+
+    def given(self, state):
+        return {"force": state.max_force}
 
     def equivalent(self, state, turning_point):
         return {"max_force": limited_force(turning_point)}
@@ -101,7 +111,10 @@ class Impact(Drive):
     """A free body hits along the normal."""
 
     def make(self, state):
-        return mdr.FreeImpact(state.mass, state.speed, state.plastic_depth)
+        return mdr.FreeImpact(**self.given(state))
+
+    def given(self, state):
+        return {"mass": state.mass, "speed": state.speed, "plastic_depth": state.plastic_depth}
 
     def follow(self, scene, progress):
         """Motion of the body; with adhesion states without times, as if pressed and pulled off."""

@@ -44,10 +44,12 @@ class Extra:
     """Something that plugs into the page: `EXTRA` of a file in `app/extras`, and what it brings.
 
     Its numbers, choices, drives and readouts are in a JSON file of its name beside it, with the fields of
-    `Quantity`, `Choice`, `Option` and `Readout` in `app/quantities.py`; names of numbers and choices begin
-    with its own and a point. A number is seen where a drive names it (`Option.uses`) or above a plot
-    (`Plot.controls`), a choice in the form of a drive (`Option.form`) or above a plot. These are values of
-    the state, in links and undone.
+    `Quantity`, `Choice`, `Option` and `Readout` in `app/quantities.py`; names of numbers and choices
+    begin with its own and a point. Presets, which it names as `assets/presets.json` does, may be there,
+    too. A drive of the name of one of the page takes its place, and further lists of its options are
+    added. A number is seen where a drive names it (`Option.uses`) or above a plot (`Plot.controls`), a
+    choice in the form of a drive (`Option.form`) or above a plot. These are values of the state, in links
+    and undone.
 
     What it alone needs is in a class of its own: of `Service`, what it keeps or does in a session; of
     `Drive`, numbers that keep their meaning when a choice of it changes (`converted`); of `Plot`, axes,
@@ -77,8 +79,9 @@ class Extra:
     service: Callable[[Any], Service] | None = None
     #: Files to download, each with its label, its name, and its text of a view.
     files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
-    #: Notes, texts or HTML, by their places: in the form the "first" line, "drive", "shape", "medium", the
-    #: "more" of it and "sources"; "below" the player a function that returns it, called at the next rest.
+    #: Notes, texts or HTML, by their places: in the form the "first" line, "drive", the "form" of it,
+    #: "shape", "medium", the "more" of it and "sources"; "below" the player a function that returns it,
+    #: called at the next rest.
     notes: Callable[[View], dict[str, str | Callable[[], str]]] = lambda view: {}
     #: Titles and texts, or HTML, that a saved scene has of it.
     told: Callable[[View], list[tuple[str, str]]] = lambda view: []

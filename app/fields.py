@@ -1,5 +1,6 @@
 """The form: number fields and choices, each with symbol, name, unit and explanation."""
 
+from collections.abc import Iterator
 from functools import partial
 from typing import Any
 
@@ -13,7 +14,7 @@ from .fit.tips import Tips
 from .parts import Part, Parts, button, text, upload
 from .plot import View
 from .quantities import QUANTITIES, Quantity
-from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, regions, used_by
+from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, folded, regions, used_by
 from .tip import Uploaded, in_line
 from .ui import LAYOUT, as_html, linked, marked, symbol
 from .units import entry, read
@@ -131,7 +132,7 @@ class Form:
         # An imprint that is not there has the unit of the present depth.
         depth = float(view.course.turning_point.depth)
         named = regions(state)
-        folded = named.pop("more")
+        in_fold = named.pop("more")
         numbers = {region: [page.number(name, depth) for name in names] for region, names in named.items()}
         notes = [extra.notes(view) for extra in EXTRAS.values()]
 
@@ -141,19 +142,20 @@ class Form:
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
         # What differs from the preset is not folded.
-        in_use = not {*FOLDED_CHOICES, *folded}.isdisjoint(altered(state))
+        in_use = not {*FOLDED_CHOICES, *in_fold}.isdisjoint(altered(state))
         opened = in_use or self._open["more"]
         modulus, *constant = numbers["medium"]
         # Below each choice the numbers of its option.
         more = []
         for choice in FOLDED_CHOICES if opened else ():
-            names = (name for name in used_by(state, choice) if name in folded)
+            names = (name for name in used_by(state, choice) if name in in_fold)
             more += [page.choice(choice), *(page.number(name, depth) for name in names)]
+        more += [page.number(name, depth) for name in folded(state)] if opened else []
         with_tip = self._open["tip"] or state.shape == "sampled" or self._tip_refused or self._tip_busy
         parts = [
             note("first", _FIRST),
             page.choice("drive"), *numbers["drive"], note("drive"),
-            *map(page.choice, state.chosen("drive").form), *[again] * (state.drive == "impact"),
+            *self._form(state, "drive"), note("form"), *[again] * (state.drive == "impact"),
             title("Indenter"), self._shape(state), *[self.tip()] * bool(with_tip), note("shape"),
             *numbers["shape"],
             title("Medium"), modulus, page.choice("plasticity"), *constant, *numbers["hardness"],
@@ -162,6 +164,13 @@ class Form:
             *more, *[note("more"), note("sources")] * opened,
         ]  # fmt: skip
         self.view.show(parts)
+
+    def _form(self, state: State, choice: str) -> Iterator[Part]:
+        """Choices of the chosen option, with the numbers and choices of their own options below them."""
+        for name in state.chosen(choice).form:
+            yield self._page.choice(name)
+            yield from map(self._page.number, state.chosen(name).uses)
+            yield from self._form(state, name)
 
     def _shape(self, state: State) -> Part:
         """The list of shapes, of which one asks for the file of a measured tip while there is none."""

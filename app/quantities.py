@@ -2,7 +2,7 @@
 
 import json
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -44,7 +44,8 @@ class Option:
     """An option of a choice, and the numbers of the form that it needs.
 
     Shapes have formulas of their `height` and `reduced` profile. Drives have choices of their own (`form`),
-    readouts above the plots (`line`), and words for where dashpots act (`in_time`).
+    readouts above the plots (`line`), and words for where dashpots act (`in_time`). Options of a choice in
+    a form may have choices, too, and numbers that fold (`fold`).
     """
 
     label: str
@@ -53,6 +54,7 @@ class Option:
     height: str = ""
     reduced: str = ""
     form: list[str] = field(default_factory=list)
+    fold: list[str] = field(default_factory=list)
     line: list[str] = field(default_factory=list)
     in_time: str = ""
 
@@ -107,8 +109,8 @@ def quantity(like: str = "", **own: Any) -> Quantity:
 def include(data: dict[str, Any]) -> None:
     """Add the numbers, readouts and choices of the page, or those of an extra.
 
-    Choices that are there get further options and a longer help. Readouts that the core has, too, have its
-    symbol, unit and long name.
+    Choices that are there get further options and a longer help, options that are there further numbers,
+    choices and readouts. Readouts that the core has, too, have its symbol, unit and long name.
     """
     QUANTITIES.update({each["name"]: quantity(**each) for each in data.get("numbers", ())})
     for words in data.get("readouts", ()):
@@ -116,10 +118,18 @@ def include(data: dict[str, Any]) -> None:
         READOUTS.append(Readout(**(vars(result) if result else {}) | words))
     for name, words in data.get("choices", {}).items():
         known = CHOICES.get(name, Choice())
-        added = {key: Option(**each) for key, each in words.get("options", {}).items()}
+        given = words.get("options", {}).items()
+        added = {key: _option(known.options.get(key), each) for key, each in given}
         options = sorted((known.options | added).items(), key=lambda each: each[1].order)
         help_ = f"{known.help} {words.get('help', '')}".strip()
         CHOICES[name] = Choice(known.label or words["label"], help_, dict(options))
+
+
+def _option(known: Option | None, words: dict[str, Any]) -> Option:
+    """A new option, or one that is there with longer lists."""
+    if known is None:
+        return Option(**words)
+    return replace(known, **{name: [*getattr(known, name), *more] for name, more in words.items()})
 
 
 include(_DATA)

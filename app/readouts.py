@@ -32,13 +32,9 @@ def _without_residue(values: Any, term: Any) -> Any:
 
 
 def line(course: Course) -> dict[Readout, Any]:
-    """Values of the readouts above the plots.
-
-    With dashpots the work that they lose has the place of the damaged area, which c gives, too.
-    """
-    names = CHOICES["drive"].options[course.drive].line
-    if course.dashpots:
-        names = ["viscous_work" if name == "damaged_area" else name for name in names]
+    """Values of the readouts above the plots."""
+    in_place, names = course.in_place, CHOICES["drive"].options[course.drive].line
+    names = [in_place.get(name, name) for name in names]
     return readings(course, [each for each in READOUTS if each.name in names])
 
 

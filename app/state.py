@@ -6,6 +6,8 @@ from functools import cached_property
 from math import isclose
 from typing import Any
 
+import numpy as np
+
 import mdr_core as mdr
 from mdr_core.show.units import fitting, written
 
@@ -13,9 +15,9 @@ from .quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
 from .registry import Registry
 from .units import entry, read
 
-_PRESETS = read_data(ASSETS / "presets.json")
+_DATA = read_data(ASSETS / "presets.json")
 #: The preset that the page opens with.
-OPENING = next(iter(_PRESETS["scenes"]))
+OPENING = next(iter(_DATA["scenes"]))
 #: Choices about the medium; those that fold in the form.
 MEDIUM_CHOICES = ("elasticity", "plasticity", "damping", "adhesion")
 FOLDED_CHOICES = ("elasticity", "damping", "adhesion")
@@ -111,7 +113,9 @@ class State:
     def replace(self, **changes: Any) -> "State":
         """Copy with other values."""
         own = {name: changes.pop(name) for name in list(changes) if name in OF_EXTRAS}
-        kept = {name: value for name, value in (self.extras | own).items() if value != OF_EXTRAS[name]}
+        # A sweep has arrays.
+        values = (self.extras | own).items()
+        kept = {name: value for name, value in values if np.any(value != OF_EXTRAS[name])}
         return replace(self, extras=kept, **changes)
 
     def chosen(self, choice: str) -> Option:
@@ -133,30 +137,56 @@ class Preset:
     sources: dict[str, str]
 
 
+#: By their keys, as in links; extras add theirs.
+PRESETS: dict[str, Preset] = Registry()
+#: Media and indenters of the presets, by their names.
+_PARTS: dict[str, dict[str, Any]] = {"media": {}, "indenters": {}}
+
+
+def include_presets(data: dict[str, Any]) -> None:
+    """Add the presets of the page, or those of an extra, which may have media and indenters of its own."""
+    for name, known in _PARTS.items():
+        known |= data.get(name, {})
+    for key, scene in data.get("scenes", {}).items():
+        PRESETS[key] = _preset(scene)
+        CHOICES["preset"].options[key] = Option(scene["label"])
+
+
 def _preset(scene: dict[str, Any]) -> Preset:
     """A scene with all that its medium and its indenter have, on a virgin surface."""
-    given = _PRESETS["media"][scene["medium"]] | _PRESETS["indenters"][scene["indenter"]] | scene
+    given = _PARTS["media"][scene["medium"]] | _PARTS["indenters"][scene["indenter"]] | scene
     numbers = {name: each for name, each in given.items() if name in QUANTITIES}
     values = {"elasticity": "bodies", "damping": "none", "adhesion": "none", "plastic_depth": 0.0}
-    values |= {name: given[name] for name in ("shape", "plasticity", "drive")}
+    values |= {name: each for name, each in given.items() if name in CHOICES}
     values |= {name: each["value"] for name, each in numbers.items()}
-    values["E_star"] = State(**values).E_star
+    values["E_star"] = State().replace(**values).E_star
     return Preset(scene["label"], values, {name: each["source"] for name, each in numbers.items()})
 
 
-#: By their keys, as in links.
-PRESETS = {key: _preset(scene) for key, scene in _PRESETS["scenes"].items()}
-CHOICES["preset"].options.update({key: Option(preset.label) for key, preset in PRESETS.items()})
+include_presets(_DATA)
+
+
+def preset_values(key: str) -> dict[str, Any]:
+    """All that a preset sets: its values, and the other choices in the form of its drive."""
+    values = PRESETS[key].values
+    form = CHOICES["drive"].options[values["drive"]].form
+    return {name: OF_EXTRAS[name] for name in form} | values
+
+
+def kept_extras(state: State) -> dict[str, Any]:
+    """Values of extras that no preset sets, which stay when another one is chosen."""
+    of_presets = {name for key in PRESETS for name in preset_values(key)}
+    return {name: value for name, value in state.extras.items() if name not in of_presets}
 
 
 def preset_state(key: str = OPENING, **view: Any) -> State:
     """State of a preset, with a view."""
-    return State(preset=key, **PRESETS[key].values).replace(**view)
+    return State(preset=key).replace(**preset_values(key) | view)
 
 
 def altered(state: State) -> list[str]:
     """Names of choices and numbers that differ from the preset, by more than rounding."""
-    values = PRESETS[state.preset].values
+    values = preset_values(state.preset)
     changed = [name for name in values if state[name] != values[name]]
     return [each for each in changed if each in CHOICES or not isclose(state[each], values[each])]
 
@@ -164,7 +194,19 @@ def altered(state: State) -> list[str]:
 def used_by(state: State, *choices: str) -> list[str]:
     """Names of the numbers that the chosen options of some choices use, with choices of their own."""
     chosen = map(state.chosen, choices)
-    return [name for option in chosen for name in (*option.uses, *used_by(state, *option.form))]
+    return [
+        name for option in chosen for name in (*option.uses, *option.fold, *used_by(state, *option.form))
+    ]
+
+
+def formed(state: State, choice: str = "drive") -> list[str]:
+    """Choices in the form of the chosen option of a choice, each with those of its own option."""
+    return [each for name in state.chosen(choice).form for each in (name, *formed(state, name))]
+
+
+def folded(state: State) -> list[str]:
+    """Names of the numbers of the drive that fold."""
+    return [name for choice in ("drive", *formed(state)) for name in state.chosen(choice).fold]
 
 
 def yield_constant(state: State) -> list[str]:
@@ -178,10 +220,13 @@ def regions(state: State) -> dict[str, list[str]]:
     measured = [name for name in used_by(state, "plasticity") if name not in main]
     return {
         "shape": used_by(state, "shape"),
-        "drive": used_by(state, "drive"),
+        "drive": state.chosen("drive").uses,
         "medium": main,
         "hardness": measured,
-        "more": [name for name in used_by(state, *MEDIUM_CHOICES) if name not in (*main, *measured)],
+        "more": [
+            *(name for name in used_by(state, *MEDIUM_CHOICES) if name not in (*main, *measured)),
+            *folded(state),
+        ],
     }
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from . import _check
 from ._check import Array, ArrayLike, Parameter, shown
 from .hardness import HardnessLaw, SumOfClasses
+from .transverse_isotropy import effective_modulus
 
 
 def refuse_other_classes(medium, what, instead):
@@ -14,6 +15,15 @@ def refuse_other_classes(medium, what, instead):
     if not medium.inverse_to_radius:
         law = f", not the law {shown(medium.hardness)}" if medium.has_own_law else ""
         raise ValueError(f"{what} supports only the hardness q_c/a, class (b){law}; {instead}")
+
+
+def refuse_transversely_isotropic(medium, what):
+    """Refuses a medium without a Poisson ratio for something, `what`, that needs more than E*."""
+    if medium.poisson is None:
+        raise ValueError(
+            f"{what} needs more elastic constants than E*: it is not computed for a transversely isotropic "
+            "medium (poisson = None). As an estimate take an isotropic one, Medium(E_star, poisson=0.3)"
+        )
 
 
 def critical_depth(E_star, q_c):
@@ -122,9 +132,10 @@ class Medium(_check.Parameters):
         `hardness` nor `f_c` is given, means that nothing yields.
     eta : float, optional
         Dynamic viscosity η (Pa·s), not negative; 0 (the default) means rate-independent.
-    poisson : float, optional
+    poisson : float or None, optional
         Poisson ratio ν of the half-space, −1 < ν ≤ 1/2, for the stress below the surface and for friction.
-        The dashpots are exact for 1/2.
+        The dashpots are exact for 1/2. None is a transversely isotropic half-space
+        (`from_transversely_isotropic`), for which neither is computed.
     work_of_adhesion : float, optional
         Work of adhesion w (J/m²), not negative: the energy that separates a unit area of the surfaces.
         0 (the default) means no adhesion. It excludes viscosity, and yield of another class than (b).
@@ -165,18 +176,20 @@ class Medium(_check.Parameters):
     f_c: Parameter = None
 
     def __post_init__(self):
-        poisson = _poisson("Poisson ratio poisson", self.poisson)
+        poisson = self.poisson
+        if poisson is not None:
+            poisson = _check.frozen(_poisson("Poisson ratio poisson", poisson))
         _check.store(
             self,
             E_star=_check.positive("effective modulus E_star", self.E_star, unit="Pa"),
             **_hardness_constants(self.q_c, self.hardness, self.f_c),
             eta=_check.positive("viscosity eta", self.eta, unit="Pa·s", zero=True),
-            poisson=_check.frozen(poisson) if poisson.ndim else float(poisson),
+            poisson=float(poisson) if isinstance(poisson, np.floating) else poisson,
             work_of_adhesion=_check.positive(
                 "work of adhesion work_of_adhesion", self.work_of_adhesion, unit="J/m²", zero=True
             ),
         )
-        parameters = self.__getstate__()
+        parameters = {name: value for name, value in self.__getstate__().items() if value is not None}
         if self.has_own_law:
             parameters |= {"hardness": np.empty(self.hardness.shape)}
         _check.common_shape("medium", **parameters)
@@ -296,6 +309,58 @@ class Medium(_check.Parameters):
             raise ValueError("E1 and E2 are both infinite; at least one body must be elastic")
         return cls(1 / compliance, q_c, eta, nu1, work_of_adhesion, hardness=hardness, f_c=f_c)
 
+    @classmethod
+    @_check.keywords_explained
+    def from_transversely_isotropic(
+        cls,
+        E_in_plane: ArrayLike,
+        E_axial: ArrayLike,
+        nu_in_plane: ArrayLike,
+        nu_axial: ArrayLike,
+        G_axial: ArrayLike,
+        *,
+        q_c: ArrayLike | None = None,
+        hardness: "ArrayLike | HardnessLaw | None" = None,
+        f_c: ArrayLike | None = None,
+        eta: ArrayLike = 0.0,
+        work_of_adhesion: ArrayLike = 0.0,
+    ) -> "Medium":
+        """The medium that is isotropic in the plane of its surface: a laminate, a ply, wood, a crystal.
+
+        Pressed along its axis of symmetry by a rigid indenter it is described by the exact
+        E* = 2 √((C₁₁C₃₃ − C₁₃²)/C₁₁ / (1/C₄₄ + 2/(√(C₁₁C₃₃) + C₁₃))) with its stiffnesses C (Hanson 1992;
+        Delafargue and Ulm 2004). Its `poisson` is None: the stress below the surface and friction need more
+        constants than E*, and are refused.
+
+        Parameters
+        ----------
+        E_in_plane, E_axial : float
+            Young's moduli E_p in the plane of the surface and E_z along the axis (Pa), positive.
+        nu_in_plane : float
+            Poisson ratio ν_p in the plane, −1 < ν_p < 1.
+        nu_axial : float
+            Poisson ratio ν_zp for a stress along the axis: strain in the plane over strain along the axis,
+            ε_p = −ν_zp σ_z/E_z. It is ν_pz E_z/E_p. 1 − ν_p − 2ν_zp² E_p/E_z must be positive, or 0 for an
+            incompressible medium.
+        G_axial : float
+            Shear modulus G_z (Pa) of planes that contain the axis, positive.
+        eta : float, optional
+            Dynamic viscosity η (Pa·s). All elastic constants relax with the same time τ = 4η/E*.
+        q_c, hardness, f_c, work_of_adhesion : float, optional
+            As in `Medium`.
+
+        Examples
+        --------
+        A quasi-isotropic carbon laminate, through its thickness:
+
+        >>> from mdr_core import Medium
+        >>> laminate = Medium.from_transversely_isotropic(52e9, 9e9, 0.31, 0.06, 4e9)
+        >>> print(round(laminate.E_star / 1e9, 4))
+        10.7269
+        """
+        E_star = effective_modulus(E_in_plane, E_axial, nu_in_plane, nu_axial, G_axial)
+        return cls(E_star, q_c, eta, None, work_of_adhesion, hardness=hardness, f_c=f_c)
+
     @property
     def inverse_to_radius(self) -> bool:
         """Whether the hardness is q_c/a alone, class (b) of the paper, or nothing yields."""
@@ -356,4 +421,5 @@ class Medium(_check.Parameters):
     @property
     def tangential_ratio(self) -> Array:
         """Tangential stiffness over the normal one, Mindlin's κ = 2(1 − ν)/(2 − ν): 2/3 for ν = 1/2."""
+        refuse_transversely_isotropic(self, "the tangential stiffness")
         return 2 * (1 - self.poisson) / (2 - self.poisson)

@@ -92,7 +92,7 @@ class Scene:
         return self.drive.solve(self.profile, self.medium, model)
 
     def to_json(self) -> str:
-        """The scene as JSON text with exact numbers; infinite constants and impedances are null.
+        """The scene as JSON text with exact numbers; null is an infinite value, and no Poisson ratio.
 
         A law of hardness is refused: its class is not in the file.
         """

@@ -19,7 +19,8 @@ PACKAGE = Path(mdr.__file__).parent
 #: From the bottom up; what is of one folder may import what stands below it, and others of the folder.
 KERNEL = (
     "_errors", "_read_only", "_hints", "_check", "numerics", "abel", "profiles", "hardness",
-    "hardness_check", "medium", "structure", "applicability", "foundation", "contact", "impacts",
+    "hardness_check", "transverse_isotropy", "medium", "structure", "applicability", "foundation",
+    "contact", "impacts",
 )  # fmt: skip
 ORDER = (
     *KERNEL, "show", "oblique", "measured_curve", "files", "reading", "fit", "sweep_arguments", "sweep",

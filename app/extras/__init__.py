@@ -13,7 +13,7 @@ from ..plot import OVERLAYS, rows_of
 from ..plots import PLOTS
 from ..quantities import CHOICES, QUANTITIES, Option, include, read_data
 from ..registry import Registry
-from ..state import LISTS, OF_EXTRAS, VIEW, Entries
+from ..state import LISTS, OF_EXTRAS, VIEW, Entries, include_presets
 
 _HERE = Path(__file__).parent
 
@@ -115,6 +115,7 @@ def _register(extra: Extra, data: dict[str, Any]) -> None:
     DRIVES.update(extra.drives)
     PLOTS.update({plot.name: plot for plot in extra.plots})
     EXTRAS[extra.name] = extra
+    include_presets(data)
 
 
 _load()

@@ -13,8 +13,10 @@ from ..shared.time import T, line_at_time
 def energies(course: Course) -> dict:
     """Losses (J) so far, stored and kinetic energy, by the names of their areas."""
     m = course.ledger
-    friction = {"friction": m.friction_work} if hasattr(m, "friction_work") else {}
-    return friction | {
+    more = {"friction": m.friction_work} if hasattr(m, "friction_work") else {}
+    if course.structure:
+        more = {"waves": m.structure_work, "support": m.support_energy}
+    return more | {
         "plastic": m.plastic_work,
         "viscous": m.viscous_work,
         "stored": m.stored_energy,
@@ -45,16 +47,21 @@ def places(view: View, i: int) -> dict:
 def _ledger(course: Course) -> str:
     friction = "friction" in energies(course)
     lost = "U + W_p" + " + W_v" * course.dashpots + " + W_f" * friction
+    if course.structure:
+        lost += " + W_s" if course.structure.is_plate else " + U_s"
     if course.hit is None:
         return f"{lost} = ∫ F dd  § 14"
     along = " + m_t v_t²/2" * friction
-    return f"{lost} + m v²/2{along} = const.  § 9" + ", § 13" * friction
+    speed = "V" if course.structure else "v"
+    return f"{lost} + m {speed}²/2{along} = const.  § 9" + ", § 13" * friction
 
 
 ENERGY = Plot(
     "energy", "Energy balance", _ledger, (T, E),
     (
         area("friction", "slip", 0.6, "x"),
+        area("waves", "stick", 0.45, "-"),
+        area("support", "stick", 0.3, "|"),
         area("plastic", "yielded", 0.45, "/"),
         area("viscous", "loss", 0.5, "\\"),
         area("stored", "elastic", 0.45),

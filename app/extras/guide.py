@@ -15,7 +15,7 @@ from ..extra import Extra
 from ..plot import View
 from ..readouts import readings, text
 from ..shared.widgets import button, field, tools
-from ..state import State
+from ..state import State, kept_extras
 from ..ui import WIDE, html, linked, own_html, replaced, show
 
 #: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
@@ -37,11 +37,11 @@ def tours() -> dict[str, list[dict[str, Any]]]:
 
 
 def step_state(step: dict[str, Any], now: State) -> State:
-    """State of a step, with its plots; theme, and values of extras that it does not set, stay."""
+    """State of a step, with its plots; theme, and values of extras that no step or preset sets, stay."""
     state = link.read(urlencode(step["set"]))
     # Also a value that is set to its default is set.
     named = {name for name, _ in link.pairs(urlencode(step["set"]))}
-    kept = {name: value for name, value in now.extras.items() if name not in named}
+    kept = {name: value for name, value in kept_extras(now).items() if name not in named}
     return state.replace(dark=now.dark, **(kept | state.extras))
 
 

@@ -25,7 +25,7 @@ from ..shared import widgets
 from ..shared.once import once
 from ..shared.rest import Searching
 from ..shared.summary import with_symbol
-from ..state import MEDIUM_CHOICES, OPENING, PRESETS, State, altered, used
+from ..state import MEDIUM_CHOICES, OPENING, PRESETS, State, altered, formed, used
 from ..ui import WIDE, html, marked, show, symbol
 
 #: Scenes that are held have each its own dashes.
@@ -91,7 +91,7 @@ def difference(state: State, now: State | None = None) -> str:
     A scene of another preset than the present one has the name of its preset, too.
     """
     preset, known = PRESETS[state.preset], altered(state)
-    choices = ("shape", *MEDIUM_CHOICES, "drive", *state.chosen("drive").form)
+    choices = ("shape", *MEDIUM_CHOICES, "drive", *formed(state))
     other = now is not None and now.preset != state.preset
     if now is not None and not other and scene_of(now) != scene_of(state):
         changed = {name for name in (*choices, *used(state)) if state[name] != now[name]}

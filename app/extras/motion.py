@@ -2,6 +2,7 @@
 
 from mdr_core.show.figures import line, mark
 
+from ..courses import Course
 from ..extra import Extra
 from ..plot import Plot, View
 from ..plots import D, F
@@ -19,9 +20,15 @@ def places(view: View, i: int) -> dict:
     }
 
 
+def _law(course: Course) -> str:
+    if course.hit is None:
+        return "prescribed  § 8, § 14"
+    return f"m d²{'(d + w)' if course.structure else 'd'}/dt² = −F,  § 9"
+
+
 MOTION = Plot(
     "motion", "Depth and force over time",
-    lambda course: "prescribed  § 8, § 14" if course.hit is None else "m d²d/dt² = −F,  § 9",
+    _law,
     (T, D, F),
     (
         line("depth d", "speed", 2.2, symbol="d"),

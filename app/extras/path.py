@@ -104,6 +104,7 @@ def _motion(states, time):
     return mdr.Motion(
         time, states.depth, rate, states.force, states.contact_radius, states.plastic_radius,
         live.lower, live.length, none, states.stored_energy, states.plastic_work, viscous,
+        deflection=none, body_velocity=rate, structure_work=none, support_energy=none,
     )  # fmt: skip
 
 
@@ -200,7 +201,7 @@ class Path(Drive):
         time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
         return numbers if _in_time(state) else numbers | {"path.ramp_time": time}
 
-    def converted(self, state, choice):
+    def converted(self, state, choice, wanted):
         return equivalent(state, "path") if choice == "path.pattern" else {}
 
 

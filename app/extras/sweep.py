@@ -14,6 +14,7 @@ from mdr_core.show.quantities import QUANTITIES as RESULTS
 from mdr_core.show.units import KINDS, digits
 
 from ..changes import CONSTANTS, option, shown
+from ..drives import DRIVES
 from ..extra import Extra
 from ..fields import slider_range
 from ..parts import Part, button
@@ -26,18 +27,14 @@ from ..ui import marked
 from ..units import in_full
 
 _DATA = read_data(Path(__file__).with_suffix(".json"))
-#: Functions of the core and their arguments, by drives, and the results of each.
-SOLVERS = {
-    "depth": ("indent", "max_depth"),
-    "force": ("indent_to_force", "max_force"),
-    "impact": ("impact", "mass", "speed"),
-}
+#: Functions of the core by drives, and the results of each.
+SOLVERS = {"depth": "indent", "force": "indent_to_force", "impact": "impact"}
 _RESULTS = _DATA["results"]
 #: The energy of an impact, which is swept by the speed.
 _ENERGY = quantity(**_DATA["energy"])
 
-#: Points along the range, and of a viscous impact, which takes a millisecond each.
-POINTS, VISCOUS = 81, 31
+#: Points along the range, and of impacts in time, which take a millisecond each.
+POINTS, IN_TIME = 81, 31
 #: Rows of the fast limit, which is that of class (b), and of the three classes: options and constants.
 FAST = "fast limit (23) (24), class (b)"
 CLASSES = {
@@ -52,6 +49,8 @@ _LIMITS = {
     "max_depth": "fast_limit.max_depth",
     "restitution": "fast_limit.restitution",
 }
+#: Of a ratio, as the restitution, what is nothing beside its largest value.
+_NOTHING = 1e-3
 #: Shapes with closed forms.
 _SHAPES = ("cone", "paraboloid", "power_law")
 
@@ -67,17 +66,19 @@ class Sweep:
     high: float
     against: str
     logarithmic: bool
-    #: Function of the core and its arguments.
-    solver: tuple
+    #: Function of the core, "" if the drive has none.
+    solver: str
 
     @property
-    def viscous(self):
-        return self.state.damping != "none" and "speed" in self.solver
+    def in_time(self):
+        """Whether it is of impacts with dashpots or on a structure."""
+        structure = DRIVES[self.state.drive].given(self.state).get("structure")
+        return self.solver == "impact" and (self.state.damping != "none" or structure is not None)
 
     @property
     def numbers(self):
         space = np.geomspace if self.low > 0 else np.linspace
-        return space(self.low, self.high, VISCOUS if self.viscous else POINTS)
+        return space(self.low, self.high, IN_TIME if self.in_time else POINTS)
 
     def at(self, numbers):
         """The scene with values of the swept number."""
@@ -88,11 +89,8 @@ class Sweep:
     def solve(self, numbers):
         """Results of the core for values of the swept number."""
         state = self.at(numbers)
-        solver, *names = self.solver
-        given = {name.replace("max_", ""): state[name] for name in names}
-        if solver == "impact":
-            given["plastic_depth"] = state.plastic_depth
-        return getattr(mdr, solver)(profile(state), medium(state), **given)
+        given = DRIVES[state.drive].given(state)
+        return getattr(mdr, self.solver)(profile(state), medium(state), **given)
 
     def column(self, numbers, quantity):
         """A result at values of the swept number; NaN where the core refuses."""
@@ -111,11 +109,11 @@ class Sweep:
 
     @property
     def dry(self):
-        return not self.viscous and self.state.adhesion == "none"
+        return not self.in_time and self.state.adhesion == "none"
 
     def fast(self, numbers):
         """The fast limit, of dry impacts on a virgin medium of class (b), and nothing elsewhere."""
-        virgin = "speed" in self.solver and self.dry and not self.state.plastic_depth
+        virgin = self.solver == "impact" and self.dry and not self.state.plastic_depth
         if virgin and self.against in _LIMITS and self.state.plasticity in ("q_c", "hardness"):
             return {FAST: self.column(numbers, _LIMITS[self.against])}
         return {}
@@ -126,7 +124,7 @@ class Sweep:
         others = {row: pair for row, pair in CLASSES.items() if pair[1] not in own}
         constant = self.swept in used_by(self.state, "plasticity")
         # Under a given force each constant is a search of its own.
-        if constant or not self.dry or not self.yields or "max_force" in self.solver:
+        if constant or not self.dry or not self.yields or self.solver == "indent_to_force":
             return {}
         found = {row: self._through(*pair) for row, pair in others.items()}
         return {row: each for row, each in found.items() if each}
@@ -169,10 +167,10 @@ def swept(state: State) -> list[str]:
     if state.drive not in SOLVERS:
         names = CHOICES["sweep.swept"].options
         return [each for each in names if each == "energy" or state[each] is not None]
-    solver, impact = SOLVERS[state.drive], state.drive == "impact"
+    own, impact = used_by(state, "drive"), state.drive == "impact"
     idle = ("density",) if impact else ("density", "eta")
     works = [each for each in used(state) if each not in idle and QUANTITIES[each].span >= 0]
-    return ["energy"] * impact + sorted(works, key=lambda each: each not in solver)
+    return ["energy"] * impact + sorted(works, key=lambda each: each not in own)
 
 
 def against(state: State) -> list[str]:
@@ -189,14 +187,14 @@ def asked(state: State) -> Sweep:
     name = option(state, "sweep.swept")
     value, middle = (_value(each, name) for each in (state, state.replace(**PRESETS[state.preset].values)))
     low, _, high = slider_range(known(name), middle, value)
-    chosen = option(state, "sweep.against"), state["sweep.scale"] == "log", SOLVERS.get(state.drive, ())
+    chosen = option(state, "sweep.against"), state["sweep.scale"] == "log", SOLVERS.get(state.drive, "")
     return Sweep(state.scene_values, name, value, low, high, *chosen)
 
 
 def quick(sweep: Sweep) -> bool:
     """Whether the sweep is fast enough for every move: shapes with closed forms."""
-    one_by_one = sweep.solver[:1] == ("indent_to_force",) and sweep.swept != "max_force"
-    return not (one_by_one or sweep.viscous) and sweep.state.shape in _SHAPES
+    one_by_one = sweep.solver == "indent_to_force" and sweep.swept != "max_force"
+    return not (one_by_one or sweep.in_time) and sweep.state.shape in _SHAPES
 
 
 def found(course, sweep: Sweep):
@@ -219,7 +217,7 @@ def found(course, sweep: Sweep):
 
 
 def _axes(sweep, values, present):
-    """Both logarithmic, to show powers, or linear; a ratio that is 0 somewhere has a linear one."""
+    """Both logarithmic, to show powers, or linear; a ratio that is nearly 0 somewhere has a linear one."""
     quantity, result = known(sweep.swept), RESULTS[sweep.against]
     x = axis(lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, sweep.high)
     log = sweep.logarithmic and sweep.low > 0
@@ -228,7 +226,7 @@ def _axes(sweep, values, present):
     sizes = sizes[np.isfinite(sizes)]
     title = CHOICES["sweep.against"].options[sweep.against].label
     y = axis(title, KINDS[result.unit], max(sizes, default=1.0))
-    if not (log and (sizes > 0).any() and (result.unit or (sizes > 0).all())):
+    if not (log and (sizes > 0).any() and (result.unit or (sizes > _NOTHING * max(sizes)).all())):
         return x, y
     # At most six decades, between powers of ten.
     least, most = max(min(sizes[sizes > 0]), 1e-6 * max(sizes)), max(sizes)

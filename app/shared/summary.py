@@ -1,7 +1,7 @@
 """Numbers of a scene with their symbols, and a scene in one line."""
 
 from ..quantities import QUANTITIES
-from ..state import State, regions, used_by
+from ..state import State, formed, regions, used_by
 from ..units import in_full
 
 
@@ -13,7 +13,7 @@ def with_symbol(name: str, value: float) -> str:
 def summary(state: State) -> str:
     """Shape, medium and drive of a scene in one line."""
     parts = regions(state)
-    names = [*parts["shape"], *parts["medium"], *parts["drive"], *used_by(state, "damping", "adhesion")]
+    names = [*parts["shape"], *parts["medium"], *used_by(state, "drive", "damping", "adhesion")]
     numbers = [with_symbol(name, state[name]) for name in names if state[name]]
-    chosen = [state.chosen(name).label for name in state.chosen("drive").form]
+    chosen = [state.chosen(name).label for name in formed(state)]
     return ", ".join([state.chosen("shape").label, *numbers, *chosen])

@@ -17,6 +17,7 @@ import numpy as np
 
 from .. import _check
 from .._check import Array
+from ..medium import refuse_transversely_isotropic
 from ..numerics.blocks import chunks
 from ..numerics.gauss import crowded, gauss_legendre
 from ..numerics.roots import largest_value
@@ -101,6 +102,7 @@ def depths(z):
 
 def stress(state, r, z):
     """`Indentation.stress` of one state, at r ≥ 0 and z ≥ 0 of one shape."""
+    refuse_transversely_isotropic(state.medium, "the stress below the surface")
     nu, unit = state.medium.poisson, state.contact_radius or 1.0
     at_r, at_z = r.ravel() / unit, z.ravel() / unit
     # The stress of a point force falls as 1/distance², so that large distances need not be resolved.

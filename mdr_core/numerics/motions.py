@@ -162,10 +162,13 @@ class Motion(MotionResult):
 
 
 def instants(n, turn, end, start=0.0):
-    """n times (s): equally spaced from `start` to the turning point at `turn`, and from there to `end`."""
+    """n times (s): equally spaced from `start` to the turning point at `turn`, and from there to `end`.
+
+    A fifth of them at least are up to the turning point: a body on a plate may take long to leave.
+    """
     if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 2 <= n <= 10**7:
         raise ValueError(f"number of instants n = {shown(n)} must be a whole number from 2 to 10⁷")
     if n == 2:
         return np.array([start, end])
-    count = min(max(round((n - 1) * (turn - start) / (end - start)), 1), n - 2)
+    count = min(max(round((n - 1) * (turn - start) / (end - start)), n // 5, 1), n - 2)
     return np.append(np.linspace(start, turn, count + 1), np.linspace(turn, end, n - count)[1:])

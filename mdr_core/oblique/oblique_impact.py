@@ -12,7 +12,7 @@ from ..applicability import check_pair, refuse_adhesion, shape_with
 from ..contact.yielding import yield_rule
 from ..impacts.impact import impact
 from ..impacts.result import Impact
-from ..medium import Medium
+from ..medium import Medium, refuse_transversely_isotropic
 from ..numerics.results import Entries, Model, Result, check_single
 from ..profiles.profile import Profile
 from ..show.limits import Limit, friction_limits, stick_limits
@@ -87,6 +87,7 @@ def oblique_impact(
     """
     check_pair(profile, medium)
     refuse_adhesion(medium, "an oblique impact")
+    refuse_transversely_isotropic(medium, "an oblique impact")
     mass = _check.positive("mass", mass, unit="kg")
     speed = _check.positive("speed", speed, unit="m/s")
     tangential_mass = mass if tangential_mass is None else tangential_mass

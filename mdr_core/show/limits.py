@@ -39,7 +39,7 @@ def contact_limits(profile, medium, radius, *, slow=False):
     """Limits of contacts of radii up to `radius` (m); `slow` if the dashpots carry nothing."""
     limits = [_slope_limit(profile, radius), *_body_limit(profile, radius)]
     if np.any(np.asarray(medium.eta) > 0):
-        limits.append(_viscosity_limit(medium) if slow else _poisson_limit(medium))
+        limits.extend(_viscosity_limit(medium) if slow else _poisson_limit(medium))
     limits.extend(_modulus_limit(medium))
     limits.extend(_critical_depth_limit(medium))
     limits.extend(_flow_limit(medium))
@@ -182,10 +182,13 @@ def _tip_radius(profile):
 
 
 def _poisson_limit(medium):
+    """Poisson ratio of the dashpots, if there is one: else all constants relax with the same time."""
+    if medium.poisson is None:
+        return
     value = float(np.min(medium.poisson))
     text = f"Dashpots parallel to the springs are exact only for ν = ½; here ν = {value:.3g}"
     text += ", and viscous results are estimates." if value < 0.5 else "."
-    return Limit("Poisson ratio", value, 0.5, value < 0.5, text)
+    yield Limit("Poisson ratio", value, 0.5, value < 0.5, text)
 
 
 def _viscosity_limit(medium):
@@ -194,7 +197,7 @@ def _viscosity_limit(medium):
         "A path without times is quasi-static, so that the viscosity has no effect (τ = "
         f"{engineering(value, 's')}). To include viscosity, prescribe the path in time."
     )
-    return Limit("viscosity", value, 0.0, True, text, severe=False)
+    yield Limit("viscosity", value, 0.0, True, text, severe=False)
 
 
 def jump_limits(jumps):

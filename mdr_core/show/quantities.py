@@ -157,9 +157,12 @@ def described(thing):
         known, value = own.get(name, QUANTITIES.get(name)), getattr(thing, name)
         if np.ndim(value) == 0 and at_default(field, value):
             continue
+        if value is None:
+            parts.append(f"no {known.long_name}")
+            continue
         if isinstance(value, _check.Parameters):
-            kind, *own = described(value).split(", ")
-            parts.append(f"σ_c by {kind}({', '.join(own)})")
+            kind, *given = described(value).split(", ")
+            parts.append(f"σ_c by {kind}({', '.join(given)})")
             continue
         try:
             text = engineering(value, known.unit if known else "")

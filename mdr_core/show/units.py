@@ -34,6 +34,10 @@ UNITS = {
         "yield constant": {
             "µN/m": 1e-6, "mN/m": 1e-3, "N/m": 1.0, "kN/m": 1e3, "MN/m": 1e6, "GN/m": 1e9,
         },
+        "bending stiffness": {
+            "nN·m": 1e-9, "µN·m": 1e-6, "mN·m": 1e-3, "N·m": 1.0, "kN·m": 1e3, "MN·m": 1e6,
+        },
+        "mass per area": {"g/m²": 1e-3, "kg/m²": 1.0, "t/m²": 1e3},
         "mass": {
             "pg": 1e-15, "ng": 1e-12, "µg": 1e-9, "mg": 1e-6, "g": 1e-3, "kg": 1.0, "t": 1e3,
         },

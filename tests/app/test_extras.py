@@ -50,7 +50,7 @@ def words(name):
     found += [number["label"] for number in data.get("numbers", ())]
     choices = data.get("choices", {})
     found += [choice["label"] for name, choice in choices.items() if "." in name]
-    found += [drive["label"] for drive in choices.get("drive", {}).get("options", {}).values()]
+    found += [drive.get("label", "") for drive in choices.get("drive", {}).get("options", {}).values()]
     page = opened()
     buttons = extra.on_plots(page, PLOTS["force"], page.shown), extra.header(page, page.shown)
     found += [each.look.get("label") for each in buttons if each is not None]

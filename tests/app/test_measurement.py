@@ -466,7 +466,8 @@ def test_what_comes_back_of_a_table_is_what_is_shown_of_it():
         page.take_file("run.csv", f"{head}\n{rows}".encode())
         assert list(map(len, page.table.values.values())) == [3, 3]
         assert max(map(len, page.table.heads.values())) <= 80
-        assert len(pickle.dumps(page.table)) < 1000
+        # Beside the names of its fields.
+        assert len(pickle.dumps(page.table)) < 2000
 
 
 def test_a_tip_is_read_from_a_file():

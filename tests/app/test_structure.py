@@ -1,0 +1,181 @@
+"""Impacts on a plate or a support on the page: what it shows is what the library computes."""
+
+import numpy as np
+import pytest
+
+import mdr_core as mdr
+from app import changes, link
+from app.drives import follow, scene_of
+from app.extras import energy, notes, share, sweep
+from app.extras.guide import step_state
+from app.page import Page
+from app.readouts import line
+from app.state import PRESETS, altered, medium, preset_state, profile
+
+from ..approx import approx
+from .conftest import DROP, GOLD, PUNCH
+from .states import linked_state, numbers, press, state_with, view_of
+
+PLATE, SUPPORT = "small_ball-carbon_epoxy", "striker-glass_epoxy-plate"
+
+
+def structure(state):
+    return scene_of(state).drive.structure
+
+
+def numbers_above(state):
+    return [each.name for each in line(follow(state))]
+
+
+def test_the_presets_are_what_they_name():
+    """K is Navier's series of the plate that the preset has; the block alone has another force."""
+    state = preset_state(SUPPORT)
+    values = PRESETS[SUPPORT].values
+    a, b, odd = 75e-3, 125e-3, np.arange(1, 2000, 2)
+    D = values["structure.E"] * values["structure.thickness"] ** 3 / 12 / (1 - values["structure.nu"] ** 2)
+    series = np.sum(1 / ((odd / a) ** 2 + (odd[:, None] / b) ** 2) ** 2)
+    assert values["structure.stiffness"] == float(f"{np.pi**4 * D * a * b / 4 / series:.4g}")
+    hit, block = (follow(each).hit for each in (state, state_with(SUPPORT, behind="block")))
+    assert (round(float(hit.max_force)), round(float(hit.restitution), 2)) == (2763, 0.79)
+    assert (round(float(block.max_force)), round(float(block.restitution), 3)) == (3735, 0.201)
+    assert scene_of(state_with(SUPPORT, behind="block")) == scene_of(preset_state(DROP))
+    # The impactor is far heavier than the plate of the test.
+    assert state.mass > 10 * values["structure.density"] * values["structure.thickness"] * a * b
+    laminate = mdr.Medium.from_transversely_isotropic(52e9, 9e9, 0.31, 0.06, 4e9)
+    both = 1 / (1 / laminate.E_star + (1 - 0.3**2) / 210e9)
+    assert float(preset_state(PLATE).E_star) == approx(float(both), rel=1e-3)
+    for key in (PLATE, SUPPORT):
+        assert altered(preset_state(key)) == []
+
+
+def test_the_numbers_are_those_of_the_library():
+    for key, made in (
+        (PLATE, mdr.Structure.plate(4e-3, 52e9, 0.31, 1600.0, edge=0.075)),
+        (SUPPORT, mdr.Structure(stiffness=2.332e6)),
+    ):
+        state = preset_state(key)
+        assert structure(state) == made
+        hit = mdr.impact(profile(state), medium(state), state.mass, state.speed, structure=made)
+        course = follow(state)
+        found, taken = numbers(course), "structure_work" if key == PLATE else "support_energy"
+        assert float(found["restitution"]) == approx(float(hit.restitution), rel=1e-12)
+        assert float(found["max_deflection"]) == approx(float(hit.max_deflection), rel=1e-12)
+        assert {"deflection", taken} <= {*numbers_above(state)}
+        # What waves carry away does not come back, what the support stores does.
+        end = float(hit.structure_work) if key == PLATE else 0.0
+        assert float(found[taken][-1]) == approx(end, rel=1e-9, abs=1e-12 * hit.mass)
+        total = sum(energy.energies(course).values())
+        np.testing.assert_allclose(total, state.mass * state.speed**2 / 2, rtol=1e-8)
+        csv = share.csv(view_of(state))
+        assert f"mdr.Structure({'impedance' if key == PLATE else 'stiffness'}=" in csv
+        assert "deflection w (m)" in csv
+        assert "yield_speed" not in found
+
+
+def test_a_plate_by_its_bending_stiffness_is_that_of_its_thickness():
+    state = preset_state(PLATE)
+    made = structure(state)
+    values = {
+        "D": made.impedance * made.wave_spread / 8,
+        "mass_per_area": made.impedance / made.wave_spread / 8,
+    }
+    other = state_with(PLATE, plate="bending").replace(
+        **{f"structure.{name}": float(value) for name, value in values.items()}
+    )
+    assert float(follow(other).hit.restitution) == approx(float(follow(state).hit.restitution), rel=1e-9)
+
+
+def test_links_undo_and_files_carry_it():
+    page = Page(f"preset={PLATE}&structure.thickness=0.002")
+    page.choose("structure.behind", "support")
+    page.choose("structure.behind", "plate")
+    assert linked_state(page.state) == page.state
+    scene = page.shown.course.scene
+    values = {}
+    exec(scene.to_python(), values)
+    assert values["scene"] == mdr.Scene.from_json(scene.to_json()) == scene
+    page.undo()
+    assert page.state["structure.behind"] == "support"
+    page.undo()
+    assert structure(page.state).thickness == approx(2e-3)
+
+
+@pytest.mark.parametrize("loss", [("damping", "eta"), ("adhesion", "work")])
+@pytest.mark.parametrize("behind", ["plate", "support"])
+def test_it_is_refused_in_words_with_dashpots_or_adhesion(behind, loss):
+    word = {"damping": "viscosity", "adhesion": "adhesion"}[loss[0]]
+    said = f"a {behind} is not computed together with {word}: choose “thick block”"
+    page = Page(f"preset={GOLD}&drive=impact")
+    notices = []
+    page.notify = notices.append
+    for first, second in ((loss, ("structure.behind", behind)), (("structure.behind", behind), loss)):
+        page.choose("preset", GOLD)
+        page.choose("drive", "impact")
+        page.choose(*first)
+        before = page.state
+        assert notices == []
+        page.choose(*second)
+        assert page.state == before
+        assert said in notices.pop()
+        assert "structure.behind" in page.frame.form.view.parts
+
+
+@pytest.mark.parametrize("key", [GOLD, DROP, PUNCH])
+def test_a_structure_that_nobody_has_set_matters(key):
+    """Neither is the body caught at once, nor is it as on a block, at nanometres and at millimetres."""
+    block = state_with(key, "impact")
+    for behind in ("plate", "support"):
+        hit = follow(changes.choose(block, "structure.behind", behind)).hit
+        assert 0.2 < hit.max_depth / follow(block).hit.max_depth < 0.97
+        assert 0.01 < hit.restitution <= 1
+
+
+def test_another_drive_and_back_is_the_same_impact():
+    for key in (PLATE, SUPPORT):
+        state = preset_state(key)
+        back = changes.choose(changes.choose(state, "drive", "depth"), "drive", "impact")
+        assert back.speed == approx(state.speed, rel=1e-4)
+        assert structure(back) == structure(state)
+
+
+def test_a_preset_has_no_structure_of_another_one():
+    page = Page(f"preset={PLATE}")
+    for key in (GOLD, DROP):
+        page.choose("preset", key)
+        assert page.state == preset_state(key)
+    # Nor has a guided scene that says nothing of it.
+    step = {"set": {"preset": DROP, "drive": "impact"}}
+    assert structure(step_state(step, preset_state(PLATE))) is None
+
+
+def test_a_body_that_stays_is_not_held_by_adhesion():
+    state = state_with(PUNCH, "impact", behind="plate").replace(**{"structure.thickness": 1e-3})
+    course = follow(state)
+    assert course.hit.captured
+    assert float(numbers(course)["restitution"]) == 0
+    said = " ".join(sentence for _, sentence in notes.limits(course, state))
+    assert "dhesion" not in said
+    assert "The body never leaves the plate" in said
+
+
+def test_the_sweep_over_the_thickness_goes_from_a_ball_that_stays_to_a_half_space():
+    page = Page(f"preset={PLATE}")
+    press(page, "e over h")
+    state = page.state
+    asked = sweep.asked(state)
+    found = sweep.found(follow(state), asked)
+    thickness, restitution = found.rows["this scene"]
+    block = follow(state_with(PLATE, behind="block")).hit.restitution
+    assert (thickness[0], thickness[-1]) == approx((4e-4, 4e-2))
+    assert restitution[0] < 1e-3
+    assert restitution[-1] == approx(float(block), abs=0.02)
+    middle = linked_state(state.replace(**{"structure.thickness": float(thickness[15])}))
+    assert restitution[15] == approx(float(follow(middle).hit.restitution), rel=1e-9)
+    # The limit of fast impacts and the other classes are those of a half-space.
+    assert {*found.rows} == {"this scene", "present value"}
+
+
+def test_what_is_not_used_is_not_in_a_link():
+    state = state_with(GOLD, "impact", behind="support")
+    assert "structure.thickness" not in link.write(state)
+    assert "structure.stiffness" in link.write(state)
