@@ -81,6 +81,9 @@ def _short(parts: list[Any], axis: Axis) -> list[list[float]]:
 class Picture:
     """One plot as a figure."""
 
+    #: Shares of the axes x and y that are seen below zero, so that marks at zero are whole.
+    margins = (0.02, 0.05)
+
     def __init__(self, plot: Plot):
         self.plot, self.axes = plot, None
         # Ranges (SI) of the axes to which a person has zoomed.
@@ -128,13 +131,21 @@ class Picture:
         ranges = (f.x_range, f.y_range, *f.extra_y_ranges.values())
         sides = (f.below[0], f.left[0], *f.right)
         for k, (bounds, side, axis) in enumerate(zip(ranges, sides, axes, strict=False)):
-            start, end = (each / axis.factor for each in self._zoom[k]) if self._zoom else axis.ends
+            start, end = (
+                (each / axis.factor for each in self._zoom[k]) if self._zoom else self._ends(axis, k)
+            )
             bounds.update(start=start, end=end)
             side.axis_label = axis.label
         symbol = axes[0].title.split(",")[0]
         for layer in self.layers:
             if layer.hover:
                 layer.hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[layer.axis])
+
+    def _ends(self, axis: Axis, k: int) -> tuple[float, float]:
+        """Start and end of the axis of number k, in its unit."""
+        start, end = axis.ends
+        marked = start == 0 and not axis.log and any(layer.kind == "marks" for layer in self.layers)
+        return (-self.margins[min(k, 1)] * end, end) if marked else (start, end)
 
     @property
     def zoomed(self) -> bool:

@@ -118,6 +118,8 @@ class Form:
 
     def __init__(self, page: Any):
         self._page, self._open = page, {"more": False, "tip": False}
+        # What is folded and differs from the preset.
+        self._altered: set[str] = set()
         # Why the last file of a tip was refused.
         self._tip_refused = ""
         self.view = Parts("form", stylesheets=LAYOUT)
@@ -135,9 +137,10 @@ class Form:
             return text(f"note {place}", before + "".join(each.get(place, "") for each in notes))
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
-        # What differs from the preset is not folded.
-        in_use = not {*FOLDED_CHOICES, *folded}.isdisjoint(altered(state))
-        opened = in_use or self._open["more"]
+        # What begins to differ from the preset is unfolded, but for the moduli that follow a typed E*.
+        now = {*FOLDED_CHOICES, *folded}.intersection(altered(state)) - {"E_1", "E_2"}
+        opened = self._open["more"] = self._open["more"] or bool(now - self._altered)
+        self._altered = now
         modulus, *constant = numbers["medium"]
         # Below each choice the numbers of its option.
         more = []
@@ -153,7 +156,7 @@ class Form:
             *numbers["shape"],
             title("Medium"), modulus, page.choice("plasticity"), *constant, *numbers["hardness"],
             note("medium"),
-            button("More about the medium", self._fold, pressed=opened, disabled=in_use, key="fold"),
+            button("More about the medium", self._fold, pressed=opened, key="fold"),
             *more, *[note("more"), note("sources")] * opened,
         ]  # fmt: skip
         self.view.show(parts)

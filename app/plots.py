@@ -60,10 +60,10 @@ def _pressures(course: Course) -> tuple[float, float]:
 
 X = Along("x, coordinate of the springs", "length", across)
 R = Along("r, radius", "length", across)
-Z = Along("z, height", "length", lambda course: (-drawn.REST * deepest(course), deepest(course)))
+Z = Along("z, upward", "length", lambda course: (-drawn.REST * deepest(course), deepest(course)))
 D = Along(QUANTITIES["depth"].title, "length", _of_states("depth"))
 F = Along(QUANTITIES["force"].title, "force", _of_states("force"))
-P = Along("−σzz, pressure", "pressure", _pressures)
+P = Along("p, pressure", "pressure", _pressures)
 
 
 # What is cut off by axes that are kept.
@@ -140,7 +140,7 @@ def pressure(view: View, i: int) -> dict:
 
 
 PRESSURE = Plot(
-    "pressure", "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
+    "pressure", "Contact pressure", "(10)  p(r) = −σ_zz(r) = −(1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
     (*figures.PRESSURE_ROWS, CUT_OFF), pressure,
 )  # fmt: skip
 

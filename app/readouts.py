@@ -12,6 +12,8 @@ from .courses import Course
 from .quantities import CHOICES, READOUTS, Readout, lowered
 from .ui import linked, symbol
 
+#: Most readouts above the plots, beside each other.
+MOST = 8
 #: Relative to the largest term of a sum: what is left of it by rounding, some units in the last place.
 _RESIDUE = 16 * np.finfo(float).eps
 
@@ -63,7 +65,8 @@ def heads(numbers: dict[Readout, Any]) -> str:
 
 def head(readout: Readout) -> str:
     about = escape(f"{lowered(readout.help)} {lowered(readout.equation)}".strip())
-    return f'<span class="name" title="{about}">{symbol(readout.symbol)} {readout.long_name}</span>'
+    name = readout.short or readout.long_name
+    return f'<span class="name" title="{about}">{symbol(readout.symbol)} {name}</span>'
 
 
 def explained(numbers: dict[Readout, Any], link: Callable[[str], str] = linked) -> str:

@@ -37,10 +37,10 @@ def words(view: View, i: int) -> dict:
 
 
 def zone(view: View, i: int) -> dict:
-    """Depths beyond the onset of yield, at which loading has a plastic zone."""
+    """Depths beyond the onset of yield, at which loading has a plastic zone, where the scene yields."""
     course, top = view.course, view.end(F)
     known = course.onset is not None and not (course.dashpots or course.initial_plastic_depth)
-    if not known or course.onset.depth >= view.end(D):
+    if not known or course.onset.depth >= np.max(course.states.depth):
         return {"plastic zone, on loading": NOTHING}
     ends, bottom = (float(course.onset.depth), view.end(D)), view.axis(F).start
     columns = np.array([ends[0], *ends, ends[1]]), np.array([bottom, top, top, bottom])

@@ -220,8 +220,10 @@ def found(course, sweep: Sweep):
 def _axes(sweep, values, present):
     """Both logarithmic, to show powers, or linear; a ratio that is 0 somewhere has a linear one."""
     quantity, result = known(sweep.swept), RESULTS[sweep.against]
-    x = axis(lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, sweep.high)
     log = sweep.logarithmic and sweep.low > 0
+    # Over decades in the unit of the present value: J for 2.75 J, not kJ for the end of the range.
+    fits = min(sweep.present, sweep.high) if log else sweep.high
+    x = axis(lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, fits)
     x = replace(x, start=sweep.low if log else min(sweep.low, 0.0), end=sweep.high, log=log)
     sizes = np.append(values, present)
     sizes = sizes[np.isfinite(sizes)]

@@ -26,11 +26,11 @@ const KINDS = {
     }]
   },
   // A picture of plots, saved in the browser: each with its figure and its place.
-  save({ file, plots, size }, send, named) {
+  save({ plots, size }, send, named) {
     const [el, show] = KINDS.button({ key: "" })
-    let [looks, scene] = [[], ""]
+    let [looks, scene, file] = [[], "", ""]
     el.onclick = () => save(file, scene, plots.map(({ figure, place }, k) => ({ figure: named(figure), place, look: looks[k] })), size)
-    return [el, (look) => { ({ looks, scene } = look); show(look) }]
+    return [el, (look) => { ({ looks, scene, file } = look); show(look) }]
   },
   // Radio buttons or a list, with an explanation in a popover.
   choice({ classes, label, about, radio, id }, send) {
@@ -163,8 +163,9 @@ export function render({ model, el, view }) {
     found?.focus()
   }
   const sender = (name) => (what) => {
-    const seen = [...el.children].filter((part) => !part.hidden)
-    ACTED.set(view.model, { name, place: seen.indexOf(parts.get(name)[0]) })
+    const seen = [...el.children].filter((part) => !part.hidden), [part] = parts.get(name)
+    // What a key does from elsewhere, as Ctrl+Z, leaves the focus where it is.
+    if (part.contains(part.getRootNode().activeElement)) ACTED.set(view.model, { name, place: seen.indexOf(part) })
     model.send_msg([name, what])
     return asked += 1
   }

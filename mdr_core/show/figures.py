@@ -144,7 +144,7 @@ RADII = (
 PRESSURE_ROWS = (
     area("plastic zone r < c", "yielded", 0.13),
     area("below", "elastic", 0.12, legend=False),
-    line("−σzz(r)", "elastic", 2.0, symbol="−σzz"),
+    line("p(r)", "elastic", 2.0, symbol="p"),
     line("mean F/(πa²)", "ink", 1.0, "dotdash", "mean"),
     *RADII,
     label("exceeds"),
@@ -225,7 +225,7 @@ def pressure(state, half, top):
     return at_radii(a, c, half, 0.0, top) | {
         "plastic zone r < c": (np.array([-c, c, c, -c]), np.array([0, 0, top, top])) if c else NOTHING,
         "below": curve,
-        "−σzz(r)": curve,
+        "p(r)": curve,
         "mean F/(πa²)": (np.array([-a, a]), np.array([mean, mean])) if a else NOTHING,
         "exceeds": (-0.97 * half, 0.98 * top, exceeds(r, p, top) if a else "no contact"),
     }
@@ -237,12 +237,12 @@ def exceeds(r, p, top):
     if infinite.any():
         # A sharp tip that has not yielded is infinite on the axis, a flat face at its rim.
         at = np.argmax(infinite)
-        sign = "↑ −σzz → ∞" if p[at] > 0 else "↓ −σzz → −∞"
+        sign = "↑ p → ∞" if p[at] > 0 else "↓ p → −∞"
         return f"{sign} at the " + ("axis" if r[at] == 0 else "rim")
     if p[k] <= top:
         return ""
     where = "on the axis" if r[k] == 0 else f"at r = {written(float(r[k]), 'length', 3)}"
-    return f"↑ −σzz = {written(float(p[k]), 'pressure', 3)} {where}"
+    return f"↑ p = {written(float(p[k]), 'pressure', 3)} {where}"
 
 
 def work(path, i):

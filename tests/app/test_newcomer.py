@@ -56,7 +56,7 @@ def test_a_newcomer_takes_the_scene_home(explorer, opened, tmp_path):
             taken.page.get_by_label("State along the path").fill(str(number))
         here, there = (each.page.locator("output").all_inner_texts() for each in (explorer, taken))
         assert here == there
-        for figure, row in (("springs", "elastic"), ("pressure", "−σzz(r)"), ("force", "now")):
+        for figure, row in (("springs", "elastic"), ("pressure", "p(r)"), ("force", "now")):
             np.testing.assert_array_equal(explorer.row(figure, row), taken.row(figure, row))
     assert taken.readout("plastic_radius") == "0"
     taken.page.close()
