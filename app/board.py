@@ -1,9 +1,8 @@
-"""The board on the right: plots in frames with title, formula and legend, and the list of other plots."""
+"""The board on the right: plots in cards with title and legend, and the list of other plots."""
 
 import re
 from dataclasses import replace
 from functools import partial
-from html import escape
 from typing import Any
 
 import panel as pn
@@ -29,7 +28,7 @@ def _plain(html: str) -> str:
 
 
 class Card:
-    """A plot in its frame: title, formula, buttons of extras, legend, choices, and a note."""
+    """A plot in its card: title, buttons of extras, legend, choices, and a note."""
 
     def __init__(self, plot: Plot, page: Any):
         self.plot, self.picture, self._page, self._legend = plot, picture_of(plot), page, {}
@@ -43,8 +42,8 @@ class Card:
         # What is cut off by axes that stay leaves no gap: the plot would move while it is dragged.
         kept = self._legend if view.kept else {}
         self._legend = kept | drawn(view, plot)
-        law = plot.formula_of(view.course)
-        formula = f'<h3>{plot.title}</h3><span title="{escape(law)}">{marked(law)}</span>'
+        # Its formula stands with the numbers.
+        title = f"<h3>{plot.title}</h3><span>{marked(plot.aside(view))}</span>"
         buttons = (each.on_plots(page, plot, view) for each in EXTRAS.values())
         key = text("key", legend(plot, self._legend), "key")
         controls = [self._control(name) for name in plot.controls]
@@ -52,7 +51,7 @@ class Card:
         found = plot.note_of(view)
         # In one line, which shows the rest when it is pointed at, or large.
         note = text("note", f'<span title="{_plain(found)}">{found}</span>', "note found")
-        first = text("formula", formula, "formula")
+        first = text("formula", title, "formula")
         self.head.show([first, *controls, *filter(None, buttons), *close, key, note])
 
     def _control(self, name: str) -> Part:

@@ -185,7 +185,7 @@ def _kept(view: View, i: int) -> dict:
     """What *Compare* has done, over the curves, until the present scene is another one than the kept."""
     same = any(each.course.scene == view.course.scene for each in scenes(view))
     left = view.axis(D).start + 0.02 * (view.end(D) - view.axis(D).start)
-    return {"kept": (left, 0.9 * view.end(F), KEPT if same else "")}
+    return {"kept": (left, 0.84 * view.end(F), KEPT if same else "")}
 
 
 def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> Overlay:

@@ -1,6 +1,6 @@
 """Assumptions of the model, notes on the course, and what the numbers are, below the player."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import Any
 
@@ -9,8 +9,8 @@ from mdr_core.show.units import written
 from .. import readouts
 from ..courses import Course
 from ..extra import Extra
-from ..plot import View
-from ..plots import visible
+from ..plot import Plot, View
+from ..plots import NAMED, PLOTS, visible
 from ..quantities import CHOICES
 from ..state import State
 from ..ui import linked, marked
@@ -57,9 +57,14 @@ def below(view: View) -> str:
         exceeded += html * (level == "beyond")
         others += html * (level != "beyond")
     others += readouts.explained(readouts.line(view.course))
-    laws = [(plot.title, linked(plot.formula_of(view.course))) for plot in visible(view)]
-    plots = (f"<dt>{title}</dt><dd><em>{law}</em></dd>" for title, law in laws)
-    return f"{exceeded}<details><summary>{_HEAD}</summary>{others}<dl>{''.join(plots)}</dl></details>"
+    others += _laws(view, visible(view), linked)
+    return f"{exceeded}<details><summary>{_HEAD}</summary>{others}</details>"
+
+
+def _laws(view: View, plots: Iterable[Plot], link: Callable[[str], str]) -> str:
+    """The formula of each plot, with the numbers of its equations (HTML); `link` makes HTML of a text."""
+    laws = ((plot.title, link(plot.formula_of(view.course))) for plot in plots)
+    return f"<dl>{''.join(f'<dt>{title}</dt><dd><em>{law}</em></dd>' for title, law in laws)}</dl>"
 
 
 def told(view: View) -> list[tuple[str, str]]:
@@ -67,6 +72,7 @@ def told(view: View) -> list[tuple[str, str]]:
     sentences = limits(view.course, view.state)
     html = (f'<span class="{level}">{marked(sentence)}</span>' for level, sentence in sentences)
     numbers = readouts.explained(readouts.line(view.course), marked)
+    numbers += _laws(view, map(PLOTS.__getitem__, NAMED), marked)
     return [("Assumptions and notes", "".join(html)), ("What the numbers are", numbers)]
 
 

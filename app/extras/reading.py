@@ -8,7 +8,7 @@ from mdr_core.show.units import written
 from ..courses import Course, onset_depth
 from ..extra import Extra
 from ..plot import Overlay, View
-from ..plots import D, F, X, Z
+from ..plots import D, F, Z
 
 
 def sentence(course: Course, i: int) -> str:
@@ -33,7 +33,7 @@ def _first(course: Course) -> str:
 
 
 def words(view: View, i: int) -> dict:
-    return {"reading": (-0.97 * view.end(X), 0.72 * view.end(Z), sentence(view.course, i))}
+    return {"reading": (0.0, 0.97 * view.end(Z), sentence(view.course, i))}
 
 
 def zone(view: View, i: int) -> dict:
@@ -50,7 +50,7 @@ def zone(view: View, i: int) -> dict:
 EXTRA = Extra(
     "reading",
     overlays=(
-        Overlay("springs", (label("reading"),), words),
+        Overlay("springs", (label("reading", 0.0, "center"),), words),
         Overlay("force", (area("plastic zone, on loading", "yielded", 0.07),), zone),
     ),
 )

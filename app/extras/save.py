@@ -3,10 +3,10 @@
 from typing import Any
 
 from ..courses import Course
-from ..draw import drawn
+from ..draw import drawn, in_legend
 from ..extra import Extra, Service
 from ..parts import Part
-from ..plot import Plot, View, rows_of
+from ..plot import Plot, View
 from ..plots import visible
 from ..quantities import lowered
 from ..shared.summary import file_name, summary
@@ -36,7 +36,7 @@ class Legends(Service):
         self._legends["file"] = file_name(view.state, "")
         for plot in visible(view):
             called = drawn(view, plot)
-            rows = [lowered(called.get(row.name, row.name)) for row in rows_of(plot) if row.legend]
+            rows = [lowered(called[row.name]) for row in in_legend(plot, called)]
             self._legends[plot.name] = {"rows": rows, "title": plot.title}
 
 
