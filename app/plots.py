@@ -130,7 +130,7 @@ def _cap_at(medium: Any, a: float) -> float:
 
 
 def _yields_at(view: View) -> str:
-    """The elastic compression at which a spring yields; where it depends on the radius, at the present one."""
+    """The elastic compression at which a spring yields, at the present radius where it depends on that."""
     course, medium = view.course, view.course.scene.medium
     a = float(course.state.contact_radius)
     if course.adhesive or medium.q_c == np.inf or onset_depth(course.scene) == np.inf:
