@@ -7,18 +7,17 @@ from typing import Any
 import bokeh.models as bk
 import numpy as np
 from bokeh.core.properties import field
-from bokeh.events import DoubleTap, PanEnd
 from bokeh.plotting import figure
 
 from mdr_core.show.figures import Axis, Row
 
 from .plot import OF_AXIS, Plot, View, overlays, rows_of
 from .quantities import lowered
-from .ui import HERE, JS, marked
+from .tools import add_zoom
+from .ui import JS, marked
 
 #: The outline of a canvas, which no linked sheet reaches.
 _FOCUS = [".bk-Canvas { --highlight-color: var(--elastic); --outline-width: 2px; }"]
-_TOOLS = [(HERE / "static" / "tools.css").read_text(encoding="utf-8")]
 #: Rows that are drawn together, from the back to the front, and the glyph of each kind.
 _GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
 _GLYPHS = {"areas": bk.Patches, "lines": bk.MultiLine, "marks": bk.Scatter, "labels": bk.Text}
@@ -96,7 +95,7 @@ class Picture:
         f.update(title=None, toolbar_location=None, sizing_mode="stretch_both", min_height=100)
         f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None)
         f.update(min_border_left=60, min_border_right=20, min_border_top=8, min_border_bottom=44)
-        self._add_tools()
+        add_zoom(f)
         f.js_on_change("inner_width", bk.CustomJS(code=JS["canvas"]))
         groups = {row.group for row in rows_of(plot)}
         if any(group.endswith("right") for group in groups):
@@ -109,15 +108,6 @@ class Picture:
             axis.update(axis_label_text_font_style="normal", axis_label_text_font_size="12px")
         f.xgrid.visible = False
         self.layers = [Layer(plot, group, f) for group in _GROUPS if group in groups]
-
-    def _add_tools(self) -> None:
-        """Zoom to a box, and back, by buttons that are seen while the plot is pointed at or touched."""
-        f = self.figure
-        f.add_tools(bk.BoxZoomTool(description="Zoom to a box"), bk.ResetTool(description="Whole plot"))
-        f.update(toolbar_location="above", toolbar_inner=True)
-        f.toolbar.update(autohide=True, logo=None, active_drag=None, stylesheets=_TOOLS)
-        f.js_on_event(PanEnd, bk.CustomJS(code=JS["once"]))
-        f.js_on_event(DoubleTap, bk.CustomJS(code="cb_obj.origin.reset.emit()"))
 
     def axes_of(self, view: View) -> list[Axis]:
         """Axes on which the plot is drawn."""

@@ -24,4 +24,4 @@ _made, _title, _sheets, _extensions = _PAGES.get(_name, (None, "Indentation expl
 pn.extension(*_extensions, notifications=True, css_files=[*SHEETS, *_sheets])
 #: The theme that a browser has told by a cookie; a link may ask for another one.
 _DARK = pn.state.cookies.get("dark") == "1"
-(_made(_QUERY) if _made else Page(_QUERY, _DARK).view).servable(_title, _ADDRESS)
+pn.panel(_made(_QUERY) if _made else Page(_QUERY, _DARK)).servable(_title, _ADDRESS)

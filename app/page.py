@@ -93,6 +93,10 @@ class Page:
         self._open(query)
         self.history = History((self.state,))
 
+    def __panel__(self) -> Any:
+        """What Panel shows of it, so that `pn.panel(page)` and a layout take a page as it is."""
+        return self.view
+
     def _open(self, query: str) -> None:
         """Show the state of a link; if it is refused, say so and show the opening one."""
         try:

@@ -180,7 +180,7 @@ def force(view: View, i: int) -> dict:
     if onset is not None and not course.dashpots:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if (lower := float(states.plastic_depth[i])) > 0:
-        rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end(F), "dₚ"
+        rows["dₚ"] = max(lower - 3 * right, right), 0.12 * view.end(F), "dₚ"
     if course.chained or course.adhesive:
         # No live interval tells what is stored in elements that have each a memory of their own, and with
         # adhesion the area below the curve is not what is stored.

@@ -72,6 +72,10 @@ class Measurement(Source):
             self.document.on_session_destroyed(lambda context: self.close())
         self._begin()
 
+    def __panel__(self) -> Any:
+        """What Panel shows of it, so that `pn.panel(page)` and a layout take a page as it is."""
+        return self.view
+
     def _begin(self) -> None:
         """Show what a link asks for: an example at once, another file by its name."""
         self.worker.start()
@@ -311,5 +315,4 @@ class Measurement(Source):
 
 def served(query: str) -> Any:
     """The page of a session."""
-    page = Measurement(query)
-    return page.view
+    return Measurement(query)

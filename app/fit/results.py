@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 import panel as pn
+from bokeh.events import DocumentReady
+from bokeh.models import CustomJS
 
 from mdr_core.show.units import written
 
@@ -23,10 +25,8 @@ _BOTH = {"sizing_mode": "stretch_both", "margin": 0}
 #: Most curves of a file that are listed.
 _LISTED = 300
 _PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
-_WELCOME = (
-    '<p class="big none">A curve in, E* out</p><p class="of">Drop a file of depth and force, or open '
-    "a sample; choose the tip and the kind of sample. The fit runs at once.</p>"
-)
+#: What a person sees before there is a curve: what the page does, and in grey what will come.
+_WELCOME = Path(__file__).with_name("welcome.html").read_text(encoding="utf-8")
 
 
 def _folded(items: str) -> str:
@@ -48,6 +48,8 @@ class Results:
         self._range()
         self._map()
         self.plots = Plots()
+        shade = CustomJS(args={"looks": self.plots.looks}, code=JS["shade"])
+        self._page.document.js_on_event(DocumentReady, shade)
         self.curve = pn.Column(
             pn.pane.Bokeh(self.plots.force, **_BOTH),
             pn.pane.Bokeh(self.plots.residual, **_BOTH),
@@ -188,6 +190,8 @@ class Results:
         remarks = words.remarks(fit, (*page.told.remarks, *page.curve.remarks)) if fit is not None else ""
         show(self.remarks, object=_folded(remarks))
         if fit is not None:
+            for name, download in zip(("json", "csv"), self.files, strict=True):
+                show(download, filename=f"{Path(page.setting.file).stem}_fit.{name}")
             show(self._report, value=words.report(page.setting, fit, page.told, page.E))
             try:
                 query = explorer_query(page.setting, fit)
