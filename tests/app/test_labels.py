@@ -1,4 +1,4 @@
-"""Labels in the plots: they leave no plot, cover no other one, name what is drawn, and stand out from it."""
+"""Labels in the plots: none leaves its plot or covers another; they name what is drawn and stand out."""
 
 from dataclasses import replace
 from itertools import combinations
@@ -66,7 +66,8 @@ def test_labels_of_the_opening_scene():
     """All that is to be read of it, and no legend."""
     view = view_of(preset_state())
     said = {
-        name: {row.removeprefix("label ") for row in boxes(view, PLOTS[name], view.course.now)} for name in NAMED
+        name: {row.removeprefix("label ") for row in boxes(view, PLOTS[name], view.course.now)}
+        for name in NAMED
     }
     assert said["springs"] >= {"indenter", "imprint", "yielded", "elastic", "free"}
     assert said["pressure"] >= {"plastic zone", "mean"}
@@ -87,7 +88,8 @@ def test_a_label_names_only_what_is_drawn():
     elastic = view_of(preset_state(ELASTIC))
     shown = drawn(elastic, PLOTS["force"])
     assert "label elastic" in shown
-    assert not shown.keys() & {"label loading", "label plastic work", "label unloading", "label plastic zone"}
+    others = ("loading", "plastic work", "unloading", "plastic zone")
+    assert not shown.keys() & {f"label {name}" for name in others}
     # The onset, slightly ahead, is a mark with a label of its own.
     assert "label yield begins" in shown
 
@@ -110,7 +112,7 @@ def within(x, y, outline):
 
 
 def grounds(view, plot, places, x, y, dark):
-    """Colours on which a label may stand at a point: of areas on each other, with and without their hatching."""
+    """Colours on which a label may stand at a point: of areas on each other, also on their hatching."""
     plain = hatched = ROLES["paper"][dark]
     for row in rows_of(plot):
         if row.kind == "areas" and within(x, y, places[row.name]):
@@ -141,7 +143,7 @@ def test_labels_stand_out_from_what_they_stand_on(key, dark):
                     up = axes[1].start + up * (axes[1].end - axes[1].start)
                     for ground in grounds(view, plot, places, at, up, dark):
                         seen = over(look["background_fill_color"], ground, look["background_fill_alpha"])
-                        assert contrast(look["text_color"], seen) >= 4.5, (name, plot.name, row.name, seen)
+                        assert contrast(look["text_color"], seen) >= 4.5, (name, row.name, seen)
                         tested += 1
     assert tested > 300
 
@@ -155,15 +157,17 @@ def test_boxes_are_those_that_a_browser_paints(server, context, query):
     page.set_viewport_size({"width": 390, "height": 844})
     explorer = Explorer(page, server.url + query)
     for name in NAMED:
-        wide, high = page.evaluate(f"['inner_width', 'inner_height'].map((each) => explorer.model('{name}')[each])")
+        sizes = "(name) => ['inner_width', 'inner_height'].map((each) => explorer.model(name)[each])"
+        wide, high = page.evaluate(sizes, name)
         # A little is seen below zero.
         assert wide / 1.02 >= WIDTH, name
         assert high / 1.05 >= HEIGHT, name
         texts = page.evaluate("""(name) => {
           const context = document.createElement("canvas").getContext("2d")
           context.font = "12px helvetica"
-          const labels = explorer.model(name).renderers.find((each) => each.name === "labels").data_source.data
-          return labels.text.filter(Boolean).map((text) => [text, context.measureText(text).width])
+          const drawn = explorer.model(name).renderers.find((each) => each.name === "labels")
+          const texts = drawn.data_source.data.text.filter(Boolean)
+          return texts.map((text) => [text, context.measureText(text).width])
         }""", name)  # fmt: skip
         assert texts
         for text, measured in texts:
