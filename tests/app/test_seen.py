@@ -127,7 +127,7 @@ def test_the_page_for_measurements_shows_what_will_come_and_then_the_number_abov
         explorer = Explorer(context.new_page(), f"{server.url}?fit", there)
         page = explorer.page
         shown = page.locator(".ghost")
-        assert "E* = … ± …" in shown.inner_text()
+        shown.get_by_text("E* = … ± …").wait_for()
         assert not any(letter.isdigit() for letter in shown.locator(".number").inner_text())
         for step in ("Curve:", "Tip:", "Sample:"):
             assert shown.get_by_text(step).is_visible()
