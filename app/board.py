@@ -49,7 +49,7 @@ class Card:
         controls = [self._control(name) for name in plot.controls]
         close = [button("Close", partial(page.apply, partial(opened, name="")))] * bool(plot.tab)
         found = plot.note_of(view)
-        # In one line, which shows the rest when it is pointed at, or large.
+        # In two lines, which show the rest when they are pointed at, or large.
         note = text("note", f'<span title="{_plain(found)}">{found}</span>', "note found")
         first = text("formula", title, "formula")
         self.head.show([first, *controls, *filter(None, buttons), *close, key, note])

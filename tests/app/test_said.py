@@ -15,6 +15,7 @@ from app.shared.logarithmic import ticks
 from app.shared.summary import file_name
 from app.state import PRESETS, preset_state
 from app.ui import CSS
+from mdr_core.show.units import written
 
 from ..approx import approx
 from .conftest import DROP, ELASTIC, GOLD
@@ -42,6 +43,30 @@ def test_a_scene_that_does_not_yield_has_no_plastic_zone():
         assert float(np.max(view.course.states.plastic_depth)) == 0
         assert "plastic zone, on loading" not in drawn(view, PLOTS["force"])
     assert "plastic zone, on loading" in drawn(view_of(preset_state()), PLOTS["force"])
+
+
+def test_beside_the_springs_stands_when_one_yields_and_the_equations_stand_below():
+    """Class (b): d_c = π q_c/(2E*) = 1.796 nm. Constant hardness: u_c = π a H/(2E*) at the present radius."""
+
+    def aside(state, at=1.0):
+        return PLOTS["springs"].aside(view_of(state, at))
+
+    assert aside(preset_state()) == "a spring yields at u = d_c = 1.796 nm"
+    state = state_with(plasticity="constant")
+    said = [aside(state, at) for at in (0.5, 1.0)]
+    for text, at in zip(said, (0.5, 1.0), strict=True):
+        now = view_of(state, at).course.state
+        cap = np.pi * float(now.contact_radius) * state.volume_hardness / (2 * state.E_star)
+        assert text.startswith(f"a spring yields at u = u_c = {written(cap, 'length')} for a = "), text
+    assert said[0] != said[1]
+    for nothing in (state_with(plasticity="none"), state_with("microsphere-pdms", adhesion="work")):
+        assert aside(nothing) == ""
+    page = Page()
+    titles = [card.head.parts["formula"].look["object"] for card in page.board.cards.values()]
+    assert not [title for title in titles if re.search(r"\(\d+\)|∫", title)]
+    for card in page.board.cards.values():
+        assert card.plot.title in page.frame.below.object
+    assert "∫ a(s) ds" in page.frame.below.object
 
 
 def test_friction_is_said_to_be_the_work_so_far_beside_what_is_of_the_end():
