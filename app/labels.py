@@ -14,7 +14,7 @@ from mdr_core.show.figures import NOTHING, Axis, Row
 #: Pixels within the axes of the smallest plot, of a line of 12 px letters, and kept free beside a label.
 WIDTH, HEIGHT, LINE, GAP = 290, 130, 14, 2
 #: Widths of letters of Helvetica and Arial over their size.
-_WIDTHS = {"fijlrt .,;:()'|": 0.28, "cksvxyz": 0.5, "mwMWCGOQ→−=∞%µ": 0.8}
+_WIDTHS = {"fijlrt .,;:()'|": 0.28, "cksvxyz": 0.5, "mwMWCGOQ→−=∞%": 0.8}
 
 
 def width(text: str) -> float:

@@ -104,7 +104,9 @@ def of_force(view: View, i: int) -> dict:
     if course.turns or course.chained or course.adhesive or not top > 0:
         return {}
     px, py = _pixels(view, D, F)
-    up, down = slice(None, peak + 1), slice(None, peak - 1 if peak else None, -1)
+    # With dashpots the force falls again before the largest depth.
+    up = slice(None, int(np.argmax(states.force[: peak + 1])) + 1)
+    down = slice(None, peak - 1 if peak else None, -1)
 
     def loaded(force: float) -> float:
         return float(np.interp(force, states.force[up], states.depth[up]))
@@ -113,7 +115,11 @@ def of_force(view: View, i: int) -> dict:
         return float(np.interp(force, states.force[down], states.depth[down]))
 
     yields = float(np.max(states.plastic_depth)) > course.initial_plastic_depth
-    beside = [(loaded(share * top) - 5 * px, share * top + 2 * py) for share in (0.62, 0.75, 0.5, 0.35)]
+    shares = (0.62, 0.75, 0.5, 0.35)
+    beside = [(loaded(share * top) - 5 * px, share * top + 2 * py) for share in shares]
+    # Below a curve that is too steep for a label on its left.
+    right = (width("loading") + 8) * px
+    beside += [(loaded(share * top) + right, (share - 0.1) * top) for share in shares]
     found = {"loading" if yields or course.dashpots else "elastic": beside}
     if yields or course.dashpots:
         # Left of the line there has to be room for the word.

@@ -46,7 +46,7 @@ def test_a_scene_that_does_not_yield_has_no_plastic_zone():
 
 
 def test_beside_the_springs_stands_when_one_yields_and_the_equations_stand_below():
-    """Class (b): d_c = π q_c/(2E*) = 1.796 nm. Constant hardness: u_c = π a H/(2E*) at the present radius."""
+    """Class (b): d_c = π q_c/(2E*) = 1.796 nm. Constant hardness: π a H/(2E*), at the present radius."""
 
     def aside(state, at=1.0):
         return PLOTS["springs"].aside(view_of(state, at))
