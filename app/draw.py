@@ -94,7 +94,7 @@ class Picture:
         )
         f.update(title=None, toolbar_location=None, sizing_mode="stretch_both", min_height=100)
         f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None)
-        f.update(min_border_left=60, min_border_right=20, min_border_top=8, min_border_bottom=44)
+        f.update(min_border_left=60, min_border_right=14, min_border_top=8, min_border_bottom=44)
         add_zoom(f)
         f.js_on_change("inner_width", bk.CustomJS(code=JS["canvas"]))
         groups = {row.group for row in rows_of(plot)}

@@ -182,7 +182,7 @@ def test_plots_and_the_path_are_told_in_words(phone):
     force = "Bokeh.index.find_one(explorer.model('force')).el"
     phone.wait(f"{force}.ariaDescription.includes('depth 6.000 nm')")
     tree = phone.page.context.new_cdp_session(phone.page).send("Accessibility.getFullAXTree")["nodes"]
-    nodes = [node for node in tree if node.get("role", {}).get("value") in ("image", "slider")]
+    nodes = [node for node in tree if node.get("role", {}).get("value") in ("figure", "slider")]
     told = {node["name"]["value"]: node for node in nodes}
     for title in ("1D foundation", "Contact pressure", "Force and depth"):
         (name,) = [name for name in told if name.startswith(f"{title}: ")]
