@@ -1,4 +1,4 @@
-"""The board on the right: plots in frames with title, formula and legend, and the list of other plots."""
+"""The board on the right: plots in cards with title and legend, and the list of other plots."""
 
 from dataclasses import replace
 from functools import partial
@@ -23,7 +23,7 @@ def opened(state: State, name: str) -> State:
 
 
 class Card:
-    """A plot in its frame: title, formula, buttons of extras, legend, choices, and a note."""
+    """A plot in its card: title, buttons of extras, legend, choices, and a note."""
 
     def __init__(self, plot: Plot, page: Any):
         self.plot, self.picture, self._page, self._legend = plot, picture_of(plot), page, {}
@@ -37,17 +37,17 @@ class Card:
         # What is cut off by axes that stay leaves no gap: the plot would move while it is dragged.
         kept = self._legend if view.kept else {}
         self._legend = kept | drawn(view, plot)
-        law = plot.formula_of(view.course)
-        formula = Markup('<h3>{}</h3><span title="{}">{}</span>').format(plot.title, law, marked(law))
+        # Its formula stands with the numbers.
+        title = Markup("<h3>{}</h3><span>{}</span>").format(plot.title, marked(plot.aside(view)))
         buttons = (each.on_plots(page, plot, view) for each in EXTRAS.values())
         key = text("key", legend(plot, self._legend), "key")
         controls = [self._control(name) for name in plot.controls]
         close = [button("Close", partial(page.apply, partial(opened, name="")))] * bool(plot.tab)
         found = escape(plot.note_of(view))
-        # In one line, which shows the rest when it is pointed at, or large.
+        # In two lines, which show the rest when they are pointed at, or large.
         shown = Markup('<span title="{}">{}</span>').format(found.striptags(), found)
         note = text("note", shown, "note found")
-        first = text("formula", formula, "formula")
+        first = text("formula", title, "formula")
         self.head.show([first, *controls, *filter(None, buttons), *close, key, note])
 
     def _control(self, name: str) -> Part:

@@ -10,10 +10,11 @@ from bokeh.core.properties import field
 from bokeh.plotting import figure
 from markupsafe import Markup
 
-from mdr_core.show.figures import Axis
+from mdr_core.show.figures import Axis, Row
 
 from .plot import OF_AXIS, Plot, View, overlays, rows_of
 from .quantities import lowered
+from .tools import add_zoom
 from .ui import JS, marked
 
 #: The outline of a canvas, which no linked sheet reaches.
@@ -66,7 +67,7 @@ class Layer:
             rows = [row for row, x in zip(self.rows, xs, strict=True) for _ in x]
             found = {"x": [*chain(*xs)], "y": [*chain(*ys)], "row": [row.name for row in rows]}
         if self.kind == "labels":
-            found["text"] = [text for *_, text in parts]
+            found["text"] = [text if np.isfinite(x) else "" for x, _, text in parts]
         looks = [row.look_in(dark) for row in rows]
         return found | {name: [look[name] for look in looks] for name in self.rows[0].look}
 
@@ -82,24 +83,31 @@ def _short(parts: list[Any], axis: Axis) -> list[list[float]]:
 class Picture:
     """One plot as a figure."""
 
+    #: Shares of the axes x and y that are seen below zero, so that marks at zero are whole.
+    margins = (0.02, 0.05)
+
     def __init__(self, plot: Plot):
         self.plot, self.axes = plot, None
-        # Ranges (SI) of the axes to which a person has zoomed.
-        self._zoom: list[tuple[float, float]] | None = None
+        # Preset and drive that are drawn: the whole plot of another one is shown.
+        self._scene: tuple[str, str] | None = None
         f = self.figure = figure(
             name=plot.name, tools="", x_range=(0, 1), y_range=(0, 1), stylesheets=_FOCUS
         )
         f.update(title=None, toolbar_location=None, sizing_mode="stretch_both", min_height=100)
         f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None)
-        f.update(min_border_left=64, min_border_right=16, min_border_top=8, min_border_bottom=44)
+        f.update(min_border_left=60, min_border_right=14, min_border_top=8, min_border_bottom=44)
+        add_zoom(f)
         f.js_on_change("inner_width", bk.CustomJS(code=JS["canvas"]))
         groups = {row.group for row in rows_of(plot)}
         if any(group.endswith("right") for group in groups):
             f.extra_y_ranges = {"right": bk.Range1d()}
             f.add_layout(bk.LinearAxis(y_range_name="right"), "right")
         for axis in f.axis:
-            axis.update(minor_tick_line_color=None, major_tick_in=0)
+            axis.update(minor_tick_line_color=None, major_tick_in=0, major_tick_out=4)
+            # A plot is low, and what is read in it is the curve.
+            axis.ticker.desired_num_ticks = 4
             axis.update(axis_label_text_font_style="normal", axis_label_text_font_size="12px")
+        f.xgrid.visible = False
         self.layers = [Layer(plot, group, f) for group in _GROUPS if group in groups]
 
     def axes_of(self, view: View) -> list[Axis]:
@@ -115,40 +123,55 @@ class Picture:
 
     def show(self, columns: dict, view: View) -> None:
         """Draw columns that were made for a view."""
-        axes = self.axes_of(view)
+        axes, scene = self.axes_of(view), (view.state.preset, view.state.drive)
+        if scene != self._scene:
+            self._whole()
+        self._scene = scene
         if axes and axes != self.axes:
-            self.axes = axes
             self.set_axes(axes)
+            self.axes = axes
         for source, data in columns.items():
             source.data = data
 
     def set_axes(self, axes: list[Axis]) -> None:
         f = self.figure
         about = f"{self.plot.title}: {axes[1].title}, over {axes[0].title}"
-        f.html_attributes = {"role": "img", "aria-label": about}
-        ranges = (f.x_range, f.y_range, *f.extra_y_ranges.values())
-        sides = (f.below[0], f.left[0], *f.right)
-        for k, (bounds, side, axis) in enumerate(zip(ranges, sides, axes, strict=False)):
-            start, end = (each / axis.factor for each in self._zoom[k]) if self._zoom else axis.ends
-            bounds.update(start=start, end=end)
+        f.html_attributes = {"role": "figure", "aria-label": about}
+        sides, zoomed = (f.below[0], f.left[0], *f.right), self.zoomed
+        known = zip(self.ranges, sides, axes, self.axes or axes, strict=False)
+        for k, (bounds, side, axis, before) in enumerate(known):
+            whole = ends = self._ends(axis, k)
+            if zoomed:
+                # Less than all of it stays so, in another unit, too, until the whole plot is asked for.
+                ends = [each * before.factor / axis.factor for each in (bounds.start, bounds.end)]
+            bounds.update(start=ends[0], end=ends[1], reset_start=whole[0], reset_end=whole[1])
             side.axis_label = axis.label
         symbol = axes[0].title.split(",")[0]
         for layer in self.layers:
             if layer.hover:
                 layer.hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[layer.axis])
 
+    def _ends(self, axis: Axis, k: int) -> tuple[float, float]:
+        """Start and end of the axis of number k, in its unit."""
+        start, end = axis.ends
+        marked = start == 0 and not axis.log and any(layer.kind == "marks" for layer in self.layers)
+        return (-self.margins[min(k, 1)] * end, end) if marked else (start, end)
+
     @property
     def zoomed(self) -> bool:
         """Whether less than the whole plot is shown."""
-        return bool(self._zoom)
+        known = (each for each in self.ranges if each.reset_start is not None)
+        return any((each.start, each.end) != (each.reset_start, each.reset_end) for each in known)
 
-    def zoom_to(self, box: list[list[float]] | None) -> None:
-        """Show what is within ranges, in the units of the axes, or all."""
-        if not self.axes or box == self._zoom:
-            return
-        pairs = zip(box or (), self.axes, strict=False)
-        self._zoom = [(low * axis.factor, high * axis.factor) for (low, high), axis in pairs] or None
-        self.set_axes(self.axes)
+    @property
+    def ranges(self) -> tuple[Any, ...]:
+        """Ranges of the axes x and y, and of one on the right."""
+        return self.figure.x_range, self.figure.y_range, *self.figure.extra_y_ranges.values()
+
+    def _whole(self) -> None:
+        """Show the whole plot."""
+        for each in self.ranges if self.zoomed else ():
+            each.update(start=each.reset_start, end=each.reset_end)
 
 
 def picture_of(plot: Plot) -> Picture:
@@ -157,19 +180,33 @@ def picture_of(plot: Plot) -> Picture:
 
 
 def drawn(view: View, plot: Plot) -> dict[str, str]:
-    """Rows of a plot to be seen in the present state or that of the largest depth, as they are called."""
+    """Rows of a plot to be seen in the present state or that of the largest depth, as they are called.
+
+    Among them are labels that stand for rows, also while there is no room for them.
+    """
     states = [view.places(plot, i) for i in (view.course.now, view.course.peak)]
-    rows = [row for row in rows_of(plot) if any(np.isfinite(each[row.name][1]).any() for each in states)]
+
+    def seen(row: Row, places: dict) -> bool:
+        place = places[row.name]
+        return bool(place[2]) if row.names else bool(np.isfinite(place[1]).any())
+
+    rows = [row for row in rows_of(plot) if any(seen(row, places) for places in states)]
     return {row.name: row.called(states[0][row.name]) for row in rows}
 
 
+def in_legend(plot: Plot, shown: dict[str, str]) -> list[Row]:
+    """Of the visible rows of a plot those that its legend names: no label in the plot does."""
+    rows = rows_of(plot)
+    labelled = {name for row in rows if row.name in shown for name in row.names}
+    return [row for row in rows if row.legend and row.name in shown and row.name not in labelled]
+
+
 def legend(plot: Plot, shown: dict[str, str]) -> Markup:
-    """Legend of the visible rows of a plot, as HTML."""
+    """Legend of the visible rows of a plot that no label names, as HTML."""
     rows = []
-    for row in rows_of(plot):
-        if row.legend and row.name in shown:
-            hatch = "hatch" * (row.look.get("hatch_pattern", " ") != " ")
-            look = " ".join((row.kind, hatch, row.look.get("line_dash", ""), row.look.get("marker", "")))
-            one = Markup('<span class="{}"><i class="{}"></i>{}</span>')
-            rows.append(one.format(row.role, look, marked(shown[row.name])))
+    for row in in_legend(plot, shown):
+        hatch = "hatch" * (row.look.get("hatch_pattern", " ") != " ")
+        look = " ".join((row.kind, hatch, row.look.get("line_dash", ""), row.look.get("marker", "")))
+        one = Markup('<span class="{}"><i class="{}"></i>{}</span>')
+        rows.append(one.format(row.role, look, marked(shown[row.name])))
     return Markup("").join(rows)

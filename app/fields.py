@@ -122,6 +122,8 @@ class Form:
 
     def __init__(self, page: Any):
         self._page, self._open = page, {"more": False, "tip": False}
+        # What is folded and differs from the preset.
+        self._altered: set[str] = set()
         # Why the last file of a tip was refused, or that it is being read.
         self._tip_refused = self._tip_busy = ""
         self._tips: Tips | None = None
@@ -141,9 +143,10 @@ class Form:
             return text(f"note {place}", Markup("").join((before, *found)))
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
-        # What differs from the preset is not folded.
-        in_use = not {*FOLDED_CHOICES, *in_fold}.isdisjoint(altered(state))
-        opened = in_use or self._open["more"]
+        # What begins to differ from the preset is unfolded, but for the moduli that follow a typed E*.
+        now = {*FOLDED_CHOICES, *in_fold}.intersection(altered(state)) - {"E_1", "E_2"}
+        opened = self._open["more"] = self._open["more"] or bool(now - self._altered)
+        self._altered = now
         modulus, *constant = numbers["medium"]
         # Below each choice the numbers of its option.
         more = []
@@ -160,7 +163,7 @@ class Form:
             *numbers["shape"],
             title("Medium"), modulus, page.choice("plasticity"), *constant, *numbers["hardness"],
             note("medium"),
-            button("More about the medium", self._fold, pressed=opened, disabled=in_use, key="fold"),
+            button("More about the medium", self._fold, pressed=opened, key="fold"),
             *more, *[note("more"), note("sources")] * opened,
         ]  # fmt: skip
         self.view.show(parts)

@@ -22,4 +22,6 @@ pn.state.curdoc.template = private.template()
 _name = next((name for name in _PAGES if name in _GIVEN), "")
 _made, _title, _sheets, _extensions = _PAGES.get(_name, (None, "Indentation explorer", [], []))
 pn.extension(*_extensions, notifications=True, css_files=[*SHEETS, *_sheets])
-(_made(_QUERY) if _made else Page(_QUERY).view).servable(_title, _ADDRESS)
+#: The theme that a browser has told by a cookie; a link may ask for another one.
+_DARK = pn.state.cookies.get("dark") == "1"
+pn.panel(_made(_QUERY) if _made else Page(_QUERY, _DARK)).servable(_title, _ADDRESS)

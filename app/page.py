@@ -66,9 +66,9 @@ class History:
 class Page:
     """The page of one session."""
 
-    def __init__(self, query: str = ""):
+    def __init__(self, query: str = "", dark: bool = False):
         self.document = pn.state.curdoc or Document()
-        self.state = preset_state()
+        self.state = preset_state(dark=dark)
         self.history = History((self.state,))
         self.shown: View | None = None
         self._waiting = None
@@ -92,15 +92,23 @@ class Page:
         self._open(query)
         self.history = History((self.state,))
 
+    def __panel__(self) -> Any:
+        """What Panel shows of it, so that `pn.panel(page)` and a layout take a page as it is."""
+        return self.view
+
     def _open(self, query: str) -> None:
         """Show the state of a link; if it is refused, say so and show the opening one."""
         try:
-            self.draw(link.read(query))
-            self._asked_dark = self.state.dark if link.asks_for_theme(query) else None
+            asked = link.read(query)
+            if link.asks_for_theme(query):
+                self._asked_dark = asked.dark
+            else:
+                asked = asked.replace(dark=self.state.dark)
+            self.draw(asked)
             if names := link.unknown(query):
                 self.notify(f"Unknown names in this link are ignored: {', '.join(names):.200}")
         except Exception as error:
-            self.draw(preset_state())
+            self.draw(preset_state(dark=self.state.dark))
             self._refused = True
             self.notify(f"The link was not opened: {self.refusal(error)}")
 

@@ -11,6 +11,7 @@ from mdr_core.show.figures import NOTHING, Axis, Row
 from mdr_core.show.units import fitting
 
 from .courses import Course
+from .labels import arranged
 from .quantities import CHOICES
 from .registry import Registry
 from .state import State
@@ -41,6 +42,8 @@ class Along:
 class Plot:
     """A plot: title, formula, its axes (x, y, and one on the right), and rows.
 
+    The formula stands with the numbers and assumptions; `aside` is what one must know beside the title.
+
     `places` tells where rows are in a state: x and y (SI), and the text of a label. A plot with a `tab` is
     optional; `order` is its place among these. `applies` says whether a view has it. `controls` are names
     of choices and numbers above it. `picture` draws it, if that is not a `Picture`; `shared.logarithmic`
@@ -58,6 +61,7 @@ class Plot:
     order: int = 0
     controls: tuple[str, ...] = ()
     picture: Callable[..., Any] | None = None
+    aside: Callable[["View"], str] = lambda view: ""
 
     def formula_of(self, course: Course) -> str:
         return self.formula if isinstance(self.formula, str) else self.formula(course)
@@ -147,6 +151,8 @@ class View:
         found = {row.name: (*NOTHING, "") for row in rows_of(plot)} | plot.places_of(self, i)
         for each in overlays(plot):
             found |= each.places(self, i)
+        if any(row.names for row in rows_of(plot)):
+            found |= arranged(rows_of(plot), found, plot.axes_of(self))
         unknown = found.keys() - {row.name for row in rows_of(plot)}
         # A picture of its own may draw more than rows.
         if unknown and not plot.picture:

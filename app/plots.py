@@ -11,7 +11,7 @@ from mdr_core.show.figures import label, line, mark, split
 from mdr_core.show.quantities import QUANTITIES
 from mdr_core.show.units import written
 
-from .courses import Course
+from .courses import Course, onset_depth
 from .plot import Along, Plot, View
 from .registry import Registry
 from .state import LISTS, Entries
@@ -60,10 +60,10 @@ def _pressures(course: Course) -> tuple[float, float]:
 
 X = Along("x, coordinate of the springs", "length", across)
 R = Along("r, radius", "length", across)
-Z = Along("z, height", "length", lambda course: (-drawn.REST * deepest(course), deepest(course)))
+Z = Along("z, upward", "length", lambda course: (-drawn.REST * deepest(course), deepest(course)))
 D = Along(QUANTITIES["depth"].title, "length", _of_states("depth"))
 F = Along(QUANTITIES["force"].title, "force", _of_states("force"))
-P = Along("−σzz, pressure", "pressure", _pressures)
+P = Along("p, pressure", "pressure", _pressures)
 
 
 # What is cut off by axes that are kept.
@@ -101,7 +101,7 @@ def springs(view: View, i: int) -> dict:
     """Springs by their state."""
     course, z, state = view.course, view.axis(Z), view.course.states[i]
     rows = drawn.springs(state, view.end(X), z.start, z.end, lambda g: course.relaxing(i, g))
-    return rows | _cut_off(view, state, {X: ("contact_radius", "a"), Z: ("depth", "d")}, Z, 0.97)
+    return rows | _cut_off(view, state, {X: ("contact_radius", "a"), Z: ("depth", "d")}, Z, 0.6)
 
 
 def _spring_formula(course: Course) -> str:
@@ -121,12 +121,31 @@ def _cap(course: Course) -> str:
     a = float(course.turning_point.contact_radius)
     if a == 0:
         return "u_c = π a σ_c/(2E*)  § 20"
-    cap = np.pi * a * float(medium.hardness_at(a)) / (2 * medium.E_star)
-    return f"u_c = π a σ_c/(2E*) = {written(cap, 'length')}  § 20"
+    return f"u_c = π a σ_c/(2E*) = {written(_cap_at(medium, a), 'length')}  § 20"
+
+
+def _cap_at(medium: Any, a: float) -> float:
+    """Largest elastic compression (m) of a spring at a contact radius (m)."""
+    return np.pi * a * float(medium.hardness_at(a)) / (2 * medium.E_star)
+
+
+def _yields_at(view: View) -> str:
+    """The elastic compression at which a spring yields, at the present radius where it depends on that."""
+    course, medium = view.course, view.course.scene.medium
+    a = float(course.state.contact_radius)
+    if course.adhesive or medium.q_c == np.inf or onset_depth(course.scene) == np.inf:
+        return ""
+    if medium.inverse_to_radius:
+        return f"a spring yields at u = d_c = {written(float(medium.critical_depth), 'length')}"
+    if a == 0:
+        return ""
+    cap = written(_cap_at(medium, a), "length")
+    return f"a spring yields at u = u_c = {cap} for a = {written(a, 'length')}"
 
 
 SPRINGS = Plot(
     "springs", "1D foundation", _spring_formula, (X, Z), (*drawn.SPRING_ROWS, CUT_OFF), springs,
+    aside=_yields_at,
 )  # fmt: skip
 
 
@@ -140,7 +159,7 @@ def pressure(view: View, i: int) -> dict:
 
 
 PRESSURE = Plot(
-    "pressure", "Contact pressure", "(10)  σ_zz(r) = (1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
+    "pressure", "Contact pressure", "(10)  p(r) = −σ_zz(r) = −(1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
     (*figures.PRESSURE_ROWS, CUT_OFF), pressure,
 )  # fmt: skip
 
@@ -161,7 +180,7 @@ def force(view: View, i: int) -> dict:
     if onset is not None and not course.dashpots:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if (lower := float(states.plastic_depth[i])) > 0:
-        rows["dₚ"] = max(lower - 3 * right, right), 0.09 * view.end(F), "dₚ"
+        rows["dₚ"] = max(lower - 3 * right, right), 0.12 * view.end(F), "dₚ"
     if course.chained or course.adhesive:
         # No live interval tells what is stored in elements that have each a memory of their own, and with
         # adhesion the area below the curve is not what is stored.
@@ -183,7 +202,7 @@ FORCE = Plot(
         *figures.FORCE_ROWS,
         mark("onset of yield", "paper", "yielded", "diamond", 11),
         mark("now", size=13),
-        label("dₚ"),
+        label("dₚ", 0.0),
         CUT_OFF,
     ),
     force,

@@ -18,11 +18,11 @@ from tornado.web import HTTPError, RequestHandler
 from .ui import JS
 
 _LOG = logging.getLogger(__name__)
-#: As wide as the screen: a phone would lay the page out for a desk. The private ends in the browser come
-#: before all other scripts.
+#: As wide as the screen: a phone would lay the page out for a desk. The theme is known before anything is
+#: drawn, and the private ends in the browser come before all other scripts.
 _HEAD = f"""{{% block postamble %}}
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<script>{{% raw %}}{JS["private"]}{JS["refused"]}{{% endraw %}}</script>
+<script>{{% raw %}}{JS["theme"]}{JS["private"]}{JS["refused"]}{{% endraw %}}</script>
 <link rel="modulepreload" href="app/static/parts.js">{{% endblock %}}"""
 _WITHOUT_WEBGL = """{% block js_resources %}
 {% for line in bokeh_js.splitlines() if "bokeh-gl" not in line %}{{ line }}

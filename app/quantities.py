@@ -70,7 +70,10 @@ class Choice:
 
 @dataclass(frozen=True)
 class Readout:
-    """A readout: an attribute `of` a course, with its symbol, unit and long name."""
+    """A readout: an attribute `of` a course, with its symbol, unit and long name.
+
+    `short` is its name above the plots, in one line, where that is not the long one.
+    """
 
     name: str
     of: str
@@ -79,6 +82,7 @@ class Readout:
     long_name: str
     help: str
     equation: str = ""
+    short: str = ""
 
     def values(self, course: Any) -> Any:
         for name in self.of.split("."):

@@ -13,6 +13,8 @@ from .courses import Course
 from .quantities import CHOICES, READOUTS, Readout, lowered
 from .ui import linked, symbol
 
+#: Most readouts above the plots, beside each other.
+MOST = 8
 #: Relative to the largest term of a sum: what is left of it by rounding, some units in the last place.
 _RESIDUE = 16 * np.finfo(float).eps
 
@@ -64,7 +66,7 @@ def heads(numbers: dict[Readout, Any]) -> Markup:
 @cache
 def head(readout: Readout) -> Markup:
     about = f"{lowered(readout.help)} {lowered(readout.equation)}".strip()
-    return _ABOUT.format(about, symbol(readout.symbol), readout.long_name)
+    return _ABOUT.format(about, symbol(readout.symbol), readout.short or readout.long_name)
 
 
 def explained(numbers: dict[Readout, Any], link: Callable[[str], Markup] = linked) -> Markup:

@@ -17,6 +17,8 @@ from .ui import landmarks
 #: Goes to the place that the address names.
 _SCRIPT = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 
+#: A link to a file beside the theory, which no server has.
+_FILE = re.compile(r"\[(.*?)\]\(\w+\.md\)")
 #: Equations that a text names, (4) or (4)–(8).
 _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
 
@@ -25,7 +27,7 @@ def html():
     """The theory as HTML with KaTeX formulas and ids of sections and equations."""
     parser, marked = MarkdownIt().enable("table"), set()
     parser.use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)")
-    tokens = parser.parse((ASSETS / "theory.md").read_text(encoding="utf-8"))
+    tokens = parser.parse(_FILE.sub(r"\1", (ASSETS / "theory.md").read_text(encoding="utf-8")))
     parts, in_body = [], False
     for k, token in enumerate(tokens):
         if token.type == "heading_open" and (number := re.match(r"\d+", tokens[k + 1].content)):

@@ -12,6 +12,7 @@ from ..extra import EXTRAS, Extra
 from ..plot import OVERLAYS, rows_of
 from ..plots import PLOTS
 from ..quantities import CHOICES, QUANTITIES, Option, include, read_data
+from ..readouts import MOST
 from ..registry import Registry
 from ..state import LISTS, OF_EXTRAS, VIEW, Entries, include_presets
 
@@ -82,6 +83,11 @@ def _check(name: str, extra: Extra, data: dict[str, Any]) -> None:
     for choice, told in data.get("choices", {}).items():
         known = "." in choice or "label" not in told
         require(known, f"choice {choice!r} is not one of the page; call it {name + '.' + choice!r}")
+    for drive, told in data.get("choices", {}).get("drive", {}).get("options", {}).items():
+        line = told.get("line", ())
+        require(
+            len(line) <= MOST, f"drive {drive!r} has {len(line)} readouts in its line; give at most {MOST}"
+        )
     for plot in extra.plots:
         require(plot.tab != "", f"plot {plot.name!r} has no tab, by which it is opened")
         called = [row.name for row in rows_of(plot)]

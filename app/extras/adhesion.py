@@ -88,7 +88,7 @@ def _energies(view: View, i: int) -> dict:
         "gained": (around, np.concatenate(gained)) if gains else NOTHING,
         "given back": returned,
         "W_a": (left, top - 0.02 * height, said),
-        "W_U": (left, top - 0.08 * height, f"given back {written(-back, 'energy', 3)}" if back < 0 else ""),
+        "W_U": (left, top - 0.14 * height, f"given back {written(-back, 'energy', 3)}" if back < 0 else ""),
     }
 
 

@@ -62,7 +62,11 @@ def law_of_hardness(course: Course) -> str:
     hardness = written(float(made.hardness_at(a)), "pressure")
     place = " at every a" if law == "H" else f" at a = {written(a, 'length')}"
     starts = f"Yield starts at d_y = {written(onset, 'length')}"
-    if onset == np.inf:
+    if imprint := course.initial_plastic_depth:
+        starts = (
+            f"Over the imprint yield goes on at d = {written(onset_depth(course.scene, imprint), 'length')}"
+        )
+    elif onset == np.inf:
         starts = "Nothing yields under this shape: H is too large"
     elif onset == 0:
         starts = "Yield starts at first contact, d_y = 0"

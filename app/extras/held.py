@@ -9,7 +9,7 @@ import panel as pn
 from markupsafe import Markup
 
 from mdr_core.show import figures
-from mdr_core.show.figures import NOTHING, Axis, both, line
+from mdr_core.show.figures import NOTHING, Axis, both, label, line
 from mdr_core.show.springs import spring_line
 
 from .. import link
@@ -18,7 +18,7 @@ from ..drives import follow, scene_of
 from ..extra import Entries, Extra
 from ..parts import Part, button
 from ..plot import Along, Overlay, View
-from ..plots import PLOTS, P, R, X
+from ..plots import PLOTS, D, F, P, R, X
 from ..readouts import line as readout_line
 from ..readouts import text
 from ..shared import widgets
@@ -32,6 +32,8 @@ from ..ui import WIDE, html, marked, show, symbol
 DASHES = ("dotdash", "dashed", "dotted", "solid")
 #: And its own colour, by its role.
 ROLES = ("held", "held-2", "held-3", "held-4")
+#: What is said once a scene is kept.
+KEPT = "Kept for comparison. Now change something."
 #: Share of both axes below which a curve is a point.
 _SEEN = 0.01
 
@@ -180,6 +182,13 @@ def _beyond(axes: list[Axis], rows: list[tuple]) -> str:
     return " (too small to be seen)" * small
 
 
+def _kept(view: View, i: int) -> dict:
+    """What *Compare* has done, over the curves, until the present scene is another one than the kept."""
+    same = any(each.course.scene == view.course.scene for each in scenes(view))
+    left = view.axis(D).start + 0.02 * (view.end(D) - view.axis(D).start)
+    return {"kept": (left, 0.84 * view.end(F), KEPT if same else "")}
+
+
 def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> Overlay:
     @once
     def places(view: View) -> dict:
@@ -197,7 +206,8 @@ def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> 
 OVERLAYS = (
     _overlay("springs", _rows("z", width=2.2), _springs),
     _overlay("force", _rows("F"), _force),
-    _overlay("pressure", _rows("−σzz"), _pressure),
+    _overlay("pressure", _rows("p"), _pressure),
+    Overlay("force", (label("kept"),), _kept),
     _overlay("hardness", [*_rows("pₘ"), *_rows("σ", " hardness", width=1.0, legend=False)], _hardness),
     _overlay("motion", _rows("F", axis=2), _over_time("motion", "force F")),
     _overlay("forces", _rows("F"), _over_time("forces", "tangential force Fₓ")),
@@ -232,12 +242,13 @@ class Table:
         found = [[name, *(each.get(name, "–") for each in columns)] for name in columns[0]]
         # Numbers that differ; what is the same need not be read twice.
         rows += [[symbol(name), *texts] for name, *texts in found if len({*texts}) > 1]
-        same = "All numbers are the same: change the shape, the medium or a number." * (len(rows) == 1)
         cells = (
             Markup("<tr><th>{}</th><td>{}</td></tr>").format(head, Markup("</td><td>").join(row))
             for head, *row in rows
         )
-        show(self._numbers, object=same or Markup("<table>{}</table>").format(Markup("").join(cells)))
+        table = Markup("<table>{}</table>").format(Markup("").join(cells))
+        same = Markup('<p role="status">{} All numbers are the same so far.</p>').format(KEPT)
+        show(self._numbers, object=table if len(rows) > 1 else same)
 
 
 def compare(page: Any, view: View) -> Part:

@@ -51,7 +51,7 @@ class Letters(Service):
 def set_letters(picture: Picture, scale: float) -> None:
     """Make the letters of a plot so many times as large as on the page."""
     title, tick = f"{12 * scale:g}px", f"{11 * scale:g}px"
-    picture.figure.min_border_left = round(48 * scale) + 16
+    picture.figure.min_border_left = round(48 * scale) + 12
     for axis in picture.figure.axis:
         axis.update(axis_label_text_font_size=title, major_label_text_font_size=tick)
     for text in picture.figure.select(Text):

@@ -1,6 +1,6 @@
 """Assumptions of the model, notes on the course, and what the numbers are, below the player."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import Any
 
@@ -11,8 +11,8 @@ from mdr_core.show.units import written
 from .. import readouts
 from ..courses import Course
 from ..extra import Extra
-from ..plot import View
-from ..plots import visible
+from ..plot import Plot, View
+from ..plots import NAMED, PLOTS, visible
 from ..quantities import CHOICES
 from ..state import State
 from ..ui import linked, marked
@@ -62,10 +62,15 @@ def below(view: View) -> Markup:
         exceeded += html * (level == "beyond")
         others += html * (level != "beyond")
     others += readouts.explained(readouts.line(view.course))
-    laws = [(plot.title, linked(plot.formula_of(view.course))) for plot in visible(view)]
-    plots = Markup("").join(Markup("<dt>{}</dt><dd><em>{}</em></dd>").format(*each) for each in laws)
-    folded = Markup("<details><summary>{}</summary>{}<dl>{}</dl></details>").format(_HEAD, others, plots)
-    return exceeded + folded
+    others += _laws(view, visible(view), linked)
+    return exceeded + Markup("<details><summary>{}</summary>{}</details>").format(_HEAD, others)
+
+
+def _laws(view: View, plots: Iterable[Plot], link: Callable[[str], Markup]) -> Markup:
+    """The formula of each plot, with the numbers of its equations (HTML); `link` makes HTML of a text."""
+    laws = ((plot.title, link(plot.formula_of(view.course))) for plot in plots)
+    rows = (Markup("<dt>{}</dt><dd><em>{}</em></dd>").format(*each) for each in laws)
+    return Markup("<dl>{}</dl>").format(Markup("").join(rows))
 
 
 def told(view: View) -> list[tuple[str, str]]:
@@ -73,6 +78,7 @@ def told(view: View) -> list[tuple[str, str]]:
     sentences = limits(view.course, view.state)
     html = (_SENTENCE.format(level, marked(sentence)) for level, sentence in sentences)
     numbers = readouts.explained(readouts.line(view.course), marked)
+    numbers += _laws(view, map(PLOTS.__getitem__, NAMED), marked)
     return [("Assumptions and notes", Markup("").join(html)), ("What the numbers are", numbers)]
 
 

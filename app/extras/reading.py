@@ -8,7 +8,7 @@ from mdr_core.show.units import written
 from ..courses import Course, onset_depth
 from ..extra import Extra
 from ..plot import Overlay, View
-from ..plots import D, F, X, Z
+from ..plots import D, F, Z
 
 
 def sentence(course: Course, i: int) -> str:
@@ -33,14 +33,14 @@ def _first(course: Course) -> str:
 
 
 def words(view: View, i: int) -> dict:
-    return {"reading": (-0.97 * view.end(X), 0.72 * view.end(Z), sentence(view.course, i))}
+    return {"reading": (0.0, 0.97 * view.end(Z), sentence(view.course, i))}
 
 
 def zone(view: View, i: int) -> dict:
-    """Depths beyond the onset of yield, at which loading has a plastic zone."""
+    """Depths beyond the onset of yield, at which loading has a plastic zone, where the scene yields."""
     course, top = view.course, view.end(F)
     known = course.onset is not None and not (course.dashpots or course.initial_plastic_depth)
-    if not known or course.onset.depth >= view.end(D):
+    if not known or course.onset.depth >= np.max(course.states.depth):
         return {"plastic zone, on loading": NOTHING}
     ends, bottom = (float(course.onset.depth), view.end(D)), view.axis(F).start
     columns = np.array([ends[0], *ends, ends[1]]), np.array([bottom, top, top, bottom])
@@ -50,7 +50,7 @@ def zone(view: View, i: int) -> dict:
 EXTRA = Extra(
     "reading",
     overlays=(
-        Overlay("springs", (label("reading"),), words),
+        Overlay("springs", (label("reading", 0.0, "center"),), words),
         Overlay("force", (area("plastic zone, on loading", "yielded", 0.07),), zone),
     ),
 )

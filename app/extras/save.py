@@ -3,13 +3,13 @@
 from typing import Any
 
 from ..courses import Course
-from ..draw import drawn
+from ..draw import drawn, in_legend
 from ..extra import Extra, Service
 from ..parts import Part
-from ..plot import Plot, View, rows_of
+from ..plot import Plot, View
 from ..plots import visible
 from ..quantities import lowered
-from ..shared.summary import summary
+from ..shared.summary import file_name, summary
 from ..state import State
 
 #: Width and height of a picture in points, and where its plots are: left, top, width and height.
@@ -33,9 +33,10 @@ class Legends(Service):
 
     def rest(self, view: View) -> None:
         self._legends["scene"] = summary(view.state)
+        self._legends["file"] = file_name(view.state, "")
         for plot in visible(view):
             called = drawn(view, plot)
-            rows = [lowered(called.get(row.name, row.name)) for row in rows_of(plot) if row.legend]
+            rows = [lowered(called[row.name]) for row in in_legend(plot, called)]
             self._legends[plot.name] = {"rows": rows, "title": plot.title}
 
 
@@ -45,7 +46,8 @@ def save(label: str, name: str, places: dict[str, Any], size: tuple[int, int], v
     looks = [legends.get(each, {"rows": [], "title": ""}) for each in places]
     plots = [{"figure": figure, "place": place} for figure, place in places.items()]
     look = {"label": label, "looks": looks, "scene": legends.get("scene", "")}
-    return Part("save", label, look | {"file": name, "plots": plots, "size": size})
+    look["file"] = legends.get("file", "") + name
+    return Part("save", label, look | {"plots": plots, "size": size})
 
 
 def of_plot(page: Any, plot: Plot, view: View) -> Part:

@@ -83,9 +83,9 @@ def scene_file(view: View) -> str:
 
 
 def _card(view: View, plot: Plot) -> tuple[str, ...]:
-    """Name of a plot, and title, formula and legend as HTML."""
+    """Name of a plot, and title, what stands beside it, and legend as HTML."""
     key = legend(plot, drawn(view, plot))
-    return plot.name, plot.title, marked(plot.formula_of(view.course)), key
+    return plot.name, plot.title, marked(plot.aside(view)), key
 
 
 def _connect(document: Document, view: View, pictures: list[Picture], messages: Messages) -> None:

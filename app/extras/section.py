@@ -19,7 +19,7 @@ _PIXELS = (72, 96)
 _DRAWN = {
     "max_shear": ("τmax, largest shear stress", lambda stress: stress.max_shear),
     "von_mises": ("σvM, von Mises stress", lambda stress: stress.von_mises),
-    "zz": ("−σzz, pressure downward", lambda stress: 0.0 - stress.zz),
+    "zz": ("p, pressure downward", lambda stress: 0.0 - stress.zz),
 }
 
 
@@ -27,7 +27,7 @@ def section(course: Course, asked):
     """Map of a stress over r and z, with a, c and the place of the maximum."""
     (quantity,), state, reach = asked, course.state, 1.6 * float(course.turning_point.contact_radius)
     r = axis("r, radius", "length", reach)
-    z = replace(axis("z, height", "length", reach, -reach), end=0.0)
+    z = replace(axis("z, upward", "length", reach, -reach), end=0.0)
     title, of_stress = _DRAWN[quantity]
     reason = "No contact, and so no stress." if state.contact_radius == 0 else ""
     if course.chained:

@@ -11,7 +11,7 @@ import mdr_core as mdr
 from ..extra import EXTRAS, Extra
 from ..plot import View
 from ..readouts import readings
-from ..shared.summary import summary
+from ..shared.summary import file_name, summary
 from ..shared.widgets import field, tools
 from ..tables import as_csv
 from ..ui import JS, WIDE, html, show
@@ -57,17 +57,18 @@ class Share:
         self.link = field(pn.widgets.TextInput, label="Link to this page")
         self.python = field(pn.widgets.TextAreaInput, label="This scene in Python", rows=12)
         self._note = html()
-        buttons = [
-            pn.widgets.FileDownload(
+        #: Buttons by what is in their files.
+        self._files = {
+            name: pn.widgets.FileDownload(
                 label=label, filename=name, callback=lambda write=write: StringIO(write(page.shown)),
                 auto=True, css_classes=["button"], margin=0,
             )
             for extra in EXTRAS.values()
             for label, name, write in extra.files
-        ]  # fmt: skip
+        }  # fmt: skip
         copy = pn.widgets.Button(label="Copy link", css_classes=["button"], margin=0)
         copy.js_on_click(args={"field": self.link}, code=JS["copy"])
-        parts = self.link, self._note, tools(copy, *buttons), self.python
+        parts = self.link, self._note, tools(copy, *self._files.values()), self.python
         self.view = pn.Column(*parts, css_classes=["share"], **WIDE)
 
     def address(self) -> tuple[str, str]:
@@ -80,6 +81,8 @@ class Share:
         address, note = self.address()
         show(self.link, value=address)
         show(self._note, object=note)
+        for name, download in self._files.items():
+            show(download, filename=file_name(view.state, name))
         show(self.python, value=view.course.scene.to_python())
 
 

@@ -16,7 +16,7 @@ def _around(course: Course) -> tuple[float, float]:
 
 
 R = Along("r, radius", "length", _around)
-Z = Along("z, height", "length", lambda course: (-1.2 * deepest(course), deepest(course)))
+Z = Along("z, upward", "length", lambda course: (-1.2 * deepest(course), deepest(course)))
 #: Where points lie between edges, at which the surface is steep.
 _DENSE = (1 - np.cos(np.linspace(0, np.pi, 20))) / 2
 

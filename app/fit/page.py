@@ -82,6 +82,10 @@ class Measurement(Source):
             self.document.on_session_destroyed(lambda context: self.close())
         self._begin()
 
+    def __panel__(self) -> Any:
+        """What Panel shows of it, so that `pn.panel(page)` and a layout take a page as it is."""
+        return self.view
+
     def _begin(self) -> None:
         """Show what a link asks for: an example once the page is there, another file by its name."""
         asked = self.setting
@@ -331,5 +335,4 @@ class Measurement(Source):
 
 def served(query: str) -> Any:
     """The page of a session."""
-    page = Measurement(query)
-    return page.view
+    return Measurement(query)

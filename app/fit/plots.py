@@ -7,13 +7,17 @@ import numpy as np
 from bokeh.plotting import figure
 
 from mdr_core.fit.indentation import IndentationFit
+from mdr_core.show.figures import ROLES
 from mdr_core.show.units import fitting
 
+from ..tools import add_zoom
 from ..ui import JS
 from .measurement import Samples
 
-#: Colours as those of the explorer's light theme: measured, model, not in use.
-_MEASURED, _MODEL, _OTHER, _INK = "#7a4a1e", "#0072b2", "#b9bec6", "#22272e"
+#: Colours by their roles, light and dark: measured, model, not in use.
+_MEASURED, _MODEL, _OTHER, _INK, _PAPER = (
+    ROLES[role] for role in ("measured", "elastic", "free", "ink", "paper")
+)
 #: Most samples that are drawn of each kind.
 _DRAWN = 1000
 
@@ -22,31 +26,32 @@ class Plots:
     """Both figures, with one axis of depth."""
 
     def __init__(self) -> None:
-        tools = {"tools": "pan,box_zoom,wheel_zoom,reset,save", "toolbar_location": "right"}
-        look = {"sizing_mode": "stretch_both", "output_backend": "canvas", "y_range": (0, 1)}
-        self.force = figure(name="force plot", css_classes=["of-force"], x_range=(0, 1), **look | tools)
+        look = {"sizing_mode": "stretch_both", "output_backend": "canvas", "y_range": (0, 1), "tools": ""}
+        self.force = figure(name="force plot", css_classes=["of-force"], x_range=(0, 1), **look)
         self.residual = figure(
-            name="residual plot", css_classes=["of-residual"], x_range=self.force.x_range, tools="", **look
+            name="residual plot", css_classes=["of-residual"], x_range=self.force.x_range, **look
         )
-        self.residual.toolbar_location = None
+        #: Models with a property of theirs and its colours, light and dark: a browser knows which it shows.
+        self.looks: list[tuple[Any, str, tuple[str, str]]] = []
         # The plot is low: labels of more values would touch each other.
         self.residual.yaxis.ticker.desired_num_ticks = 3
         # The same width inside the axes, so that depths stand below each other.
         for each in (self.force, self.residual):
+            add_zoom(each)
             each.min_border_left = 76
-            each.toolbar.logo = None
-            each.min_border_right = 34
+            each.min_border_right = 20
+            each.update(background_fill_color=None, border_fill_color=None)
             for axis in each.axis:
                 axis.axis_label_text_font_style = "normal"
                 axis.minor_tick_line_color = None
                 axis.axis_label_text_font_size = axis.major_label_text_font_size = "12px"
-            each.grid.grid_line_color = "#e8eaed"
+            each.xgrid.visible = False
             each.outline_line_color = None
             each.js_on_change("inner_width", bk.CustomJS(code=JS["canvas"]))
         about = {"aria-label": "Force over measured depth, as measured and of the model"}
         self.force.html_attributes = {"role": "figure"} | about
         about = {"aria-label": "Residuals of the force over measured depth, between bounds of the noise"}
-        self.residual.html_attributes = {"role": "img"} | about
+        self.residual.html_attributes = {"role": "figure"} | about
         self.force.xaxis.axis_label = ""
         self.sources = {name: bk.ColumnDataSource({"x": [], "y": []}, name=name) for name in _NAMES}
         self._draw()
@@ -54,19 +59,27 @@ class Plots:
     def _draw(self) -> None:
         force, residual, sources = self.force, self.residual, self.sources
         look = {"size": 4, "line_color": None}
-        force.scatter("x", "y", source=sources["others"], color=_OTHER, legend_label="not fitted", **look)
-        force.scatter(
-            "x", "y", source=sources["measured"], color=_MEASURED, legend_label="measured", **look
-        )
-        force.line("x", "y", source=sources["model"], color=_MODEL, width=2, legend_label="model")
+        others = force.scatter("x", "y", source=sources["others"], legend_label="not fitted", **look)
+        measured = force.scatter("x", "y", source=sources["measured"], legend_label="measured", **look)
+        model = force.line("x", "y", source=sources["model"], width=2, legend_label="model")
         force.legend.location = "top_left"
         force.legend.background_fill_alpha = 0.8
         force.legend.border_line_color = None
         force.legend.label_text_font_size = "12px"
         force.legend.glyph_height = force.legend.label_height = 15
-        residual.add_layout(bk.Span(location=0, dimension="width", line_color=_INK, line_dash="dashed"))
-        residual.line("x", "y", source=sources["noise"], color=_OTHER, width=1.2)
-        residual.scatter("x", "y", source=sources["residuals"], color=_MEASURED, **look | {"size": 3})
+        zero = bk.Span(location=0, dimension="width", line_dash="dashed")
+        residual.add_layout(zero)
+        noise = residual.line("x", "y", source=sources["noise"], width=1.2)
+        misses = residual.scatter("x", "y", source=sources["residuals"], **look | {"size": 3})
+        (key,) = force.legend
+        self.looks += [
+            (others.glyph, "fill_color", _OTHER), (measured.glyph, "fill_color", _MEASURED),
+            (misses.glyph, "fill_color", _MEASURED), (model.glyph, "line_color", _MODEL),
+            (noise.glyph, "line_color", _OTHER), (zero, "line_color", _INK),
+            (key, "label_text_color", _INK), (key, "background_fill_color", _PAPER),
+        ]  # fmt: skip
+        for made, name, colours in self.looks:
+            setattr(made, name, colours[0])
 
     def show(self, taken: Samples, used: np.ndarray, fit: IndentationFit | None) -> None:
         """Show samples, and the fit of those in use."""

@@ -7,11 +7,13 @@ from typing import Any
 
 import numpy as np
 import panel as pn
+from bokeh.events import DocumentReady
+from bokeh.models import CustomJS
 from markupsafe import Markup
 
 from mdr_core.show.units import written
 
-from ..ui import JS, WIDE, html, marked, show
+from ..ui import JS, WIDE, html, marked, own_html, show
 from . import words
 from .explorer import explorer_query
 from .files import map_csv
@@ -24,12 +26,9 @@ _BOTH = {"sizing_mode": "stretch_both", "margin": 0}
 #: Most curves of a file that are listed.
 _LISTED = 300
 _PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
+#: What a person sees before there is a curve: what the page does, and in grey what will come.
+_WELCOME = own_html(Path(__file__).with_name("welcome.html"))
 _HEAD = Markup('<p class="big none">{}</p><p class="of">{}</p>')
-_WELCOME = _HEAD.format(
-    "A curve in, E* out",
-    "Drop a file of depth and force, or open a sample; choose the tip and the kind of sample. "
-    "The fit runs at once.",
-)
 _OF_POISSON = Markup('<p class="of">Give ν on the left for Young’s modulus E of the sample.</p>')
 _WAITING = Markup('<p class="waiting" role="status">{} …</p>')
 _CURVES = Markup(
@@ -60,6 +59,8 @@ class Results:
         self._range()
         self._map()
         self.plots = Plots()
+        shade = CustomJS(args={"looks": self.plots.looks}, code=JS["shade"])
+        self._page.document.js_on_event(DocumentReady, shade)
         self.curve = pn.Column(
             pn.pane.Bokeh(self.plots.force, **_BOTH),
             pn.pane.Bokeh(self.plots.residual, **_BOTH),
@@ -200,6 +201,8 @@ class Results:
         remarks = words.remarks(fit, (*page.told.remarks, *page.curve.remarks)) if fit is not None else []
         show(self.remarks, object=_folded(remarks))
         if fit is not None:
+            for name, download in zip(("json", "csv"), self.files, strict=True):
+                show(download, filename=f"{Path(page.setting.file).stem}_fit.{name}")
             show(self._report, value=words.report(page.setting, fit, page.told, page.E))
             try:
                 query = explorer_query(page.setting, fit)

@@ -11,24 +11,24 @@ window.toolkit = (() => {
   const end = (from, name, lost) => (from ? from[name] ?? missing(name, lost) : null)
   const call = (from, name, lost, ...given) => (typeof end(from, name, lost) === "function" ? from[name](...given) : null)
   const all = (root) => [...root?.querySelectorAll("*") ?? []].flatMap((each) => [each, ...all(each.shadowRoot)])
-  // All of what is drawn of a model. Without it plots are neither zoomed, dragged nor saved.
-  const view = (model) => call(window.Bokeh?.index, "find_one", "plots are neither zoomed, dragged nor saved", model)
-  const element = (model) => end(view(model), "el", "plots are neither zoomed nor dragged")
+  // All of what is drawn of a model. Without it plots are neither dragged nor saved.
+  const view = (model) => call(window.Bokeh?.index, "find_one", "plots are neither dragged nor saved", model)
+  const element = (model) => end(view(model), "el", "plots are not dragged")
   return {
     // Where a model is on the page: what is done there is done to it.
     element,
-    // The figures of a document: which one is zoomed, and those that are laid out again.
-    figures: (document) => [...end(document, "all_models", "plots are not zoomed") ?? []].filter(({ type }) => type === "Figure"),
+    // The figures of a document, which are laid out again.
+    figures: (document) => [...end(document, "all_models", "a plot stays as high as it was when a note is opened") ?? []].filter(({ type }) => type === "Figure"),
     // The box inside the axes of a plot, in pixels of the window, and its scales, which turn values to such pixels and back:
-    // a box is zoomed to, a spring is told, and a finger takes hold of a mark.
+    // a spring is told, and a finger takes hold of a mark.
     frame(figure) {
-      const lost = "plots are not zoomed, and springs say nothing", on = element(figure), frame = end(view(figure), "frame", lost)
+      const lost = "springs say nothing", on = element(figure), frame = end(view(figure), "frame", lost)
       const [box, x, y] = ["bbox", "x_scale", "y_scale"].map((name) => end(frame, name, lost))
       if (!(on && box && x && y)) return null
-      const { left, top } = on.getBoundingClientRect(), right = frame.y_scales?.get?.("right")
+      const { left, top } = on.getBoundingClientRect()
       const moved = (scale, by) => ({ compute: (value) => by + scale.compute(value), invert: (place) => scale.invert(place - by) })
       const edges = { left: left + box.left, right: left + box.right, top: top + box.top, bottom: top + box.bottom }
-      return { ...edges, x: moved(x, left), y: moved(y, top), y_right: right && moved(right, top) }
+      return { ...edges, x: moved(x, left), y: moved(y, top) }
     },
     // A played state is painted in every frame of the screen; by itself Bokeh paints at most every second one.
     paint: (figure) => call(view(figure), "repaint", "what is played is painted in every second frame"),

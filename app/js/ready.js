@@ -1,19 +1,13 @@
-// Once the page is there: the keys of undo and Escape, and the theme of the system.
+// Once the page is there: the keys of undo and Escape, the theme, and the address.
 const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
-// Dark or light: as a link asks, else as was chosen in this browser, else as the system is. A browser may refuse to keep it.
-const kept = (act) => { try { return act() } catch { return null } }
-const shade = () => document.documentElement.classList.toggle("dark", messages.dark)
-shade()
-const chosen = kept(() => localStorage.getItem("dark")), system = matchMedia("(prefers-color-scheme: dark)").matches
-if (!new URLSearchParams(location.search).has("dark")) messages.dark = chosen === null ? system : chosen === "1"
-shade()
-messages.properties.dark.change.connect(() => {
-  shade()
-  kept(() => localStorage.setItem("dark", messages.dark ? "1" : "0"))
-})
+// The server has drawn what a cookie told it, which a first visit has not.
+if (!theme.asked) messages.dark = theme.own
+theme.show(messages.dark)
+messages.properties.dark.change.connect(() => theme.choose(messages.dark))
 // The address says what is shown, without a step in the history.
 messages.properties.address.change.connect(() => {
-  if (messages.address) history.replaceState(null, "", messages.address)
+  // The opening scene has no query, and the address then no mark of one.
+  if (messages.address) history.replaceState(null, "", messages.address === "?" ? location.pathname : messages.address)
 })
 document.addEventListener("keydown", (event) => {
   const on = event.composedPath()[0]

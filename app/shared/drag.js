@@ -1,5 +1,7 @@
 // A drag takes the indenter along, or the mark on the curve: to another depth when pressing, else to the nearest state.
 const figure = cb_obj.origin, { name, x_range: x, y_range: y, inner_height } = figure
+// A box that is drawn to zoom is no drag.
+if (figure.toolbar.tools.some(({ type, active }) => type === "BoxZoomTool" && active)) return
 const { d, F, unit, pressing } = JSON.parse(dragging.path), wide = (range) => range.end - range.start
 const [begin, depth, pixel] = cb_obj.event_name === "panstart" ? [cb_obj.sy, d[player.value] * unit, wide(y) / inner_height] : figure.tags
 figure.setv({ tags: [begin, depth, pixel] }, { sync: false })

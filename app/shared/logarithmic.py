@@ -8,6 +8,7 @@ import numpy as np
 from mdr_core.show.figures import Axis
 
 from ..draw import Picture
+from ..ui import JS
 
 
 class Logarithmic(Picture):
@@ -30,8 +31,9 @@ class Logarithmic(Picture):
 
 def ticks(low: float, high: float) -> tuple[Any, Any]:
     """Ticker and formatter of a logarithmic axis; over two decades or less Bokeh's has too many."""
+    formatter = bk.CustomJSTickFormatter(code=JS["powers"])
     if high > 101 * low:
-        return bk.LogTicker(), bk.LogTickFormatter()
+        return bk.LogTicker(num_minor_ticks=0), formatter
     powers = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
     fixed = bk.FixedTicker(ticks=[float(f"{n}e{power:.0f}") for power in powers for n in (1, 2, 5)])
-    return fixed if high > 5 * low else bk.BasicTicker(), bk.BasicTickFormatter()
+    return fixed if high > 5 * low else bk.BasicTicker(), formatter

@@ -14,6 +14,8 @@ from ..plot import View
 class Map(Picture):
     """A plot with an image, and a bar with its colours."""
 
+    margins = (0.0, 0.0)
+
     def __init__(self, plot: Any):
         super().__init__(plot)
         empty = {name: [] for name in ("image", "x", "y", "dw", "dh")}

@@ -4,6 +4,95 @@ import { make_player } from "./player.js"
 import { save } from "./save.js"
 
 const made = (tag, className, innerHTML = "") => Object.assign(document.createElement(tag), { className, innerHTML })
+// The scale of a slider: values as they stand along it, linear or logarithmic, and back.
+const SCALES = { linear: [Number, Number], logarithmic: [Math.log, Math.exp] }
+// A number, typed with its unit or dragged. What is typed is sent at once; of a drag one value is under way, and what is
+// dragged meanwhile is a wish, which replaces what waits. What was refused stays in its field, to be corrected.
+class NumberPart {
+  constructor({ label, spoken, about, span, id }, send) {
+    this.send = send
+    // What the server has told last, how many messages it has answered, and how many are asked; a wish, and whether a
+    // person types.
+    Object.assign(this, { now: null, answered: 0, asked: 0, wish: null, typing: false })
+    this.scale = span > 0 ? "logarithmic" : "linear"
+    this.el = made("div", "number", `<div class="row"><label for="text-${id}">${label}</label>
+      <button class="help" aria-expanded="false" aria-label="What is ${spoken}?">?</button>
+      <input id="text-${id}" type="text" spellcheck="false" autocomplete="off" aria-describedby="said-${id}" aria-label="${spoken}"></div>
+      <input type="range" max="400" title="Arrow keys step, double-click resets" aria-label="${spoken}, slider">
+      <div class="ends" aria-hidden="true"><span></span><span>${this.scale}</span><span></span></div>
+      <p class="said" id="said-${id}" aria-live="polite"></p><div class="about" hidden>${about}</div>`);
+    [this.text, this.range] = this.el.querySelectorAll("input");
+    [this.said, this.about, this.help, this.ends] = [".said", ".about", ".help", ".ends"].map((name) => this.el.querySelector(name))
+    this.range.hidden = this.ends.hidden = span < 0
+    this.listen()
+  }
+  listen() {
+    const { text, range, help, about } = this
+    range.addEventListener("input", () => this.drag())
+    // What waits when the slider is let go is sent at once: an answer may have been lost.
+    range.addEventListener("change", () => this.askWish())
+    range.addEventListener("dblclick", () => this.ask({ text: this.now.middle.toExponential() }))
+    text.addEventListener("input", () => { this.typing = true })
+    text.addEventListener("change", () => this.ask({ text: text.value }))
+    text.addEventListener("focus", () => text.select())
+    // Typed and left as it was.
+    text.addEventListener("blur", () => { this.typing = false; this.show() })
+    text.addEventListener("keydown", ({ key }) => (key === "Escape" ? this.ask({}) : key === "Enter" && text.select()))
+    help.addEventListener("click", () => { help.ariaExpanded = String(!(about.hidden = !about.hidden)) })
+  }
+  get busy() { return this.answered < this.asked }
+  ask(what) {
+    this.asked = this.send(what)
+    Object.assign(this, { wish: null, typing: false })
+  }
+  askWish() { if (this.wish !== null) this.ask(this.wish) }
+  drag() {
+    this.share()
+    const what = { text: this.dragged().toExponential(), dragged: true }
+    if (this.busy) this.wish = what
+    else this.ask(what)
+  }
+  // The answer to some messages, or another change of the page.
+  take(now, answered) {
+    Object.assign(this, { now, answered })
+    this.show()
+    if (!this.busy) this.askWish()
+  }
+  // The step of the slider for the present value, and the value for its step: three digits, but at the ends.
+  step() {
+    const [scaled] = SCALES[this.scale], { value, low, high } = this.now
+    return this.range.max * (scaled(value) - scaled(low)) / (scaled(high) - scaled(low))
+  }
+  dragged() {
+    const [scaled, back] = SCALES[this.scale], { low, high } = this.now, share = this.range.value / this.range.max
+    if (share === 0 || share === 1) return share ? high : low
+    const value = back(scaled(low) + share * (scaled(high) - scaled(low)))
+    return Math.min(Math.max(Number(value.toPrecision(3)), low), high)
+  }
+  share() { this.range.style.setProperty("--share", this.range.value / this.range.max) }
+  show() {
+    // An answer to an earlier value, or another change of the page, does not touch what is being typed.
+    if (this.busy || this.typing) return
+    this.showText()
+    this.showSlider()
+  }
+  showText() {
+    const { text, said, now } = this
+    if (!now.refused && text.value !== now.text) {
+      text.value = now.text
+      if (text.matches(":focus")) text.select()
+    }
+    text.setAttribute("aria-invalid", String(now.refused !== ""))
+    said.textContent = now.refused
+  }
+  showSlider() {
+    const { range, now, ends: { children: [low, , high] } } = this
+    if (this.wish === null) range.value = this.step()
+    for (const [end, text] of [[low, now.ends[0]], [high, now.ends[1]]]) if (end.textContent !== text) end.textContent = text
+    this.share()
+    range.setAttribute("aria-valuetext", now.text)
+  }
+}
 const KINDS = {
   text({ classes }) {
     const el = made("div", classes)
@@ -26,11 +115,11 @@ const KINDS = {
     }]
   },
   // A picture of plots, saved in the browser: each with its figure and its place.
-  save({ file, plots, size }, send, named) {
+  save({ plots, size }, send, named) {
     const [el, show] = KINDS.button({ key: "" })
-    let [looks, scene] = [[], ""]
+    let [looks, scene, file] = [[], "", ""]
     el.onclick = () => save(file, scene, plots.map(({ figure, place }, k) => ({ figure: named(figure), place, look: looks[k] })), size)
-    return [el, (look) => { ({ looks, scene } = look); show(look) }]
+    return [el, (look) => { ({ looks, scene, file } = look); show(look) }]
   },
   // Radio buttons or a list, with an explanation in a popover.
   choice({ classes, label, about, radio, id }, send) {
@@ -59,67 +148,9 @@ const KINDS = {
       else list.value = value
     }]
   },
-  // Typed with its unit, or dragged. What is typed is sent at once; of a drag one value is under way, and what is dragged
-  // meanwhile replaces what waits.
-  number({ label, spoken, about, span, id }, send) {
-    const el = made("div", "number", `<div class="row"><label for="text-${id}">${label}</label>
-      <button class="help" aria-expanded="false" aria-label="What is ${spoken}?">?</button>
-      <input id="text-${id}" type="text" spellcheck="false" autocomplete="off" aria-describedby="said-${id}" aria-label="${spoken}"></div>
-      <input type="range" max="400" title="Arrow keys step, double-click resets" aria-label="${spoken}, slider">
-      <div class="ends" aria-hidden="true"><span></span><span>${span > 0 ? "logarithmic" : "linear"}</span><span></span></div>
-      <p class="said" id="said-${id}" aria-live="polite"></p><div class="about" hidden>${about}</div>`)
-    const [text, range] = el.querySelectorAll("input")
-    const [said, about_it, help] = [".said", ".about", ".help"].map((name) => el.querySelector(name))
-    let [now, answered, asked, wish, typing] = [null, 0, 0, null, false]
-    const ends = el.querySelector(".ends")
-    range.hidden = ends.hidden = span < 0
-    const busy = () => answered < asked
-    const ask = (what) => { [asked, wish, typing] = [send(what), null, false] }
-    // The value of each step has three digits, but at the ends.
-    const [scaled, back] = span > 0 ? [Math.log, Math.exp] : [Number, Number]
-    const step = ({ value, low, high }) => range.max * (scaled(value) - scaled(low)) / (scaled(high) - scaled(low))
-    const dragged = ({ low, high }) => {
-      const share = range.value / range.max
-      if (share === 0 || share === 1) return share ? high : low
-      const value = back(scaled(low) + share * (scaled(high) - scaled(low)))
-      return Math.min(Math.max(Number(value.toPrecision(3)), low), high)
-    }
-    const show = () => {
-      // An answer to an earlier value, or another change of the page, does not touch what is being typed.
-      if (busy() || typing) return
-      // What was refused stays in its field, to be corrected.
-      if (!now.refused && text.value !== now.text) {
-        text.value = now.text
-        if (text.matches(":focus")) text.select()
-      }
-      text.setAttribute("aria-invalid", String(now.refused !== ""))
-      said.textContent = now.refused
-      if (wish === null) range.value = step(now)
-      for (const [k, place] of [0, 2].entries()) if (ends.children[place].textContent !== now.ends[k]) ends.children[place].textContent = now.ends[k]
-      range.style.setProperty("--share", range.value / range.max)
-      range.setAttribute("aria-valuetext", now.text)
-    }
-    range.addEventListener("input", () => {
-      range.style.setProperty("--share", range.value / range.max)
-      const what = { text: dragged(now).toExponential(), dragged: true }
-      if (busy()) wish = what
-      else ask(what)
-    })
-    // What waits when the slider is let go is sent at once: an answer may have been lost.
-    range.addEventListener("change", () => wish !== null && ask(wish))
-    range.addEventListener("dblclick", () => ask({ text: now.middle.toExponential() }))
-    text.addEventListener("input", () => { typing = true })
-    text.addEventListener("change", () => ask({ text: text.value }))
-    text.addEventListener("focus", () => text.select())
-    // Typed and left as it was.
-    text.addEventListener("blur", () => { typing = false; show() })
-    text.addEventListener("keydown", ({ key }) => (key === "Escape" ? ask({}) : key === "Enter" && text.select()))
-    help.addEventListener("click", () => { help.ariaExpanded = String(!(about_it.hidden = !about_it.hidden)) })
-    return [el, (look, count) => {
-      [now, answered] = [look, count]
-      show()
-      if (wish !== null && !busy()) ask(wish)
-    }]
+  number(look, send) {
+    const part = new NumberPart(look, send)
+    return [part.el, (now, answered) => part.take(now, answered)]
   },
   player(_, send, named) {
     let asked = 0
@@ -163,8 +194,9 @@ export function render({ model, el, view }) {
     found?.focus()
   }
   const sender = (name) => (what) => {
-    const seen = [...el.children].filter((part) => !part.hidden)
-    ACTED.set(view.model, { name, place: seen.indexOf(parts.get(name)[0]) })
+    const seen = [...el.children].filter((part) => !part.hidden), [part] = parts.get(name)
+    // What a key does from elsewhere, as Ctrl+Z, leaves the focus where it is.
+    if (part.contains(part.getRootNode().activeElement)) ACTED.set(view.model, { name, place: seen.indexOf(part) })
     model.send_msg([name, what])
     return asked += 1
   }

@@ -2,10 +2,13 @@
 // when a move begins, and the state in which it ends. Other scripts find it as `player`.
 export function make_player({ messages, figures, ask }) {
   const el = Object.assign(document.createElement("div"), { className: "player" })
-  el.innerHTML = `<button class="act"></button><div class="along"><input type="range" aria-label="State along the path"><div class="marks"></div></div>`
-  const [button, range, marked] = ["button", "input", ".marks"].map((each) => el.querySelector(each))
+  el.innerHTML = `<button class="act"></button><select class="speed" aria-label="Speed of the player" hidden>
+    <option value="1">1×</option><option value="0.5">½×</option><option value="0.25">¼×</option></select><div class="along"><input type="range" aria-label="State along the path"><div class="marks"></div></div>`
+  const [button, speed, range, marked] = ["button", "select", "input", ".marks"].map((each) => el.querySelector(each))
   // The state that is seen, and the one that the server has drawn last.
   let [value, drawn, moving, wait] = [0, 0, false, null]
+  // When the first state was, or would have been, played.
+  let begin = null
   let [sources, places, words, times] = []
   // A gap in a line is null in a text, which would be drawn as zero.
   const read = (text) => JSON.parse(text, (_, part) => part ?? NaN)
@@ -69,21 +72,26 @@ export function make_player({ messages, figures, ask }) {
     }), 300)
   }
   button.onclick = () => {
-    let begin = null
+    begin = null
     const step = (now) => {
       if (!playing()) return
       requestAnimationFrame(step)
       if (!times) return
-      begin ??= now - 3000 * (value < range.max ? times[value] : 0)
+      // A run takes three seconds.
+      const lasts = 3000 / speed.value
+      begin ??= now - lasts * (value < range.max ? times[value] : 0)
       // Longer than a run, which rests in its last state.
-      const clock = ((now - begin) / 3000) % 1.12
+      const clock = ((now - begin) / lasts) % 1.12
       move(times.findLastIndex((time) => time <= clock))
     }
     turn(!playing())
+    speed.hidden = false
     move(value)
     rest()
     requestAnimationFrame(step)
   }
+  // It goes on from the state that is seen.
+  speed.onchange = () => { begin = null }
   range.oninput = () => go(range.valueAsNumber)
   range.onchange = rest
   document.addEventListener("keydown", (event) => {

@@ -28,6 +28,9 @@ ROLES = {
     "loss": ("#b8860b", "#e0c04c"),
     "stick": ("#4b3fa7", "#a99ff5"),
     "slip": ("#7a9700", "#c3dc3a"),
+    "elastic-text": ("#005a8e", "#b4dcf7"),
+    "yielded-text": ("#8c3a00", "#ffc793"),
+    "soft": ("#566070", "#a9b1bb"),
     "ink": ("#22272e", "#e4e7eb"),
     "body": ("#c9ced6", "#3a4049"),
     "paper": ("#ffffff", "#181b20"),
@@ -42,6 +45,8 @@ NOTHING = np.array([np.nan]), np.array([np.nan])
 class Row:
     """One area, line, mark or label of a plot; `legend` says whether the legend names it.
 
+    A label may stand for rows in the place of the legend, by their `names`.
+
     `look` are properties of Bokeh's glyph for it, with roles as colours and names as dashes. A line with a
     `symbol` has a tooltip with its values on the axis `axis` (0 x, 1 y, 2 right).
     """
@@ -53,6 +58,7 @@ class Row:
     symbol: str = ""
     axis: int = 1
     look: dict[str, Any] = field(default_factory=dict)
+    names: tuple[str, ...] = ()
 
     @property
     def group(self):
@@ -77,12 +83,14 @@ class Row:
 def area(name, role, alpha, hatch=" ", legend=True):
     # An edge in full colour: on its ground a pale area alone is hard to see.
     look = {"fill_color": role, "fill_alpha": alpha, "line_color": role}
-    look |= {"hatch_pattern": hatch, "hatch_color": role, "hatch_alpha": 0.35}
+    look |= {"hatch_pattern": hatch, "hatch_color": role, "hatch_alpha": 0.18}
     return Row("areas", name, role, legend, look=look)
 
 
 def line(name, role, width=2.0, dash="solid", symbol="", axis=1, legend=True):
     look = {"line_color": role, "line_width": width, "line_dash": dash}
+    # Dashes have the lengths that they are drawn with, without round ends.
+    look["line_cap"] = "round" if dash == "solid" else "butt"
     return Row("lines", name, role, legend, symbol, axis, look)
 
 
@@ -91,10 +99,17 @@ def mark(name, role="ink", edge="paper", marker="circle", size=10, axis=1, legen
     return Row("marks", name, role, legend, axis=axis, look=look)
 
 
-def label(name):
-    look = {"text_color": "ink", "text_font_size": "12px", "text_font_style": "italic"}
-    look |= {"text_baseline": "top", "background_fill_color": "paper", "background_fill_alpha": 0.8}
+def label(name, alpha=0.8, align="left"):
+    look = {"text_color": "ink", "text_font_size": "12px", "text_font_style": "italic", "text_align": align}
+    look |= {"text_baseline": "top", "background_fill_color": "paper", "background_fill_alpha": alpha}
     return Row("labels", name, legend=False, look=look)
+
+
+def word(name, role, align="center", baseline="middle", alpha=0.0, names=()):
+    """A label that stands for rows, beside or within what is drawn of them."""
+    look = label(name, alpha, align).look | {"text_color": role, "text_font_style": "normal"}
+    look["text_baseline"] = baseline
+    return Row("labels", f"label {name}", legend=False, look=look, names=names)
 
 
 @dataclass(frozen=True)
@@ -138,13 +153,13 @@ def parts(symbol):
 RADII = (
     line("at a", "ink", 1.0, "dashed", legend=False),
     line("at c", "yielded", 1.3, "dotted", legend=False),
-    label("a"),
-    label("c"),
+    label("a", 0.0),
+    label("c", 0.0),
 )
 PRESSURE_ROWS = (
     area("plastic zone r < c", "yielded", 0.13),
     area("below", "elastic", 0.12, legend=False),
-    line("−σzz(r)", "elastic", 2.0, symbol="−σzz"),
+    line("p(r)", "elastic", 2.0, symbol="p"),
     line("mean F/(πa²)", "ink", 1.0, "dotdash", "mean"),
     *RADII,
     label("exceeds"),
@@ -225,7 +240,7 @@ def pressure(state, half, top):
     return at_radii(a, c, half, 0.0, top) | {
         "plastic zone r < c": (np.array([-c, c, c, -c]), np.array([0, 0, top, top])) if c else NOTHING,
         "below": curve,
-        "−σzz(r)": curve,
+        "p(r)": curve,
         "mean F/(πa²)": (np.array([-a, a]), np.array([mean, mean])) if a else NOTHING,
         "exceeds": (-0.97 * half, 0.98 * top, exceeds(r, p, top) if a else "no contact"),
     }
@@ -237,12 +252,12 @@ def exceeds(r, p, top):
     if infinite.any():
         # A sharp tip that has not yielded is infinite on the axis, a flat face at its rim.
         at = np.argmax(infinite)
-        sign = "↑ −σzz → ∞" if p[at] > 0 else "↓ −σzz → −∞"
+        sign = "↑ p → ∞" if p[at] > 0 else "↓ p → −∞"
         return f"{sign} at the " + ("axis" if r[at] == 0 else "rim")
     if p[k] <= top:
         return ""
     where = "on the axis" if r[k] == 0 else f"at r = {written(float(r[k]), 'length', 3)}"
-    return f"↑ −σzz = {written(float(p[k]), 'pressure', 3)} {where}"
+    return f"↑ p = {written(float(p[k]), 'pressure', 3)} {where}"
 
 
 def work(path, i):

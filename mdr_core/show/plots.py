@@ -79,7 +79,7 @@ def plot_pressure(state):
     bottom = -top if state.medium.work_of_adhesion > 0 else 0.0
     axes = [
         Axis.fitting("r", "r, radius", "m", half, start=-half, end=half),
-        Axis.fitting("pressure", "−σzz, contact pressure", "Pa", top, start=bottom, end=top),
+        Axis.fitting("pressure", "p, contact pressure", "Pa", top, start=bottom, end=top),
     ]
     return overlay("Contact pressure", PRESSURE_ROWS, figures.pressure(state, half, top), axes)
 
@@ -91,7 +91,7 @@ def plot_springs(state):
     base = -REST * height
     axes = [
         Axis.fitting("x", "x, coordinate of the springs", "m", half, start=-half, end=half),
-        Axis.fitting("z", "z, height", "m", height, start=base, end=height),
+        Axis.fitting("z", "z, upward", "m", height, start=base, end=height),
     ]
     return overlay("1D foundation", SPRING_ROWS, springs(state, half, base, height), axes)
 

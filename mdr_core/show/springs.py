@@ -14,8 +14,8 @@ SPRING_ROWS = (
     area("profile g(x)", "body", 0.55),
     line("edge", "ink", 1.8, legend=False),
     line("free", "free", 0.9),
-    line("elastic", "elastic", 1.4),
-    line("yielded", "yielded", 2.4),
+    line("elastic", "elastic", 1.3),
+    line("yielded", "yielded", 1.5),
     line("stretched", "stick", 1.8),
     line("residual imprint", "yielded", 1.4, "dotted"),
     *RADII,
@@ -98,4 +98,6 @@ def springs(state, half, base, height, relaxing=lambda g: 0.0, along=None):
     rows["edge"] = rows["profile g(x)"]
     if interval.lower > 0:
         rows["residual imprint"] = shape_x, 0.0 - np.maximum(interval.lower - shape_g, 0)
-    return rows | at_radii(float(state.contact_radius), float(state.plastic_radius), half, base, height)
+    a, c = float(state.contact_radius), float(state.plastic_radius)
+    # Not through what is said of the state, above.
+    return rows | at_radii(a, c, half, base, 0.45 * height)

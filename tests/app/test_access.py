@@ -139,7 +139,7 @@ def test_what_is_drawn_has_a_name(explorer):
     """A fourth plot, too."""
     explorer.open("Hardness", "hardness", "hardness")
     for name in ("springs", "pressure", "force", "hardness"):
-        figure = explorer.page.locator(f".card.{name} [role=img]").first
+        figure = explorer.page.locator(f".card.{name} [role=figure]").first
         assert ", over " in figure.get_attribute("aria-label"), name
 
 

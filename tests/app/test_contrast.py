@@ -109,14 +109,18 @@ def test_every_text_of_the_page_is_read_in_the_dark(explorer):
             assert contrast(*colours) >= 4.5, (part, text, colours)
 
 
-def test_buttons_of_the_header_have_weights(explorer):
-    """The guide stands out, what undoes stands back, and the others are between."""
-    look = "(on) => [getComputedStyle(on).fontWeight, getComputedStyle(on).borderColor]"
+def test_play_is_loud_and_the_guide_stands_out(explorer):
+    """One filled button; the guide is bold in the accent, and what undoes is as quiet as the others."""
+    look = """(on) => {
+      const { fontWeight, color, backgroundColor, borderColor } = getComputedStyle(on)
+      return [fontWeight, color, backgroundColor, borderColor]
+    }"""
     explorer.change(explorer.type, "d_max", "5 nm")
-    names = ("Guide", "Share", "Undo")
-    guide, share, undo = (
+    names = ("▶ Play", "Guide", "Share", "Undo")
+    play, guide, share, undo = (
         explorer.page.get_by_role("button", name=name, exact=True).evaluate(look) for name in names
     )
-    assert guide == ["600", "rgb(0, 114, 178)"]
-    assert share == ["400", "rgb(132, 140, 151)"]
-    assert undo == ["400", "rgba(0, 0, 0, 0)"]
+    accent, nothing = "rgb(0, 114, 178)", "rgba(0, 0, 0, 0)"
+    assert play[:3] == ["600", "rgb(255, 255, 255)", accent]
+    assert guide == ["600", accent, nothing, nothing]
+    assert share == undo == ["400", "rgb(34, 39, 46)", nothing, nothing]

@@ -68,50 +68,78 @@ def test_restitution_over_speed_is_one_click(projector):
     assert swept.startswith("v₀ = ")
 
 
-def test_a_box_with_shift_is_zoomed_to_until_a_double_click_or_another_drive(projector):
-    page, before = projector.page, projector.axis("pressure")
+def tools(explorer, name):
+    """The buttons of the tools of a plot, which is pointed at or touched: a box, and the whole plot."""
+    card = explorer.page.locator(f".card.{name}")
+    return card.locator(".bk-OnOffButton"), card.locator(".bk-ClickButton")
+
+
+def test_a_box_is_zoomed_to_until_a_double_click_or_another_drive(projector):
+    """Its tool is seen while the plot is pointed at, and off after one box: the plot is dragged again."""
+    page, before = projector.page, projector.axis("force")
+    box, whole = tools(projector, "force")
+    assert not box.is_visible()
+    middle = page.locator(".card.force canvas").first.bounding_box()
+    centre = middle["x"] + middle["width"] / 2, middle["y"] + middle["height"] / 2
 
     def zoom():
-        page.keyboard.down("Shift")
-        projector.drag("pressure", (0.2, 0.15))
-        page.keyboard.up("Shift")
-        narrow = "([a, b]) => { const { x } = explorer.axis('pressure'); return x[1] - x[0] < (b - a) / 2 }"
+        page.mouse.move(*centre)
+        box.click()
+        projector.drag("force", (0.2, 0.15))
+        narrow = "([a, b]) => { const { x } = explorer.axis('force'); return x[1] - x[0] < (b - a) / 2 }"
         projector.wait(narrow, before["x"])
-        projector.wait("explorer.axis('pressure').y[0] > 0 && explorer.axis('pressure').y[1] < 15")
 
     zoom()
-    within = projector.axis("pressure")
+    within = projector.axis("force")
     assert before["x"][0] < within["x"][0] < within["x"][1] < before["x"][1]
     assert before["y"][0] < within["y"][0] < within["y"][1] < before["y"][1]
     # It stays when a number is changed, and nothing was dragged.
     assert projector.readout("depth") == "8.978 nm"
     projector.change(projector.type, "q_c", "110 N/m")
-    assert projector.axis("pressure")["x"] == within["x"]
-    box = page.locator(".card.pressure canvas").first.bounding_box()
-    page.mouse.dblclick(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    projector.wait("(x) => explorer.axis('pressure').x.join() === x.join()", before["x"])
-    # There is a button that goes back, as long as there is something to go back to.
-    back = page.locator(".card.pressure .act[name='Whole plot']")
-    back.wait_for(state="hidden")
+    assert projector.axis("force")["x"] == within["x"]
+    # In another unit it is the same part of the plot.
+    projector.change(projector.type, "d_max", "900 pm")
+    projector.change(projector.type, "d_max", "8.978 nm")
+    np.testing.assert_allclose(projector.axis("force")["x"], within["x"], rtol=1e-9)
+    # The tool is off: the mark on the curve is dragged.
+    projector.drag("force", (0.1, 0.1))
+    projector.wait("player.value < 80")
+    assert projector.axis("force")["x"] == within["x"]
+    page.mouse.dblclick(*centre)
+    projector.wait("(x) => explorer.axis('force').x.join() === x.join()", before["x"])
     zoom()
-    back.click()
-    projector.wait("(x) => explorer.axis('pressure').x.join() === x.join()", before["x"])
-    back.wait_for(state="hidden")
+    page.mouse.move(*centre)
+    whole.click()
+    projector.wait("(x) => explorer.axis('force').x.join() === x.join()", before["x"])
     zoom()
     projector.pick("force")
-    assert projector.axis("pressure")["x"][1] - projector.axis("pressure")["x"][0] > 30
+    projector.wait("(wide) => Math.abs(explorer.axis('force').x[1] / wide - 1) < 1e-9", before["x"][1])
 
 
-def test_a_large_plot_says_how_to_zoom_until_it_is_zoomed(projector):
-    page = projector.page
-    page.locator(".card.pressure .act[name=Large]").click()
-    hint = page.locator(".card.pressure").get_by_text("Shift and drag to zoom")
-    hint.wait_for()
-    page.keyboard.down("Shift")
-    projector.drag("pressure", (0.2, 0.15))
-    page.keyboard.up("Shift")
-    page.locator(".card.pressure .act[name='Whole plot']").wait_for()
-    hint.wait_for(state="hidden")
+def test_a_finger_zooms(server, browser):
+    """A touched plot shows its tools, of 44 pixels; a finger draws the box."""
+    held = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
+    with browser.new_context(**held) as context:
+        explorer = Explorer(context.new_page(), server.url)
+        page, before = explorer.page, explorer.axis("force")
+        box, _ = tools(explorer, "force")
+        place = page.locator(".card.force canvas").first.bounding_box()
+        x, y = place["x"] + 0.3 * place["width"], place["y"] + 0.5 * place["height"]
+        page.touchscreen.tap(x, y)
+        box.wait_for()
+        size = box.bounding_box()
+        assert min(size["width"], size["height"]) >= 44
+        box.tap()
+        client = context.new_cdp_session(page)
+        moves = ("touchStart", 0.0), ("touchMove", 0.1), ("touchMove", 0.25), ("touchEnd", None)
+        for kind, share in moves:
+            end = share is None
+            at = [] if end else [{"x": x + share * place["width"], "y": y + share * place["height"]}]
+            client.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+        narrow = "([a, b]) => { const { x } = explorer.axis('force'); return x[1] - x[0] < (b - a) / 2 }"
+        explorer.wait(narrow, before["x"])
+        assert page.evaluate("scrollY") == 0
+        assert explorer.problems == []
 
 
 def test_a_spring_says_its_compression_and_its_load_against_their_limits(projector):

@@ -56,7 +56,7 @@ def test_a_newcomer_takes_the_scene_home(explorer, opened, tmp_path):
             taken.page.get_by_label("State along the path").fill(str(number))
         here, there = (each.page.locator("output").all_inner_texts() for each in (explorer, taken))
         assert here == there
-        for figure, row in (("springs", "elastic"), ("pressure", "−σzz(r)"), ("force", "now")):
+        for figure, row in (("springs", "elastic"), ("pressure", "p(r)"), ("force", "now")):
             np.testing.assert_array_equal(explorer.row(figure, row), taken.row(figure, row))
     assert taken.readout("plastic_radius") == "0"
     taken.page.close()
@@ -75,16 +75,16 @@ def phone(server, browser):
 def test_small_screens(phone):
     """A phone, in one column, with nothing over anything; and smaller windows.
 
-    Numbers, springs and the slider of the depth are on the first screen together; 44 pixels are what a
-    finger needs (WCAG 2.2, 2.5.5).
+    Numbers, springs, force and the slider of the depth are on the first screen together, the pressure is
+    next, and then all other sliders; 44 pixels are what a finger needs (WCAG 2.2, 2.5.5).
     """
     page = phone.page
     assert page.evaluate(SEEN, 44) == {"small": [], "sideways": [], "scroll": 390}
     numbers = page.locator("output")
     assert numbers.count() == 8
     places = [numbers.last, page.locator(".card.springs"), page.locator(".card.force")]
-    places += [phone.slider(symbol) for symbol in ("d_max", "s", "E*", "q_c")]
-    places.append(page.locator(".card.pressure"))
+    places += [phone.slider("d_max"), page.locator(".card.pressure")]
+    places += [phone.slider(symbol) for symbol in ("s", "E*", "q_c")]
     boxes = [place.bounding_box() for place in places]
     assert all(box["width"] > 0 for box in [each.bounding_box() for each in numbers.all()])
     assert boxes[1]["y"] < 500
@@ -182,7 +182,7 @@ def test_plots_and_the_path_are_told_in_words(phone):
     force = "Bokeh.index.find_one(explorer.model('force')).el"
     phone.wait(f"{force}.ariaDescription.includes('depth 6.000 nm')")
     tree = phone.page.context.new_cdp_session(phone.page).send("Accessibility.getFullAXTree")["nodes"]
-    nodes = [node for node in tree if node.get("role", {}).get("value") in ("image", "slider")]
+    nodes = [node for node in tree if node.get("role", {}).get("value") in ("figure", "slider")]
     told = {node["name"]["value"]: node for node in nodes}
     for title in ("1D foundation", "Contact pressure", "Force and depth"):
         (name,) = [name for name in told if name.startswith(f"{title}: ")]

@@ -36,7 +36,7 @@ def assert_draws(explorer, state: State):
     view = view_of(state, state.at)
     shown = view.course.state
     np.testing.assert_allclose(now(explorer), (shown.depth, shown.force), rtol=1e-3, atol=1e-30)
-    for figure, name in (("springs", "yielded"), ("springs", "profile g(x)"), ("pressure", "−σzz(r)")):
+    for figure, name in (("springs", "yielded"), ("springs", "profile g(x)"), ("pressure", "p(r)")):
         columns = Picture(PLOTS[figure]).columns(view, view.course.now)
         data = next(data for data in columns.values() if name in data["row"])
         k = data["row"].index(name)

@@ -1,4 +1,4 @@
-"""Saved pictures, as they are painted: each word of a legend beside its own line, area or mark."""
+"""Saved pictures, as they are painted: labels, and each word of a legend beside its line, area or mark."""
 
 import io
 
@@ -62,6 +62,7 @@ def saved(request, server, context):
     for tile, row, names in (
         ("sweep", "this scene", ("springs", "pressure", "force", "sweep")),
         ("section", "plastic zone c", ("section",)),
+        ("energy", "time", ("energy",)),
     ):
         query = f"?preset={DROP}&tiles={tile}&dark={int(dark)}"
         explorer = Explorer(context.new_page(), server.url + query)
@@ -75,20 +76,26 @@ def saved(request, server, context):
 
 def test_words_of_a_saved_legend_stand_beside_what_they_name(saved):
     pictures, dark = saved
-    view = view_of(state_with(DROP).replace(tiles=("sweep",)))
-    for name in ("springs", "pressure", "force"):
-        items, plot = legend_of(pictures[name]), PLOTS[name]
-        assert [words for _, words in items] == len(items) * [1]
-        assert len(items) == legend(plot, drawn(view, plot)).count("<span")
+    view = view_of(state_with(DROP))
+    items, plot = legend_of(pictures["energy"]), PLOTS["energy"]
+    assert [words for _, words in items] == len(items) * [1]
+    assert len(items) == legend(plot, drawn(view, plot)).count("<span") == 3
     # White lines on an image are seen beside it, too.
     assert [words for _, words in legend_of(pictures["section"])[:2]] == [1, 1]
-    # In the order of the words: an area, a line, a line of dashes and dots.
-    zone, pressure, mean = (swatch for swatch, _ in legend_of(pictures["pressure"]))
-    assert has(zone, colour("yielded", dark))
-    assert has(pressure, colour("elastic", dark))
-    assert has(mean, colour("ink", dark))
-    # All swatches of lines and areas are equally wide; a dash and a dot are told apart.
-    assert zone.shape[1] == approx(pressure.shape[1], abs=4)
+    # In the order of the words, by their edges.
+    for (swatch, _), role in zip(items, ("yielded", "elastic", "speed"), strict=True):
+        assert has(swatch, colour(role, dark)), role
+    # All swatches of lines and areas are equally wide.
+    (line, _), *_ = legend_of(pictures["sweep"])
+    assert line.shape[1] == approx(items[0][0].shape[1], abs=4)
+
+
+def test_a_saved_picture_has_the_labels_of_the_plot_and_then_no_legend(saved):
+    pictures, dark = saved
+    for name in ("springs", "pressure", "force"):
+        image = np.asarray(Image.open(io.BytesIO(pictures[name])).convert("RGB"), int)
+        assert has(image[TITLE:], colour("yielded-text", dark)), name
+        assert legend_of(pictures[name]) == [], name
 
 
 def test_dashes_of_a_saved_legend_are_those_of_the_lines(saved):

@@ -47,7 +47,7 @@ def test_loading_curve_and_pressure_are_those_of_the_core(shape):
         depth, curve = force(view, 0)[name]
         result = mdr.indent(profile(state), medium(state), depth[:, None])
         np.testing.assert_allclose(curve, result.force[:, 0], rtol=1e-9, atol=1e-30)
-    r, p = pressure(view, view.course.now)["−σzz(r)"]
+    r, p = pressure(view, view.course.now)["p(r)"]
     np.testing.assert_allclose(p, np.minimum(view.course.state.pressure(r), 1e3 * view.end(P)), rtol=1e-9)
 
 

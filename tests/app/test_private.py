@@ -118,10 +118,7 @@ def test_the_page_is_in_use_without_an_end_in_the_browser(end, without, browser)
         explorer = Explorer(page, without.url)
         explorer.change(explorer.type, "d_max", "5 nm")
         assert explorer.readout("depth") == "5.000 nm"
-        # A box on the pressure, the pointer over the springs, and the player.
-        page.keyboard.down("Shift")
-        explorer.drag("pressure", (0.2, 0.15))
-        page.keyboard.up("Shift")
+        # The pointer over the springs, and the player.
         page.locator(".card.springs canvas").first.hover(force=True)
         page.get_by_label("State along the path").press("End")
         explorer.wait("explorer.played()")

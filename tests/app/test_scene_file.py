@@ -94,7 +94,7 @@ def test_the_numbers_of_a_cone_are_read_and_drawn_in_every_state(saved):
             # The peak of the pressure is beyond the axis, and not drawn.
             continue
         # The pressure that is drawn carries the force; trapezoids miss some of its cusp.
-        r, p = saved.row("pressure", "−σzz(r)")
+        r, p = saved.row("pressure", "p(r)")
         units = saved.axis("pressure")["labels"]
         carried = np.pi * trapezoid(p * np.abs(r), r)
         carried *= unit_of(units[0], "length") ** 2 * unit_of(units[1], "pressure")

@@ -177,7 +177,7 @@ def test_after_yield_the_whole_imprint_is_pulled_off():
     places = np.abs(x[:, 0])
     left = course.states.plastic_depth[-1] - course.scene.profile.reduced(places)
     np.testing.assert_allclose(z[places < c, 7] + left, stretch, rtol=1e-9)
-    _, p = view.places(PLOTS["pressure"], course.now)["−σzz(r)"]
+    _, p = view.places(PLOTS["pressure"], course.now)["p(r)"]
     assert np.min(p) == view.axis(P).start == -view.axis(P).end
     assert "−∞ at the rim" in view.places(PLOTS["pressure"], course.now)["exceeds"][2]
 

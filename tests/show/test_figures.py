@@ -71,7 +71,7 @@ def test_any_quantity_over_any_other():
 def test_pressure_with_the_radii_of_the_contact():
     state = PATH[4]
     plot = state.plot_pressure()
-    r, p = columns(element(plot, hv.Curve, "−σzz(r)"))
+    r, p = columns(element(plot, hv.Curve, "p(r)"))
     np.testing.assert_allclose(p * 1e9, state.pressure(r * 1e-9), rtol=1e-9)
     # The force is the integral of what is drawn, by trapezia at radii dense at the edges.
     inner = r >= 0
@@ -82,7 +82,7 @@ def test_pressure_with_the_radii_of_the_contact():
         assert min(abs(edge - radius) for edge in edges) < 1e-12 * radius
     assert [d.pprint_label for d in plot.get(0).dimensions()[:2]] == [
         "r, radius (nm)",
-        "−σzz, contact pressure (GPa)",
+        "p, contact pressure (GPa)",
     ]
 
 
@@ -114,7 +114,7 @@ def test_a_motion_along_the_surface_is_plotted_over_time():
 
 def test_a_plot_shows_a_pressure_without_bound_cut_at_its_axis():
     plot = mdr.indent(mdr.FlatPunch(1e-6), mdr.Medium(1e9), 1e-9).plot_pressure()
-    _, p = columns(element(plot, hv.Curve, "−σzz(r)"))
+    _, p = columns(element(plot, hv.Curve, "p(r)"))
     assert np.isfinite(p).all()
     assert "yielded" not in {each.label for each in plot}
 
@@ -187,14 +187,14 @@ def test_a_plot_says_which_pressure_its_axis_does_not_reach():
     def said(profile, medium, depth):
         plot = mdr.indent(profile, medium, depth).plot_pressure()
         texts = [text for each in plot if isinstance(each, hv.Labels) for text in each.dimension_values(2)]
-        return [text for text in texts if "σzz" in text]
+        return [text for text in texts if " p " in text]
 
-    assert said(mdr.FlatPunch(1e-6), mdr.Medium(1e9), 1e-9) == ["↑ −σzz → ∞ at the rim"]
-    assert said(mdr.Cone(0.3), mdr.Medium(1e9), 1e-9) == ["↑ −σzz → ∞ at the axis"]
+    assert said(mdr.FlatPunch(1e-6), mdr.Medium(1e9), 1e-9) == ["↑ p → ∞ at the rim"]
+    assert said(mdr.Cone(0.3), mdr.Medium(1e9), 1e-9) == ["↑ p → ∞ at the axis"]
     sphere = mdr.Paraboloid(1e-6)
     assert said(sphere, mdr.Medium(1e9), 1e-9) == []
     adhesive = mdr.indent(sphere, mdr.Medium(1e9, work_of_adhesion=0.05), 0.0)
-    assert said(sphere, adhesive.medium, 0.0) == ["↓ −σzz → −∞ at the rim"]
+    assert said(sphere, adhesive.medium, 0.0) == ["↓ p → −∞ at the rim"]
     # Tension is below zero on the axis of pressures.
     low, high = hv.Store.lookup_options("bokeh", adhesive.plot_pressure(), "plot").kwargs["ylim"]
     assert low == -high < 0
