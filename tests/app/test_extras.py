@@ -106,7 +106,9 @@ def said(word, texts):
 def linked(name):
     """Links that mention an extra."""
     extra = EXTRAS[name]
-    links = [f"drive={drive}" for drive in extra.drives] + [f"tiles={plot.name}" for plot in extra.plots]
+    # A drive that takes the place of one of the page is there without it, too.
+    own = [drive for drive in extra.drives if drive not in ("depth", "force", "impact")]
+    links = [f"drive={drive}" for drive in own] + [f"tiles={plot.name}" for plot in extra.plots]
     of_it = [value for value in OF_EXTRAS if value.startswith(f"{name}.")]
     return links + [f"{value}=1" for value in of_it]
 
