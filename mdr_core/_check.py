@@ -29,12 +29,11 @@ if TYPE_CHECKING:
     _Numbers = _Number | NDArray[np.floating[Any]] | NDArray[np.integer[Any]] | _WithUnit
     #: A number or an array of numbers. NumPy's `ArrayLike` has text in it, and so has a recursive type.
     ArrayLike = _Numbers | Sequence[_Numbers] | Sequence[Sequence[_Numbers]]
+    #: A parameter of a profile, a medium or a structure, as it is stored.
+    Parameter = float | NDArray[np.float64]
 
 else:
-    Array, ArrayLike = np.ndarray, Any
-
-#: Type of a parameter of a profile or medium: given as any number or array, stored as float or array.
-Parameter = Any
+    Array, ArrayLike, Parameter = np.ndarray, Any, Any
 
 #: Bounds of lengths, forces and moduli (SI), and of slopes.
 SHORTEST, LONGEST = 1e-25, 1e25

@@ -1,11 +1,12 @@
 """Drives of the indenter of a scene: paths of depth and force, and impacts of free bodies."""
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _check
-from ._check import ArrayLike, Parameter
+from ._check import ArrayLike
 from .contact.creep import creep
 from .contact.loading import indent, indent_to_force
 from .foundation.chain_impact import chain_impact
@@ -51,8 +52,12 @@ class DepthPath(_Path):
     0.63662
     """
 
-    depth: Parameter
-    time: ArrayLike | None = None
+    depth: Any
+    time: Any = None
+
+    if TYPE_CHECKING:
+
+        def __init__(self, depth: ArrayLike, time: ArrayLike | None = None) -> None: ...
 
     def __post_init__(self):
         depth = _path("DepthPath depth", self.depth, "m")
@@ -85,8 +90,12 @@ class ForcePath(_Path):
     1.253314
     """
 
-    force: Parameter
-    time: ArrayLike | None = None
+    force: Any
+    time: Any = None
+
+    if TYPE_CHECKING:
+
+        def __init__(self, force: ArrayLike, time: ArrayLike | None = None) -> None: ...
 
     #: Where the scalar law of creep ends the chain goes on by itself.
     _viscous = (CREEP_LAW, CHAIN)

@@ -8,7 +8,7 @@ from typing import Any, Self
 import numpy as np
 
 from . import _check, _read_only
-from ._check import Array, Parameter, shown
+from ._check import Array, ArrayLike, shown
 
 _TINY = np.finfo(float).tiny
 #: Radii (m) between which a law is asked, whatever a search tries.
@@ -85,7 +85,7 @@ class HardnessLaw(_check.Parameters, ABC):
         """a² σ_c (N): 1/π of the force of a contact that has yielded throughout, as behind a wall."""
         return a * self.line_load(a)
 
-    def scaled(self, factor: Parameter, length: Parameter) -> "ScaledLaw":
+    def scaled(self, factor: ArrayLike, length: ArrayLike) -> "ScaledLaw":
         """The law of radii in units of a `length` (m), with line loads times a `factor`."""
         return ScaledLaw(self, factor, length)
 
@@ -119,9 +119,9 @@ class SumOfClasses(HardnessLaw):
     Constants (Pa, N/m, N) are not negative; an infinite q_c means that nothing yields.
     """
 
-    hardness: Parameter
-    q_c: Parameter
-    f_c: Parameter
+    hardness: Any
+    q_c: Any
+    f_c: Any
 
     def at(self, a):
         return self.hardness + np.asarray(self.q_c) / a + np.asarray(self.f_c) / a / a
@@ -154,8 +154,8 @@ class ScaledLaw(_check.Parameters):
     """A law of radii in units of a length (m), with line loads times a factor; a NaN of it is refused."""
 
     law: HardnessLaw
-    factor: Parameter
-    length: Parameter
+    factor: Any
+    length: Any
 
     def line_load(self, a: Array) -> Array:
         """`HardnessLaw.line_load` in these units."""
@@ -175,7 +175,7 @@ class ScaledLaw(_check.Parameters):
         radii = np.empty(0) if self.law.shape else _sharp_radii(self.law)
         return radii / self.length
 
-    def scaled(self, factor: Parameter, length: Parameter) -> Self:
+    def scaled(self, factor: ArrayLike, length: ArrayLike) -> Self:
         """`HardnessLaw.scaled` on top of these units."""
         return type(self)(self.law, self.factor * factor, self.length * length)
 

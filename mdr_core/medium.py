@@ -1,6 +1,7 @@
 """The medium: modulus, hardness, viscosity, Poisson ratio and work of adhesion."""
 
 from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -169,11 +170,25 @@ class Medium(_check.Parameters):
     E_star: Parameter
     q_c: Parameter = None
     eta: Parameter = 0.0
-    poisson: Parameter = 0.5
+    poisson: Parameter | None = 0.5
     work_of_adhesion: Parameter = 0.0
     _: KW_ONLY
-    hardness: Parameter = None
+    hardness: Any = None
     f_c: Parameter = None
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            E_star: ArrayLike,
+            q_c: ArrayLike | None = None,
+            eta: ArrayLike = 0.0,
+            poisson: ArrayLike | None = 0.5,
+            work_of_adhesion: ArrayLike = 0.0,
+            *,
+            hardness: ArrayLike | HardnessLaw | None = None,
+            f_c: ArrayLike | None = None,
+        ) -> None: ...
 
     def __post_init__(self):
         poisson = self.poisson

@@ -13,7 +13,7 @@ not matter has a stiffness K (N/m): w = F/K.
 """
 
 from dataclasses import KW_ONLY, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy
@@ -73,10 +73,23 @@ class Structure(_check.Parameters):
     impedance: Parameter = np.inf
     stiffness: Parameter = np.inf
     _: KW_ONLY
-    edge: Parameter = None
-    thickness: Parameter = None
-    wave_spread: Parameter = None
-    shear_speed: Parameter = None
+    edge: Parameter | None = None
+    thickness: Parameter | None = None
+    wave_spread: Parameter | None = None
+    shear_speed: Parameter | None = None
+
+    if TYPE_CHECKING:
+
+        def __init__(
+            self,
+            impedance: ArrayLike = np.inf,
+            stiffness: ArrayLike = np.inf,
+            *,
+            edge: ArrayLike | None = None,
+            thickness: ArrayLike | None = None,
+            wave_spread: ArrayLike | None = None,
+            shear_speed: ArrayLike | None = None,
+        ) -> None: ...
 
     def __post_init__(self):
         units = {"impedance": "N·s/m", "stiffness": "N/m"}

@@ -8,6 +8,7 @@ import mdr_core as mdr
 medium = mdr.Medium.from_bodies(E1=78e9, nu1=0.42, q_c=100.0)
 many = mdr.Medium(E_star=np.array([1e9, 2e9]), q_c=[1.0, 2.0])
 modulus: float = float(medium.E_star) * 2
+moduli: float | NDArray[np.float64] = many.E_star
 tip = mdr.Sphere(radius=200e-9)
 path = mdr.indent(tip, medium, depth=[10e-9, 5e-9, 8.5e-9])
 force: NDArray[np.float64] = path.force
@@ -22,6 +23,8 @@ for limit in path.limits:
     print(limit.what, limit.value + limit.bound, limit.exceeded, limit.sentence.upper())
 hit = mdr.impact(mdr.Cone(slope=[0.1, 0.3]), medium, mass=1e-12, speed=0.1)
 fast = hit.fast_limit.max_depth_error
+restitution: NDArray[np.float64] = hit.restitution
+longest = hit.contact_time.max()
 motion = hit[0].motion(50)
 energy = motion.kinetic_energy + motion.stored_energy + motion.plastic_work
 turning: int = motion.turning_index
@@ -50,3 +53,14 @@ forward, turning_rate = ball.rebound(bounce, 0.05)
 inner = state.stress(0.0, [0.0, 1e-9]).von_mises.max() + state.stress_peak("von_mises").value
 deepest = state.largest_stress([1e-9, 2e-9]).max() + fit.to_dict()["q_c"]
 slips = bounce.motion(20).stick_radius.max() + bounce.errors.friction_work * bounce.rebound_angle
+plate = mdr.Structure.plate(2e-3, E=70e9, nu=0.33, density=2700.0, edge=[0.05, 0.1])
+on_plate = mdr.impact(tip, medium, 1e-12, 0.1, structure=plate.entries(0)).max_deflection + plate.impedance
+laminate = mdr.Medium.from_transversely_isotropic(52e9, 9e9, 0.31, 0.06, 4e9, hardness=0.5e9).E_star
+
+
+def refused() -> None:
+    """What a type checker refuses: a strict one reports a comment that is not needed."""
+    mdr.Sphere(radius="one micron")  # type: ignore[arg-type]
+    mdr.Medium(E_star="1 GPa")  # type: ignore[arg-type]
+    mdr.indent(tip, medium, "abc")  # type: ignore[arg-type]
+    mdr.impact(tip, medium, ["a"], 0.1)  # type: ignore[arg-type]

@@ -21,10 +21,10 @@ class ImpactResult(Result):
 
     medium: Any
     structure: Any
-    speed: Any
-    restitution: Any
-    contact_time: Any
-    plastic_radius: Any
+    speed: Array
+    restitution: Array
+    contact_time: Array
+    plastic_radius: Array
 
     @property
     def _shown(self):  # type: ignore[override]

@@ -1,12 +1,12 @@
 """Angles of incidence, and balls that spin, for oblique impacts."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .. import _check
-from .._check import Array, ArrayLike
+from .._check import Array, ArrayLike, Parameter
 from .oblique_impact import ObliqueImpact
 
 
@@ -54,9 +54,13 @@ class Ball:
     2.0 2.0
     """
 
-    mass: Any
-    radius: Any
+    mass: Parameter
+    radius: Parameter
     hollow: bool = False
+
+    if TYPE_CHECKING:
+
+        def __init__(self, mass: ArrayLike, radius: ArrayLike, hollow: bool = False) -> None: ...
 
     def __post_init__(self):
         mass = _check.positive("Ball mass", self.mass, unit="kg")

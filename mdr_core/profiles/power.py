@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -29,6 +30,10 @@ class FlatPunch(Profile):
     """
 
     radius: Parameter
+
+    if TYPE_CHECKING:
+
+        def __init__(self, radius: ArrayLike) -> None: ...
 
     def __post_init__(self):
         _check.set_positive(self, radius="m")
@@ -61,6 +66,10 @@ class Cone(Profile):
     """
 
     slope: Parameter
+
+    if TYPE_CHECKING:
+
+        def __init__(self, slope: ArrayLike) -> None: ...
 
     def __post_init__(self):
         _check.set_positive(self, slope="")
@@ -144,6 +153,10 @@ class Paraboloid(Profile):
 
     radius: Parameter
 
+    if TYPE_CHECKING:
+
+        def __init__(self, radius: ArrayLike) -> None: ...
+
     def __post_init__(self):
         _check.set_positive(self, radius="m")
 
@@ -180,6 +193,10 @@ class PowerLaw(Profile):
 
     coefficient: Parameter
     exponent: Parameter
+
+    if TYPE_CHECKING:
+
+        def __init__(self, coefficient: ArrayLike, exponent: ArrayLike) -> None: ...
 
     def __post_init__(self):
         _check.set_positive(self, coefficient="m^(1-n)", exponent="")

@@ -1,10 +1,11 @@
 """Profiles with a rounded tip: sphere, hyperboloid, rounded cone, parabolic punch."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._check import Parameter
+from .._check import ArrayLike, Parameter
 from .radius_table import OneLength
 
 
@@ -25,6 +26,10 @@ class Sphere(OneLength):
     """
 
     radius: Parameter
+
+    if TYPE_CHECKING:
+
+        def __init__(self, radius: ArrayLike) -> None: ...
 
     _length = _depth = body_radius = property(lambda self: self.radius)
     # At this depth a is R to rounding.
@@ -70,6 +75,11 @@ class Hyperboloid(OneLength):
 
     slope: Parameter
     tip_radius: Parameter
+
+    if TYPE_CHECKING:
+
+        def __init__(self, slope: ArrayLike, tip_radius: ArrayLike) -> None: ...
+
     _length = property(lambda self: self.slope * self.tip_radius)
     _depth = property(lambda self: self.slope * self._length)
     _Z = staticmethod(lambda u: u * (u / (np.hypot(u, 1.0) + 1)))
@@ -99,6 +109,11 @@ class RoundedCone(OneLength):
 
     tip_radius: Parameter
     slope: Parameter
+
+    if TYPE_CHECKING:
+
+        def __init__(self, tip_radius: ArrayLike, slope: ArrayLike) -> None: ...
+
     _length = property(lambda self: self.slope * self.tip_radius)
     _depth = property(lambda self: self.slope * self._length)
     kinks = property(lambda self: (self._depth,))
@@ -139,6 +154,10 @@ class ParabolicPunch(OneLength):
 
     radius: Parameter
     cylinder_radius: Parameter
+
+    if TYPE_CHECKING:
+
+        def __init__(self, radius: ArrayLike, cylinder_radius: ArrayLike) -> None: ...
 
     _length = wall = property(lambda self: self.cylinder_radius)
     _depth = property(lambda self: self.cylinder_radius * (self.cylinder_radius / self.radius))

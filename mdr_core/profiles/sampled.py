@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .. import _check
-from .._check import ArrayLike, Parameter
+from .._check import ArrayLike
 from ..numerics.blocks import chunks
 from ..numerics.results import above
 from ..numerics.stable import root
@@ -43,8 +44,12 @@ class Sampled(Profile):
     1.570796326795
     """
 
-    r: Parameter
-    z: Parameter
+    r: tuple[float, ...]
+    z: tuple[float, ...]
+
+    if TYPE_CHECKING:
+
+        def __init__(self, r: ArrayLike, z: ArrayLike) -> None: ...
 
     def __post_init__(self):
         r, z = _lists("Sampled", self.r, self.z, most=_check.LONGEST)

@@ -1,10 +1,11 @@
 """Profiles with a flat face: truncated cone and paraboloid, punch with a rounded edge."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .._check import Parameter
+from .._check import ArrayLike, Parameter
 from .radius_table import OneLength
 
 
@@ -36,6 +37,11 @@ class TruncatedCone(_FlatFaced):
 
     flat_radius: Parameter
     slope: Parameter
+
+    if TYPE_CHECKING:
+
+        def __init__(self, flat_radius: ArrayLike, slope: ArrayLike) -> None: ...
+
     _depth = property(lambda self: self.slope * self.flat_radius)
     _Z = staticmethod(lambda u: np.maximum(u - 1, 0.0))
     _G = staticmethod(lambda u: u * np.arctan(_tau(u)))
@@ -67,6 +73,11 @@ class TruncatedParaboloid(_FlatFaced):
 
     flat_radius: Parameter
     radius: Parameter
+
+    if TYPE_CHECKING:
+
+        def __init__(self, flat_radius: ArrayLike, radius: ArrayLike) -> None: ...
+
     _depth = property(lambda self: self.flat_radius * (self.flat_radius / self.radius))
     _Z = staticmethod(lambda u: np.maximum(u - 1, 0.0) * ((u + 1) / 2))
     _G = staticmethod(lambda u: u * _tau(u))
@@ -100,6 +111,11 @@ class RoundedPunch(_FlatFaced):
 
     flat_radius: Parameter
     edge_radius: Parameter
+
+    if TYPE_CHECKING:
+
+        def __init__(self, flat_radius: ArrayLike, edge_radius: ArrayLike) -> None: ...
+
     _depth = property(lambda self: self.flat_radius * (self.flat_radius / self.edge_radius))
     _Z = staticmethod(lambda u: np.maximum(u - 1, 0.0) ** 2 / 2)
     _G = staticmethod(lambda u: u * _arctan_gap(_tau(u)))
