@@ -97,7 +97,8 @@ def along_surface(normal, speed, friction, mass, halvings, impact=None):
     sticks = np.zeros(load.shape, bool)
     for row, (loads, sticking) in enumerate(states):
         load[row, : loads.size], sticks[row, : loads.size] = loads, sticking
-    sticks &= width > 0
+    # The criterion is exact, where the load of an element is its bound to rounding.
+    sticks &= (width > 0) & ~np.asarray(impact is not None and impact.slips_throughout)
     stuck, first = sticks.any(axis=1), sticks.argmax(axis=1)
     last = width.size - sticks[:, ::-1].argmax(axis=1)
     velocity, energy = run.velocity * speed, stiffness * speed**2
