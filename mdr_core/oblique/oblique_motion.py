@@ -10,6 +10,7 @@ from ..numerics.motions import Motion, MotionResult
 from .depth_levels import levels
 from .dry_friction import DryRun, first_counts
 from .dry_levels import NormalMotions
+from .tangential_motion import slip_throughout
 from .viscous_friction import bound_ratio, slide
 
 
@@ -97,8 +98,9 @@ def along_surface(normal, speed, friction, mass, halvings, impact=None):
     sticks = np.zeros(load.shape, bool)
     for row, (loads, sticking) in enumerate(states):
         load[row, : loads.size], sticks[row, : loads.size] = loads, sticking
-    # The criterion is exact, where the load of an element is its bound to rounding.
-    sticks &= (width > 0) & ~np.asarray(impact is not None and impact.slips_throughout)
+    # Where nothing sticks the load of an element is its bound to rounding only.
+    given = (np.array([value]) for value in (abs(speed), friction, mass))
+    sticks &= (width > 0) & ~slip_throughout(hit, *given)["slips_throughout"]
     stuck, first = sticks.any(axis=1), sticks.argmax(axis=1)
     last = width.size - sticks[:, ::-1].argmax(axis=1)
     velocity, energy = run.velocity * speed, stiffness * speed**2

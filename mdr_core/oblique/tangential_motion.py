@@ -52,7 +52,7 @@ def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
     shape, names = hit.shape, [field.name for field in fields(SurfaceSolution)]
     speed, friction, tangential_mass = _flat(hit, np.abs(tangential_speed), friction, tangential_mass)
     eta, plastic_work = _flat(hit, hit.medium.eta, hit.plastic_work)
-    columns = _slip_throughout(hit, speed, friction, tangential_mass)
+    columns = slip_throughout(hit, speed, friction, tangential_mass)
     slips = columns["slips_throughout"]
     viscous = (eta > 0) & (~slips | ((plastic_work > 0) & (friction > 0)))
     rows = np.flatnonzero(viscous)
@@ -82,7 +82,7 @@ def _flat(hit, *values):
     return (np.broadcast_to(value, hit.shape).ravel() for value in values)
 
 
-def _slip_throughout(hit, speed, friction, tangential_mass):
+def slip_throughout(hit, speed, friction, tangential_mass):
     """Fields of a `SurfaceSolution` as flat arrays, right where all elements slip throughout."""
     normal_speed, restitution, mass = _flat(hit, hit.speed, hit.restitution, hit.mass)
     given = hit.max_force, hit.viscous_work, hit.medium.tangential_ratio

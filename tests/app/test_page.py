@@ -362,8 +362,8 @@ def test_an_error_of_a_tip_stands_beside_its_field_until_a_good_file(explorer, t
     path.write_text(table({"r (metres)": 1e-3 * r, "z (metres)": 1e-5 * r**2}), encoding="utf-8")
     tip.set_input_files(path)
     said.wait_for(state="detached")
-    explorer.wait("document.body.innerText.includes('Measured tip')")
-    assert explorer.chosen("Shape") == "Measured tip"
+    chosen = page.get_by_label("Shape", exact=True).locator("option:checked")
+    chosen.filter(has_text=re.compile("^Measured tip$")).wait_for(state="attached")
 
 
 def test_a_held_scene_that_is_none_is_told_and_leaves_the_address(server, context):
