@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.fit.measurement import rates
 
 from ..approx import approx
 from ..shapes import name
@@ -296,3 +297,14 @@ class TestYieldAndViscosity:
         said = " ".join(fit.remarks)
         assert "the search found no minimum" in said
         assert not any(word in said for word in ("class", "tip", "unloading", "inf %"))
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0], ids=["reloading", "reversed"])
+def test_the_rate_jumps_where_the_depth_turns_up_or_down(sign):
+    """It is not known at these samples alone; a smooth path has none."""
+    time = np.linspace(0.0, 3.0, 301)
+    depth = sign * 1e-7 * np.interp(time, [0, 1, 2, 3], [0, 1, 0.4, 1.4])
+    rate, corner = rates(depth[None], time[None])
+    assert np.flatnonzero(corner[0]).tolist() == [100, 200]
+    assert rate[0, [50, 150, 250]] == approx(sign * 1e-7 * np.array([1, -0.6, 1]), rel=1e-9)
+    assert not rates(1e-7 * np.sin(time)[None], time[None])[1].any()
