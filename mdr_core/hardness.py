@@ -30,7 +30,7 @@ class HardnessLaw(_check.Parameters, ABC):
     u_c = π a σ_c(a)/(2E*), Popov (2015), Eqs. (11), (12). A law is valid while σ_c is finite and above 0
     and a σ_c/g(a) does not grow with a: otherwise elements that have yielded would become elastic again on
     loading. Every calculation checks this at 200 radii, from 10⁻⁶ of its largest contact radius up to it,
-    and that `rate` is the derivative of `at`.
+    and that `rate` is the derivative of `at`. Dips narrower than 7 % of the radius are not seen.
 
     Parameters may be arrays, which broadcast like the parameters of a `Medium`; give a table as a tuple.
     Laws are evaluated at radii of 10⁻³⁰ m and more.
@@ -183,15 +183,13 @@ class ScaledLaw(_check.Parameters):
         """The law's function of a name at radii; beyond the radii where it is a law, a σ_c is constant."""
         radius = np.minimum(np.maximum(self.length * a, NARROWEST), _WIDEST)
         # Values are looked at here: a search may ask a law where its powers leave double precision.
-        with np.errstate(all="ignore"):
-            value = np.asarray(getattr(self.law, name)(radius))
+        value = law_numbers(self.law, name, radius)
         if not np.any(_is_none(name, value)):
             return value
         # A search went there: `check_law` refuses the law if its result is there.
         low, high = _range_of(self.law) if not self.law.shape else (NARROWEST, _WIDEST)
         inside = np.clip(radius, low, high)
-        with np.errstate(all="ignore"):
-            value = np.where(np.isnan(radius), np.nan, getattr(self.law, name)(inside))
+        value = np.where(np.isnan(radius), np.nan, law_numbers(self.law, name, inside))
         if name == "line_load_rate":
             value = np.where(inside == radius, value, 0.0)
         bad = _is_none(name, value) & ~np.isnan(radius)
@@ -225,8 +223,8 @@ def refused_law(law, what, remedy):
     return _check.InvalidArgument(f"hardness {shown(law)}: {text}", "hardness", law, what, "", remedy)
 
 
-def law_values(law, name, a):
-    """Values of a law's function of a name at an array of radii (m), refused unless one for each radius."""
+def law_numbers(law, name, a):
+    """What a law's function of a name gives for radii (m), as an array of numbers, else refused."""
     try:
         with np.errstate(all="ignore"):
             value = getattr(law, name)(a)
@@ -235,9 +233,18 @@ def law_values(law, name, a):
     except (TypeError, ValueError, ArithmeticError) as error:
         what = f"{name}(a) fails for an array of radii ({type(error).__name__}: {error})"
         raise refused_law(law, what, "write it for arrays, with NumPy's functions") from error
-    kind = np.asarray(value).dtype.kind
-    if hasattr(value, "units") or hasattr(value, "unit") or kind not in "iuf":
-        raise refused_law(law, f"{name}(a) gives {shown(value)}", "give plain numbers in SI units")
+    plain = not (hasattr(value, "units") or hasattr(value, "unit") or np.iscomplexobj(value))
+    try:
+        if plain:
+            return np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        pass
+    raise refused_law(law, f"{name}(a) gives {shown(value)}", "give plain numbers in SI units")
+
+
+def law_values(law, name, a):
+    """`law_numbers` at an array of radii (m), refused unless one for each radius."""
+    value = law_numbers(law, name, a)
     try:
         return np.broadcast_to(value, a.shape)
     except ValueError:

@@ -78,7 +78,7 @@ def _misfit(solution):
     # A background that is fitted differs between the classes, and may be much larger than the record.
     if not set(BACKGROUND) & set(curves.free):
         force = np.max(np.abs(curves.force - curves.background(values)), axis=1)
-    return np.sqrt(np.mean((solution.minimum.residual * solution.noise) ** 2, axis=1)) / force
+    return np.sqrt(np.mean(solution.deviation**2, axis=1)) / force
 
 
 @dataclass(frozen=True)

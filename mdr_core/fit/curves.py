@@ -72,6 +72,11 @@ class Curves:
         return np.abs(self.rate).max(axis=1, keepdims=True)
 
     @cached_property
+    def left_out(self):
+        """Whether samples have no weight (R, N)."""
+        return self.sigma > np.sqrt(NO_WEIGHT) * self.sigma.min(axis=1, keepdims=True)
+
+    @cached_property
     def free(self):
         """Names of the free parameters."""
         return tuple(name for name in PARAMETERS if name not in self.held)

@@ -93,7 +93,7 @@ def _misfit(solved, i):
 
 def _outliers(solved, i):
     """Samples far from both neighbours that have most of the squares of the residuals."""
-    residual = solved.minimum.residual[i]
+    residual = solved.minimum.residual[i][~solved.curves.left_out[i]]
     if residual.size < _ENOUGH or solved.curves.adhesive:
         return
     distance = residual[1:-1] - (residual[:-2] + residual[2:]) / 2

@@ -13,12 +13,18 @@ from .parameters import PARAMETERS, TOGETHER
 
 #: All kinds of remarks, the most important first.
 KINDS = (
-    "invalid", "units", "order", "no contact", "adhesion", "bound", "second minimum", "undetermined",
-    "tilt", "drag", "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "few", "loading",
-    "vague", "contact", "constants", "elastic", "noisy", "rest", "inviscid", "missing",
+    "invalid", "units", "order", "no contact", "adhesion", "no minimum", "bound", "second minimum",
+    "undetermined", "tilt", "drag", "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "few",
+    "loading", "vague", "contact", "constants", "elastic", "noisy", "rest", "inviscid", "missing",
 )  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
-DOUBTS = {"units", "order", "no contact", "tilt", "drag", "drift", "misfit", "jitter", "noisy"}
+DOUBTS = {
+    "units", "order", "no contact", "no minimum", "tilt", "drag", "drift", "misfit", "jitter", "noisy",
+}  # fmt: skip
+#: Those that take the parameters for those of a minimum, with the errors there.
+_OF_MINIMUM = {
+    "tilt", "drag", "drift", "misfit", "unloading", "outliers", "blocks", "loading", "vague", "rest",
+}  # fmt: skip
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
 #: Number of standard errors below which a constant of the hardness beside another one may be 0.
@@ -45,6 +51,14 @@ def remarks_of(solved):
     count = len(solved.rows)
     remarks = [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in range(count)]
     for each in remarks:
+        lost = [kind.partition(":")[2] for kind in each if kind.startswith("undetermined")]
+        if lost:
+            for kind in _OF_MINIMUM & set(each):
+                del each[kind]
+            text = (
+                "the search found no minimum of the residuals, but a direction in which they do not change"
+            )
+            each["no minimum"] = f"{text}, of {', '.join(lost)}"
         # The contact may be hidden by what a linear parameter describes.
         if {"tilt", "drag", "drift"} & set(each):
             each.pop("no contact", None)

@@ -322,10 +322,13 @@ def _arrays(solution, used):
     """Arrays of a `Solution` by name, one row a curve, one column a sample that was given."""
     curves, (values, state) = solution.curves, solution.values_and_states
     units = curves.units(values)[:, : len(curves.free)]
-    residuals = solution.minimum.residual * solution.noise
-    if curves.adhesive:
-        # The path follows the model, the search has contact where the data have it.
-        residuals = curves.force - curves.background(values) - state.force
+    # The path follows the model also where samples have no weight, and the search of a curve with adhesion
+    # has contact where the data have it.
+    residuals = np.where(
+        curves.left_out | curves.adhesive,
+        curves.force - curves.background(values) - state.force,
+        solution.deviation,
+    )
     samples = {
         "residuals": residuals,
         "path_depth": state.depth,

@@ -60,9 +60,8 @@ class Solution:
 
     @cached_property
     def deviation(self):
-        """Residuals (N) at all samples (R, N), 0 at those that are left out of the fit."""
-        used = self.curves.sigma < np.sqrt(NO_WEIGHT) * self.curves.sigma.min(axis=1, keepdims=True)
-        return np.where(used, self.minimum.residual * self.noise, 0.0)
+        """Residuals (N) at all samples (R, N), 0 at those that have no weight in the fit."""
+        return self.minimum.residual * self.noise
 
     @cached_property
     def reduced_chi_square(self):
@@ -153,6 +152,7 @@ def solved(rows, curves, noise_known):
         minimum, elastic = _compared_with_elastic(curves, minimum, noise_known)
     else:
         elastic = np.isinf(curves.held["q_c"])
+    minimum = replace(minimum, residual=np.where(curves.left_out, 0.0, minimum.residual))
     return Solution(rows, curves, minimum, *rival, elastic, noise_known)
 
 

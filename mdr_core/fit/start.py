@@ -27,6 +27,9 @@ _MIXTURES = {
 _LAGS = np.append(0.0, np.geomspace(0.01, 4.0, 10))
 #: Trial stretches at the rim at the largest depth, as shares of it.
 _STRETCHES = np.geomspace(0.03, 4.0, 14)
+#: Largest share of the cap at which springs carry little beside dashpots: a search from there does not come
+#: back to a medium whose springs count.
+_DASHPOTS = 0.05
 #: Largest number of starts, and largest sum of squares of a start in units of the smallest one.
 _STARTS, _CLOSE = 4, 20.0
 
@@ -68,15 +71,27 @@ def _guesses(curve, turning_depth, table):
         largest = curve.largest_so_far(curve.depth, turning_depth)[0][:, samples]
         point, rate = points[:, None, None], curve.rate[0, samples]
         unit_force = _unit_force(largest - point, depth[samples] - point, rate, media, table)
-    best, E_star, squares, background = _regression(curve, held, samples, unit_force, media)
-    trials = {name: values[np.arange(points.size), best] for name, values in media.items()}
-    trials["E_star"] = E_star
-    values = {name: parameter.start(trials) for name, parameter in MEDIUM.items() if name in curve.free}
-    values |= background | {"contact_point": points}
-    around = np.concatenate([[np.inf], squares, [np.inf]])
-    minima = (squares <= around[:-2]) & (squares < around[2:]) & (squares <= _CLOSE * squares.min())
-    chosen = sorted(np.flatnonzero(minima), key=lambda i: squares[i])[:_STARTS]
-    return [{name: float(values[name][i]) for name in curve.free} for i in chosen]
+    E_star, squares, background = _regression(curve, held, samples, unit_force, media)
+    chosen = []
+    for kind in _kinds(curve, media, largest_depth):
+        best = np.where(kind, squares, np.inf).argmin(axis=1)
+        place = np.arange(points.size), best
+        trials = {name: values[place] for name, values in media.items()} | {"E_star": E_star[place]}
+        values = {name: parameter.start(trials) for name, parameter in MEDIUM.items() if name in curve.free}
+        values |= background(best) | {"contact_point": points}
+        least = squares[place]
+        around = np.concatenate([[np.inf], least, [np.inf]])
+        minima = (least <= around[:-2]) & (least < around[2:]) & (least <= _CLOSE * least.min())
+        found = sorted(np.flatnonzero(minima), key=lambda i: least[i])[:_STARTS]
+        chosen += [(least[i], {name: float(values[name][i]) for name in curve.free}) for i in found]
+    return [start for _, start in sorted(chosen, key=lambda pair: pair[0])]
+
+
+def _kinds(curve, media, depth):
+    """Which of the trial media (M,) give starts of their own: those of dashpots alone, where both count."""
+    cap = media["cap"][0] / depth[0, 0] if "cap" in media and "eta" in curve.free else np.zeros(1)
+    few = cap < _DASHPOTS
+    return [few, ~few] if few.any() and not few.all() else [np.ones(few.shape, bool)]
 
 
 def _media(curve, held, depth):
@@ -104,6 +119,8 @@ def _media(curve, held, depth):
     else:
         tau = depth * _LAGS / max(float(curve.speed[0, 0]), 1e-300)
     count = caps[0].size
+    if not known:
+        media["cap"] = caps.reshape(len(depth), -1)
     media = {name: np.repeat(trial, tau.shape[1], axis=1) for name, trial in media.items()}
     tau = np.tile(tau, (1, count))
     return media | {"tau": tau, "kappa": np.zeros_like(tau)}
@@ -157,10 +174,10 @@ def _adhesive_force(depth, points, kappa, table):
 
 
 def _regression(curve, held, samples, unit_force, media):
-    """The line E* × unit force + background that is nearest to the force, of the best medium of each row.
+    """The lines E* × unit force + background that are nearest to the force, for each trial (Z, M).
 
-    The free parameters of the background are projected out. Returns the index of that medium, E*, the sum
-    of squares, and these parameters by name.
+    The free parameters of the background are projected out. Returns E*, the sums of squares, and a function
+    that gives these parameters by name, for one medium in each row.
     """
     force, weight = curve.force[0, samples], curve.sigma[0].min() / curve.sigma[0, samples]
     columns = {name: column[0, samples] for name, column in curve.background_columns.items()}
@@ -185,8 +202,11 @@ def _regression(curve, held, samples, unit_force, media):
         E_star = np.maximum(projected @ deviation / np.maximum(power, 1e-300), smallest)
     squares = np.sum((deviation - E_star[..., None] * projected) ** 2, axis=-1)
     squares = np.where(np.isfinite(squares), squares, np.finfo(float).max)
-    row, best = np.arange(len(squares)), squares.argmin(axis=1)
-    E_star, squares = E_star[row, best], squares[row, best]
-    remainder = weight * force - E_star[:, None] * weighted[row, best]
-    values = np.linalg.lstsq(triangle, (remainder @ basis).T, rcond=None)[0] if free else ()
-    return best, E_star, squares, dict(zip(free, values, strict=True))
+
+    def background(best):
+        row = np.arange(len(squares))
+        remainder = weight * force - E_star[row, best, None] * weighted[row, best]
+        values = np.linalg.lstsq(triangle, (remainder @ basis).T, rcond=None)[0] if free else ()
+        return dict(zip(free, values, strict=True))
+
+    return E_star, squares, background

@@ -10,9 +10,9 @@ import numpy as np
 from .. import _check
 from ..applicability import check_pair, refuse_adhesion
 from ..medium import Medium
-from ..numerics.gauss import gauss_legendre
 from ..numerics.results import above
 from ..profiles.profile import Profile
+from . import narrow
 from .row import Row
 
 
@@ -63,6 +63,8 @@ class Foundation:
     half_width: float
     nodes: tuple[float, ...] = ()
     _row: Row | None = field(default=None, kw_only=True)
+    #: Of a contact that has always been narrower than an element.
+    _loss: narrow.ViscousLoss = field(default=narrow.ViscousLoss(), kw_only=True)
 
     def __post_init__(self):
         if self._row is not None:
@@ -108,7 +110,10 @@ class Foundation:
         >>> print(moved.force, moved.advance(3.0, dt=1.0).force)  # 2E*b d + 8ηb ḋ
         22.0 6.0
         """
-        return replace(self, _row=self._row.advance(depth, dt))
+        moved, loss = self._row.advance(depth, dt), self._loss
+        if self.medium.eta > 0 and narrow.was_always_narrow(moved):
+            loss = narrow.viscous_loss(loss, self._row, moved, dt)
+        return replace(self, _row=moved, _loss=loss)
 
     @property
     def depth(self) -> float:
@@ -117,8 +122,11 @@ class Foundation:
 
     @property
     def viscous_work(self) -> float:
-        """Energy (J) dissipated by the dashpots so far."""
-        return self._row.viscous_work
+        """Energy (J) dissipated by the dashpots so far.
+
+        Of contacts narrower than one element it is an integral, as the force is.
+        """
+        return self._loss.work if narrow.was_always_narrow(self._row) else self._row.viscous_work
 
     @property
     def history(self) -> tuple[tuple[float, float], ...]:
@@ -147,8 +155,15 @@ class Foundation:
 
     @_check.frozen_property
     def contact(self) -> np.ndarray:
-        """Whether each element is in contact; a released element may still be relaxing."""
-        return _mirrored(self._row.elements.contact)
+        """Whether each element is in contact; a released element may still be relaxing.
+
+        The two in the middle are where a narrower contact lies inside them.
+        """
+        contact = self._row.elements.contact
+        if narrow.was_always_narrow(self._row):
+            contact = contact.copy()
+            contact[1] = narrow.contact_within_an_element(self._row) is not None
+        return _mirrored(contact)
 
     @_check.frozen_property
     def line_load(self) -> np.ndarray:
@@ -158,8 +173,10 @@ class Foundation:
     @_check.frozen_property
     def state(self) -> np.ndarray:
         """State of each element: "yielded" with a plastic part, else "elastic" in contact, else "free"."""
-        names = np.where(self._row.elements.contact, "elastic", "free")
-        return _mirrored(np.where(self._row.elements.plastic > 0, "yielded", names))
+        yielded, middle = self.plastic > 0, self.n // 2
+        if narrow.was_always_narrow(self._row):
+            yielded[middle - 1 : middle + 1] = self._row.elements.plastic[0] > 0
+        return np.where(yielded, "yielded", np.where(self.contact, "elastic", "free"))
 
     @property
     def force(self) -> float:
@@ -167,7 +184,7 @@ class Foundation:
 
         Of a contact that is narrower than one element it is ∫ q dx with the profile inside the element.
         """
-        if (inside := self._inside_an_element()) is not None:
+        if (inside := narrow.contact_within_an_element(self._row)) is not None:
             width, elastic = inside
             return float(2 * self.medium.E_star * (width @ np.maximum(elastic + self._row.lag, 0.0)))
         return float(2 * (self._row.line_load @ self._row.elements.width))
@@ -178,38 +195,28 @@ class Foundation:
 
         Of a contact that is narrower than one element it is an integral, as the force is.
         """
-        inside = self._inside_an_element()
-        if inside is not None and not np.any(self._row.elements.elastic[~self._row.elements.contact]):
-            width, elastic = inside
-            return float(self.medium.E_star * (width @ elastic**2))
-        return self._row.stored_energy
-
-    def _inside_an_element(self):
-        """Widths (m) and elastic parts (m) on a side of a contact narrower than an element, else None."""
-        elements, lag = self._row.elements, self._row.lag
-        if not elements.contact[0] or elements.contact[2:].any():
-            return None
-        plastic, elastic = float(elements.plastic[0]), float(elements.elastic[0])
-        # Contact ends where springs and dashpots together carry nothing.
-        rim = plastic + elastic + min(lag, 0.0)
-        ends = self.profile.contact_radius(np.array([min(plastic, rim), rim])) * [plastic > 0, 1.0]
-        if rim <= 0 or ends[1] >= elements.width[1]:
-            return None
-        node, weight = gauss_legendre(24)
-        # From the axis and from the edge of the imprint on, g may be a root: even in t⁴.
-        x = np.append(ends[0] * node**4, ends[0] + (ends[1] - ends[0]) * node**4)
-        width = np.append(ends[0] * weight, (ends[1] - ends[0]) * weight) * np.tile(4 * node**3, 2)
-        return width, elastic - np.maximum(self.profile.reduced(x) - plastic, 0.0)
+        inside = narrow.contact_within_an_element(self._row)
+        energy = 0.0 if inside is None else float(self.medium.E_star * (inside[0] @ inside[1] ** 2))
+        if narrow.was_always_narrow(self._row):
+            return energy + self._loss.relaxing
+        relaxing = np.any(self._row.elements.elastic[~self._row.elements.contact])
+        return self._row.stored_energy if inside is None or relaxing else energy
 
     @property
     def plastic_work(self) -> float:
-        """Energy Σ ∫ E* u_c du_p Δx (J) dissipated by yielding so far."""
+        """Energy Σ ∫ E* u_c du_p Δx (J) dissipated by yielding so far.
+
+        Of contacts narrower than one element it is an integral, as the force is.
+        """
+        if narrow.was_always_narrow(self._row):
+            return narrow.plastic_work(self._row)
         return self._row.plastic_work
 
 
 def foundation_of(row: Row) -> Foundation:
     """The `Foundation` in the state of a row, as a solver has left it."""
-    return Foundation(row.profile, row.medium, row.n, row.half_width, row.nodes, _row=row)
+    loss = narrow.ViscousLoss(row.viscous_work)
+    return Foundation(row.profile, row.medium, row.n, row.half_width, row.nodes, _row=row, _loss=loss)
 
 
 def _mirrored(values):

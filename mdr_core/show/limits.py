@@ -3,6 +3,7 @@
 import numpy as np
 
 from .. import _check
+from ..hardness import law_numbers
 from ..impacts.scaling import MAX_ERROR, depth_in_fast_limit
 from ..numerics.results import Limit
 from ..profiles.power import Cone
@@ -30,6 +31,8 @@ _LIGHT = 10.0
 #: Range of the effective moduli (Pa) of the media that there are.
 _SOFTEST = 1e3
 _STIFFEST = 1e13
+#: Range of H/E* of the media that there are, and d(a σ_c)/da over σ_c from which on a contact flows.
+_SOFT, _HARD, _FLOWS = 1e-5, 0.3, 0.5
 #: Depth (m) of an atom: no medium yields at less. Largest Poisson ratio, for which a q_c may be mistaken.
 _ATOM = 1e-10
 _INCOMPRESSIBLE = 0.5
@@ -42,7 +45,8 @@ def contact_limits(profile, medium, radius, *, slow=False):
         limits.extend(_viscosity_limit(medium) if slow else _poisson_limit(medium))
     limits.extend(_modulus_limit(medium))
     limits.extend(_critical_depth_limit(medium))
-    limits.extend(_flow_limit(medium))
+    limits.extend(_hardness_limit(medium))
+    limits.extend(_flow_limit(profile, medium, radius))
     return (*limits, *_tabor_limit(profile, medium), *_facet_limit(profile, medium))
 
 
@@ -120,15 +124,50 @@ def _critical_depth_limit(medium):
     yield Limit("critical depth", least, _ATOM, True, f"{text}.")
 
 
-def _flow_limit(medium):
-    """Contact area of a contact that flows over that of this model, if there is a hardness H or a law."""
-    if medium.has_own_law or np.any(np.asarray(medium.hardness) > 0):
-        text = (
-            "On loading the model has the contact radius of an elastic contact, a² = R d under a ball; "
-            "plastic flow leads to a² = 2 R d. Under a ball yield starts at a mean pressure of 2H/3, "
-            "and the restitution is about 0.7 times the value of Johnson's law for metals."
-        )
-        yield Limit("flow", 2.0, 1.0, True, text, severe=False)
+def _hardness_limit(medium):
+    """Hardness H alone over the effective modulus, of a medium that there is: fused silica has 0.16."""
+    hardness = np.asarray(0.0 if medium.has_own_law else medium.hardness)
+    ratio = hardness / medium.E_star
+    alone = (ratio > 0) & ~(np.asarray(medium.q_c) + np.asarray(medium.f_c) > 0)
+    for bad, bound, what in (
+        (alone & (ratio < _SOFT), _SOFT, "less than of any medium"),
+        (alone & (ratio > _HARD), _HARD, "more than of any medium"),
+    ):
+        if np.any(bad):
+            value, given, _ = (part[bad][0] for part in np.broadcast_arrays(ratio, hardness, bad))
+            text = (
+                f"The hardness H = {given:.4g} Pa is {value:.2g} E*, {what} ({_SOFT:g} to {_HARD:g}): "
+                "check that H and E* are given in Pa."
+            )
+            yield Limit("hardness", float(value), bound, True, text)
+
+
+def _flow_limit(profile, medium, radius):
+    """Contact area of a contact that flows over that of this model.
+
+    A hardness makes a contact flow where a σ_c grows with a, as of H, and not where q_c/a or f_c/a² is most
+    of it: d(a σ_c)/da over σ_c is 1, 0 and −1 of these.
+    """
+    reached = np.asarray(radius) > 0
+    a = np.where(reached, radius, 1.0)
+    with np.errstate(invalid="ignore"):
+        share = law_numbers(medium.law, "line_load_rate", a) / law_numbers(medium.law, "at", a)
+    if not np.any(reached & (share > _FLOWS)):
+        return
+    text, value = "On loading the model has the contact radius of an elastic contact, ", 2.0
+    if isinstance(profile, Cone):
+        value = np.pi**2 / 4
+        text += "2/π of that of plastic flow, which leads to 2.5 times the area."
+    elif np.all(profile.body_radius < np.inf):
+        text += "a² = R d under a ball; plastic flow leads to a² = 2 R d."
+        if not medium.has_own_law:
+            text += (
+                " Under a ball yield starts at a mean pressure of 2H/3, and the restitution is about 0.7 "
+                "times the value of Johnson's law for metals."
+            )
+    else:
+        text += "and plastic flow leads to a larger one, of a ball with twice the area."
+    yield Limit("flow", value, 1.0, True, text, severe=False)
 
 
 def _tabor_limit(profile, medium):

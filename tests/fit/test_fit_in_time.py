@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.fit.measurement import rates
 
 from ..approx import approx
 from ..shapes import name
@@ -253,3 +254,57 @@ class TestSamples:
         assert 1e-6 * band.dimension_values(1).max() == approx(largest)
         with pytest.raises(ValueError, match="needs a single curve"):
             mdr.fit_indentation(self.PROFILE, [z, z], [force, force]).plot()
+
+
+class TestYieldAndViscosity:
+    """A cone pressed to five critical depths in 6.7 s; the record begins at −d/2 and ends there."""
+
+    CONE, MEDIUM = mdr.Cone(0.3), mdr.Medium.from_critical_depth(1e9, 40e-9)
+    TIME = np.linspace(0.0, 20.0, 301)
+    DEPTH = np.interp(TIME, [0, 10, 20], 200e-9 * np.array([-0.5, 1, -0.5]))
+
+    def force(self, tau):
+        medium = mdr.Medium(1e9, self.MEDIUM.q_c, tau * 1e9 / 4)
+        return mdr.indent_in_time(self.CONE, medium, self.DEPTH, self.TIME, tolerance=1e-6).force
+
+    @pytest.mark.parametrize("tau", [0.8, 1.2, 2.0, 4.0])
+    def test_dashpots_do_not_stand_for_springs(self, tau):
+        """0.1 % of noise; an E* within 20 %, of which the statistical error is at most 6 %."""
+        random, force = np.random.default_rng(0), self.force(tau)
+        noisy = force + 1e-3 * force.max() * random.normal(size=(6, force.size))
+        depth, time = (np.broadcast_to(each, noisy.shape) for each in (self.DEPTH, self.TIME))
+        fit = mdr.fit_indentation(self.CONE, depth, noisy, time=time, eta=None)
+        np.testing.assert_allclose(fit.medium.E_star, 1e9, rtol=0.2)
+        np.testing.assert_allclose(fit.medium.q_c, self.MEDIUM.q_c, rtol=0.1)
+
+    def test_the_sample_at_the_corner_is_left_out_of_all_that_is_said(self):
+        """Its rate is not known; without it E* has the tolerance of the chain. `residuals` has it."""
+        fit = mdr.fit_indentation(self.CONE, self.DEPTH, self.force(1.2), time=self.TIME, eta=None)
+        assert fit.medium.E_star == approx(1e9, rel=1e-6)
+        corner = np.argmax(np.abs(fit.residuals))
+        assert self.TIME[corner] == 10.0
+        assert np.abs(fit.residuals[corner]) > 0.01 * fit.force.max()
+        assert fit.force_noise < 1e-6 * fit.force.max()
+        assert all(remark.startswith("no hold") for remark in fit.remarks)
+
+    def test_without_a_minimum_nothing_is_said_of_its_causes(self):
+        """The elastic part of a force of dashpots alone is nowhere seen."""
+        force = 1e-6 * np.maximum(self.DEPTH / 200e-9, 0.0) * (self.TIME <= 10)
+        random = np.random.default_rng(0)
+        force = force + 1e-9 * random.normal(size=force.size)
+        fit = mdr.fit_indentation(self.CONE, self.DEPTH, force, time=self.TIME, eta=None)
+        assert np.isinf(fit.standard_errors["E_star"])
+        said = " ".join(fit.remarks)
+        assert "the search found no minimum" in said
+        assert not any(word in said for word in ("class", "tip", "unloading", "inf %"))
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0], ids=["reloading", "reversed"])
+def test_the_rate_jumps_where_the_depth_turns_up_or_down(sign):
+    """It is not known at these samples alone; a smooth path has none."""
+    time = np.linspace(0.0, 3.0, 301)
+    depth = sign * 1e-7 * np.interp(time, [0, 1, 2, 3], [0, 1, 0.4, 1.4])
+    rate, corner = rates(depth[None], time[None])
+    assert np.flatnonzero(corner[0]).tolist() == [100, 200]
+    assert rate[0, [50, 150, 250]] == approx(sign * 1e-7 * np.array([1, -0.6, 1]), rel=1e-9)
+    assert not rates(1e-7 * np.sin(time)[None], time[None])[1].any()

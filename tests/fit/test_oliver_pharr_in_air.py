@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+import scipy
 
 import mdr_core as mdr
+from mdr_core.fit.first_contact import first_contact
 
 from ..approx import approx
 from .test_fit import silica
@@ -113,3 +115,23 @@ def test_a_fit_that_does_not_fit_has_no_first_contact():
     assert fit.quoted.value is None
     assert "not first contact" in fit.quoted.reason
     assert "Oliver" not in repr(fit)
+
+
+def test_contact_is_between_those_of_both_exponents_where_none_is_determined():
+    """A force in proportion to the depth is not of m = 1.5 … 3, as of a cone: their middle is taken."""
+    depth = np.append(np.linspace(-400e-9, 0.0, 400, endpoint=False), np.linspace(0.0, 30e-9, 16))
+    force = 1.0 * np.maximum(depth, 0.0)
+    contact, _ = first_contact(mdr.Cone(0.3), depth, force)
+    ends = []
+    for m in (1.5, 3.0):
+
+        def power(x, level, k, z, m=m):
+            return level + k * np.maximum(x - z, 0.0) ** m
+
+        x, y = depth / 30e-9, force / force.max()
+        (_, _, z), _ = scipy.optimize.curve_fit(power, x, y, p0=(0.0, 0.5, -0.3))
+        ends.append(z * 30e-9)
+    assert ends[1] < ends[0] < 0
+    # Both minima to the tolerance of the search, 10⁻⁸, over the flatness of their bottom.
+    assert contact.depth == approx(sum(ends) / 2, rel=1e-3)
+    assert contact.depth_error == approx((ends[0] - ends[1]) / 2, rel=1e-3)

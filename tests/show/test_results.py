@@ -1,6 +1,6 @@
 """Where the model ends, as data; and results that cannot be pieced together from others."""
 
-from dataclasses import FrozenInstanceError
+from dataclasses import FrozenInstanceError, dataclass
 
 import numpy as np
 import pytest
@@ -10,6 +10,23 @@ import mdr_core as mdr
 from ..approx import approx
 
 SOFT = mdr.Medium(1e9, 10.0)
+
+
+@dataclass(frozen=True)
+class PowerLawOfHardness(mdr.HardnessLaw):
+    """H (a₀/a)^m, as lists: NumPy takes them for numbers."""
+
+    H: float
+    a_0: float
+    m: float
+
+    def at(self, a):
+        return (self.H * (self.a_0 / a) ** self.m).tolist()
+
+    def rate(self, a):
+        return (-self.m * self.H * (self.a_0 / a) ** self.m / a).tolist()
+
+
 VISCOUS = mdr.Medium(4e6, 200.0, 30.0)
 CHAIN = mdr.chain_impact(mdr.Paraboloid(2e-3), VISCOUS, 1e-4, 0.5, tolerance=1e-3)
 
@@ -51,6 +68,19 @@ def test_numbers_in_other_units_are_noticed():
     state = mdr.indent(mdr.Cone(0.2), mdr.Medium(95.0, 1e-6), 1e-9)
     assert "E* is 95 Pa: check that it is given in Pa" in limit(state, "modulus").sentence
     assert "modulus" in exceeded(mdr.indent(mdr.Cone(0.2), mdr.Medium(2e13), 1e-9))
+    for wrong in (1.0, 3e12):
+        state = mdr.indent(mdr.Cone(0.2), mdr.Medium(1e9, hardness=wrong), 1e-9)
+        assert "check that H and E* are given in Pa" in limit(state, "hardness").sentence
+        assert limit(state, "hardness").value == approx(wrong / 1e9)
+    # Fused silica; and what is a part of σ_c, or no hardness, has any value.
+    for right in (
+        mdr.Medium(70e9, hardness=11e9),
+        mdr.Medium(1e9, q_c=1e-3, hardness=1.0),
+        mdr.Medium(1e9, f_c=1.0),
+    ):
+        assert not [
+            each for each in mdr.indent(mdr.Cone(0.2), right, 1e-9).limits if each.what == "hardness"
+        ]
     state = mdr.indent(mdr.Cone.from_half_angle(1.2), SOFT, 1e-9)
     # cot 1.2°.
     assert limit(state, "slope").value == approx(47.74, rel=1e-4)
@@ -248,6 +278,30 @@ class TestCriticalDepthBelowAtoms:
         """13.4 N/m is a hair above the bound, 13.369 N/m."""
         state = mdr.indent(mdr.Paraboloid(1e-3), medium, 1e-6)
         assert "critical depth" not in {found.what for found in state.limits}
+
+
+def test_a_contact_flows_by_its_hardness_there():
+    """a σ_c = H a grows with the contact, and a σ_c = q_c does not, however these are given."""
+    constant, sized = PowerLawOfHardness(1e8, 1e-9, 0.0), PowerLawOfHardness(1e8, 1e-9, 1.0)
+    ball, cone = mdr.Paraboloid(1e-5), mdr.Cone(0.2)
+    for tip in (ball, cone):
+        said = [
+            "flow" in exceeded(mdr.indent(tip, mdr.Medium(1e9, **given), 1e-8))
+            for given in (
+                {"hardness": 1e8},
+                {"hardness": constant},
+                {"hardness": 1e3, "q_c": 10.0},
+                {"q_c": 10.0},
+                {"hardness": sized},
+            )
+        ]
+        assert said == [True, True, False, False, False]
+    assert "2H/3" in limit(mdr.indent(ball, mdr.Medium(1e9, hardness=1e8), 1e-8), "flow").sentence
+    assert "2H/3" not in limit(mdr.indent(ball, mdr.Medium(1e9, hardness=constant), 1e-8), "flow").sentence
+    under_cone = limit(mdr.indent(cone, mdr.Medium(1e9, hardness=1e8), 1e-8), "flow")
+    assert "ball" not in under_cone.sentence
+    # d = π s a/2 of an elastic contact, d = s a of one that flows.
+    assert under_cone.value == approx((np.pi / 2) ** 2)
 
 
 def test_limits_are_frozen():
