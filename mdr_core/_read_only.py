@@ -15,7 +15,7 @@ def guard_methods(kind, names):
     for name in names:
         method = inspect.getattr_static(kind, name, None)
         bare = method.__func__ if isinstance(method, staticmethod) else method
-        own = inspect.isfunction(bare) and not bare.__module__.startswith(f"{__package__}.")
+        own = inspect.isfunction(bare) and not (bare.__module__ or "").startswith(f"{__package__}.")
         if own and not hasattr(bare, "__wrapped__"):
             guarded = read_only(bare, f"{kind.__name__}.{name}")
             setattr(kind, name, guarded if bare is method else staticmethod(guarded))

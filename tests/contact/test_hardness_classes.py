@@ -366,7 +366,7 @@ def test_what_is_of_class_b_alone_is_refused(call, says):
 
 
 def test_other_classes_have_no_limit_of_the_fast_impact():
-    hit = mdr.impact(mdr.Cone(0.3), mdr.Medium(E, hardness=1e9), 1e-9, 1.0)
+    hit = mdr.impact(mdr.Paraboloid(1e-5), mdr.Medium(E, hardness=1e9), 1e-9, 1.0)
     assert hit.restitution < 1
     limits = {limit.what: limit for limit in hit.limits}
     assert "fast limit" not in limits
