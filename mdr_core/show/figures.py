@@ -242,7 +242,8 @@ def pressure(state, half, top):
         "below": curve,
         "p(r)": curve,
         "mean F/(πa²)": (np.array([-a, a]), np.array([mean, mean])) if a else NOTHING,
-        "exceeds": (-0.97 * half, 0.98 * top, exceeds(r, p, top) if a else "no contact"),
+        # A line below c and a.
+        "exceeds": (-0.97 * half, 0.86 * top, exceeds(r, p, top) if a else "no contact"),
     }
 
 
