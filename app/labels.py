@@ -78,7 +78,10 @@ def arranged(rows: list[Row], places: dict[str, Any], axes: list[Axis]) -> dict[
             taken.append(box(row, x, y, text, axes))
     for row in (row for row in labels if row.names):
         xs, ys, text = places[row.name]
-        found[row.name] = (*NOTHING, text if any(_seen(places.get(name, NOTHING)) for name in row.names) else "")
+        found[row.name] = (
+            *NOTHING,
+            text if any(_seen(places.get(name, NOTHING)) for name in row.names) else "",
+        )
         points = zip(np.atleast_1d(xs), np.atleast_1d(ys), strict=True) if found[row.name][2] else ()
         for x, y in points:
             place = box(row, x, y, text, axes)

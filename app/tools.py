@@ -16,4 +16,4 @@ def add_zoom(figure: Any) -> None:
     figure.update(toolbar_location="above", toolbar_inner=True)
     figure.toolbar.update(autohide=True, logo=None, active_drag=None, stylesheets=_LOOK)
     figure.js_on_event(PanEnd, bk.CustomJS(code=JS["once"]))
-    figure.js_on_event(DoubleTap, bk.CustomJS(code="cb_obj.origin.reset.emit()"))
+    figure.js_on_event(DoubleTap, bk.CustomJS(code=JS["whole"]))

@@ -16,6 +16,7 @@ from . import words
 from .dropper import MAX_BYTES, Dropper
 from .preview import drawing
 from .setting import CORRECTIONS, IN_TIME, MEDIA, NUMBERS, TIPS, Number, Setting, parameter
+from .told import heads_of, of_parts
 
 #: The option for no column, and for one that is still to be chosen.
 _NONE, _ASK = "none", "choose"
@@ -222,7 +223,7 @@ class Form:
         by = self._several.get(self.parts.value, self.parts.value)
         layouts = self._layouts
         if layouts and self.parts.value in (_PAIRS, _SEGMENTS):
-            self._page.reread(columns=_of_parts(layouts, given), by=by)
+            self._page.reread(columns=of_parts(layouts, given), by=by)
         else:
             self._page.reread(columns=given, by=by)
 
@@ -252,7 +253,8 @@ class Form:
         self._show_parameters(setting)
 
     def _show_reader(self, setting: Setting) -> None:
-        table, page = page_table(self._page), self._page
+        page = self._page
+        table = page.table
         show(self.reader, visible=table is not None or bool(page.wants))
         if page.wants:
             show(self.reader, collapsed=False)
@@ -344,35 +346,3 @@ class Form:
             )
         for name in corrections:
             self.held[name].show(page.correction(name), placeholder="0")
-
-
-def heads_of(table: Any, words: Any = ()) -> dict[str, int]:
-    """Names of the columns of a table, with their first numbers where they have none, and their numbers."""
-    firsts = {k: ", ".join(f"{x:.3g}" for x in values[:3]) for k, values in table.values.items()}
-    found = {f"{k + 1}: {head or firsts[k] + ' …'}": k for k, head in table.heads.items()}
-    for key in words:
-        number, _, head = key.partition(" ")
-        found[f"{number}: {head or 'words'}"] = int(number) - 1
-    return found
-
-
-def _of_parts(layouts: list[dict[str, Any]], given: dict[str, Any]) -> list[dict[str, Any]]:
-    """Columns of several parts, the first as it is chosen, the others with its units."""
-    named = {"piezo" if "piezo" in given else "depth": "depth"}
-    parts = [given]
-    for layout in layouts[1:]:
-        place = layout.get("piezo") or layout["depth"]
-        columns = {"depth": place, "force": layout["force"], "time": layout.get("time")}
-        parts.append(
-            {
-                role: (columns[named.get(role, role)][0], given[role][1])
-                for role in given
-                if given[role] and columns.get(named.get(role, role))
-            }
-        )
-    return parts
-
-
-def page_table(page: Any) -> Any:
-    """The table of numbers in the file of a page, if it is one."""
-    return page.table

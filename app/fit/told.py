@@ -1,4 +1,4 @@
-"""What a person tells the reader of a file, columns and what parts curves, as parts of a link."""
+"""What a person tells the reader of a file, columns and what parts curves: in the form, and in a link."""
 
 from typing import Any
 
@@ -53,3 +53,30 @@ def told_by(given: dict[str, str]) -> Any:
 
 def _is_number(text: str) -> bool:
     return text.isascii() and text.isdigit() and len(text) < 4
+
+
+def heads_of(table: Any, words: Any = ()) -> dict[str, int]:
+    """Names of the columns of a table, with their first numbers where they have none, and their numbers."""
+    firsts = {k: ", ".join(f"{x:.3g}" for x in values[:3]) for k, values in table.values.items()}
+    found = {f"{k + 1}: {head or firsts[k] + ' …'}": k for k, head in table.heads.items()}
+    for key in words:
+        number, _, head = key.partition(" ")
+        found[f"{number}: {head or 'words'}"] = int(number) - 1
+    return found
+
+
+def of_parts(layouts: list[dict[str, Any]], given: dict[str, Any]) -> list[dict[str, Any]]:
+    """Columns of several parts, the first as it is chosen, the others with its units."""
+    named = {"piezo" if "piezo" in given else "depth": "depth"}
+    parts = [given]
+    for layout in layouts[1:]:
+        place = layout.get("piezo") or layout["depth"]
+        columns = {"depth": place, "force": layout["force"], "time": layout.get("time")}
+        parts.append(
+            {
+                role: (columns[named.get(role, role)][0], given[role][1])
+                for role in given
+                if given[role] and columns.get(named.get(role, role))
+            }
+        )
+    return parts

@@ -30,10 +30,12 @@ def legend_of(picture):
     """Swatches in the legend above a plot, as pixels, and how many words stand beside each."""
     image = np.asarray(Image.open(io.BytesIO(picture)).convert("RGB"), int)
     painted = np.abs(image - image[0, 0]).max(axis=2) > 12
-    # The plot begins with a line across.
-    top = TITLE + int(np.argmax(painted[TITLE:].mean(axis=1) > 0.5))
     # Lines of the legend; what is left of the plot's edge are numbers of its axis.
     left = 174
+    # The plot begins where its axis does, the longest line upward there.
+    edge = painted[:, left - 24 : left]
+    axis = edge[:, edge.sum(axis=0).argmax()]
+    top, _ = max(runs(axis, 1), key=lambda ends: ends[1] - ends[0])
     found = []
     for first, last in runs(painted[TITLE : top - 6, left:].any(axis=1), 2):
         line = slice(TITLE + first, TITLE + last + 1)
