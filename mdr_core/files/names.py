@@ -57,7 +57,7 @@ def parted(head, cell=""):
     for opening, closing in ("()", "[]", "{}", "<>"):
         if text.endswith(closing) and opening in text:
             name, _, inner = text[:-1].rpartition(opening)
-            unit = unit_alone(inner)
+            unit = unit_alone(inner.strip().removeprefix("in "))
             return (normal(name), *unit) if unit else (normal(text), "", "")
     name, sign, unit = _ended(text)
     return (normal(name).removesuffix(" in"), *unit) if sign else (normal(text), "", "")

@@ -44,5 +44,5 @@ def test_what_the_page_writes_is_read_back(tmp_path):
     for name in NAMES:
         header = [f"made of {name}", "d (m), F (N)"]
         rows = zip(curve.depth.tolist(), curve.force.tolist(), strict=True)
-        path.write_text(tables.as_csv(header, [["depth d (m)", "force F (N)"], *rows]), encoding="utf-8")
+        path.write_text(tables.as_csv(header, [["depth (m)", "force (N)"], *rows]), encoding="utf-8")
         assert np.array_equal(mdr.read_curve(path).force, curve.force)
