@@ -126,6 +126,77 @@ class Limit:
         return "beyond" if self.severe and self.concerns == "result" else "note"
 
 
+#: What a `Remedy` does: fit a parameter, hold one, give what is missing, look at a unit, take a part of the
+#: curve, choose another class of hardness.
+ACTIONS = "free", "hold", "give", "unit", "part", "class"
+
+
+@dataclass(frozen=True)
+class Remedy:
+    """What one can do about a `Remark`.
+
+    Attributes
+    ----------
+    action : str
+        "free" or "hold" a parameter, "give" what is missing, look at a "unit", evaluate a "part" of the
+        curve, or choose another "class" of hardness.
+    what : str
+        A name of the public interface: a parameter or argument, as "drag" or "spring_constant", a column,
+        as "depth", a part of the curve, as "loading", or a class, as "a".
+    value : optional
+        The value to hold or to give.
+    """
+
+    action: str
+    what: str
+    value: Any = None
+
+    def __post_init__(self):
+        if self.action not in ACTIONS:
+            raise ValueError(f"action is {self.action!r}, but a remedy is one of {', '.join(ACTIONS)}")
+
+
+class Remark(str):
+    """A doubt about a number, as the sentence that is printed for users of the library.
+
+    Attributes
+    ----------
+    kind : str
+        What is doubted, one of `KINDS`.
+    text : str
+        The same without names of Python.
+    remedy : tuple of Remedy
+        What one can do; empty for nothing.
+
+    Examples
+    --------
+    >>> from mdr_core.numerics.results import Remark, Remedy
+    >>> hold = Remedy("hold", "q_c")
+    >>> remark = Remark("q_c is at its bound: hold q_c", "bound", "q_c is at its bound", (hold,))
+    >>> remark.startswith("q_c"), remark.kind, remark.remedy[0].action
+    (True, 'bound', 'hold')
+    """
+
+    __slots__ = ("kind", "remedy", "text")
+
+    def __new__(
+        cls, sentence: str, kind: str, text: str | None = None, remedy: tuple[Remedy, ...] = ()
+    ) -> Self:
+        remark = super().__new__(cls, sentence)
+        remark.kind = kind
+        remark.text = str(sentence) if text is None else text
+        remark.remedy = tuple(remedy)
+        return remark
+
+    def __getnewargs__(self):
+        return str(self), self.kind, self.text, self.remedy
+
+    def to_dict(self) -> dict[str, Any]:
+        """Kind, text and remedies, as in files of JSON."""
+        remedy = [{"action": each.action, "what": each.what, "value": each.value} for each in self.remedy]
+        return {"kind": self.kind, "text": self.text, "remedy": remedy}
+
+
 class Record:
     """Base class of results with quantities by name, which are arrays of one shape.
 

@@ -30,10 +30,14 @@ def legend_of(picture):
     """Swatches in the legend above a plot, as pixels, and how many words stand beside each."""
     image = np.asarray(Image.open(io.BytesIO(picture)).convert("RGB"), int)
     painted = np.abs(image - image[0, 0]).max(axis=2) > 12
-    # The plot begins where its axis does, the longest line upward; left of it are numbers of the axis, and
-    # the legend begins at the same place.
-    edge = 150 + int(painted[:, 150:180].sum(axis=0).argmax())
-    top, _ = max(runs(painted[:, edge], 1), key=lambda ends: ends[1] - ends[0])
+    # The plot begins where its axis does, the first line upward over half of the picture; an image may be
+    # painted right of it. Left of it are numbers of the axis, and the legend begins at the same place.
+    edge, top = next(
+        (column, first)
+        for column in range(150, 180)
+        for first, last in runs(painted[:, column], 1)
+        if last - first > len(image) / 2
+    )
     left = edge - 2
     found = []
     for first, last in runs(painted[TITLE : top - 6, left:].any(axis=1), 2):
