@@ -242,7 +242,7 @@ def drop(page, name, data):
 
 
 def test_hostile_names_run_nothing(fresh, context):
-    """Of files, their columns and sheets, of tips, and of all that a link names."""
+    """Of files and their columns, of tips, and of all that a link names; names of sheets are not shown."""
     opened = Explorer(context.new_page(), f"{fresh.url}?fit", READY)
     page = opened.page
 
