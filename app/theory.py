@@ -1,6 +1,7 @@
 """The theory, assets/theory.md, as a page."""
 
 import re
+from base64 import b64encode
 from html import escape
 from pathlib import Path
 from urllib.parse import parse_qsl
@@ -19,6 +20,8 @@ _SCRIPT = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 
 #: A link to a file beside the theory, which no server has.
 _FILE = re.compile(r"\[(.*?)\]\(\w+\.md\)")
+#: A picture beside the theory, which is part of the page.
+_PICTURE = re.compile(r"!\[(.*?)\]\((\w+\.svg)\)")
 #: Equations that a text names, (4) or (4)–(8).
 _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
 
@@ -26,8 +29,11 @@ _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
 def html():
     """The theory as HTML with KaTeX formulas and ids of sections and equations."""
     parser, marked = MarkdownIt().enable("table"), set()
+    # Its pictures are data, which it does not take for links otherwise.
+    parser.validateLink = lambda _: True
     parser.use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)")
-    tokens = parser.parse(_FILE.sub(r"\1", (ASSETS / "theory.md").read_text(encoding="utf-8")))
+    text = (ASSETS / "theory.md").read_text(encoding="utf-8")
+    tokens = parser.parse(_PICTURE.sub(_with_picture, _FILE.sub(r"\1", text)))
     parts, in_body = [], False
     for k, token in enumerate(tokens):
         if token.type == "heading_open" and (number := re.match(r"\d+", tokens[k + 1].content)):
@@ -42,6 +48,11 @@ def html():
         else:
             parts.append(parser.renderer.render([token], parser.options, {}))
     return "".join(parts)
+
+
+def _with_picture(found):
+    data = b64encode((ASSETS / found[2]).read_bytes()).decode()
+    return f"![{found[1]}](data:image/svg+xml;base64,{data})"
 
 
 def page(place):

@@ -174,4 +174,7 @@ def test_the_mark_of_the_present_state_is_whole_without_force():
 
 
 def test_the_theory_leads_to_no_file_that_is_not_served():
-    assert not re.findall(r'href="(?!#|\?|http)[^"]*"', theory.html())
+    shown = theory.html()
+    assert not re.findall(r'href="(?!#|\?|http)[^"]*"', shown)
+    # Its picture is in it.
+    assert re.findall(r'src="([^"]{26})', shown) == ["data:image/svg+xml;base64,"]
