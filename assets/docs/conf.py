@@ -65,6 +65,7 @@ def mathml(writer, node):
 PAGES = {
     "assets/theory.md": "theory",
     "assets/accuracy.md": "accuracy",
+    "assets/docs/examples/first_hour.py": "gallery/first_hour",
     "CONTRIBUTING.md": "contributing",
     "CHANGELOG.md": "changelog",
 }
