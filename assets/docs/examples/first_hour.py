@@ -47,17 +47,16 @@ left.axvline(state.plastic_radius * 1e9, color="black", linestyle=":")
 left.set(xlabel="x (nm)", ylabel="line load of the springs (N/m)")
 right.plot(x * 1e9, state.pressure(np.abs(x)) / 1e9)
 right.set(xlabel="r (nm)", ylabel="pressure (GPa)")
-print(
-    f"contact radius {state.contact_radius * 1e9:.1f} nm, plastic radius {state.plastic_radius * 1e9:.1f} nm"
-)
+print(f"contact radius {state.contact_radius * 1e9:.1f} nm")
+print(f"plastic radius {state.plastic_radius * 1e9:.1f} nm")
 
 # %%
 # **Change q_c to 200 N/m: which of the two radii changes, and by how much?**
 #
 # A limit of the model
 # --------------------
-# A result says which assumptions it leaves. A slope is the tangent of an angle: 70.3 is a needle, and the
-# cone of a Berkovich tip is ``Cone.from_half_angle(70.3)``.
+# A result says which assumptions do not hold for it. Here the half-angle of a Berkovich tip, 70.3°, is given
+# for the slope, which makes the cone a needle; ``Cone.from_half_angle(70.3)`` is right.
 
 for limit in mdr.indent(mdr.Cone(slope=70.3), gold, 1e-9).limits:
     print(limit.what, "is exceeded:" if limit.exceeded else "holds:", limit.sentence)
