@@ -55,8 +55,8 @@ print(f"plastic radius {state.plastic_radius * 1e9:.1f} nm")
 #
 # A limit of the model
 # --------------------
-# A result says which assumptions do not hold for it. Here the half-angle of a Berkovich tip, 70.3°, is given
-# for the slope, which makes the cone a needle; ``Cone.from_half_angle(70.3)`` is right.
+# A result says which assumptions do not hold for it. Here the half-angle of a Berkovich tip, 70.3°, stands
+# for the slope, which makes the cone a needle: ``Cone.from_half_angle(70.3)`` is right.
 
 for limit in mdr.indent(mdr.Cone(slope=70.3), gold, 1e-9).limits:
     print(limit.what, "is exceeded:" if limit.exceeded else "holds:", limit.sentence)
