@@ -21,7 +21,7 @@ from mdr_core.fit.classes import HardnessVerdict
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.noise import jitter
 from mdr_core.fit.oliver_pharr_result import OliverPharr
-from mdr_core.fit.result import unloading_of
+from mdr_core.fit.quoted import unloading as unloading_of
 from mdr_core.measured_curve import MeasuredCurve, MeasuredCurves
 from mdr_core.reading import UnknownColumns
 from mdr_core.show.units import written
@@ -121,7 +121,7 @@ def read(path: str, given: dict[str, Any], number: int) -> Any:
         remarks = tuple(each[:_REMARK] for each in curve.remarks)
         return replace(curve, table=curve.table and _few(curve.table), remarks=remarks), count, None
     except UnknownColumns as error:
-        asked = {"why": error.why, "table": _few(error.table), "suggestion": error.suggestion}
+        asked = {"why": error.text, "table": _few(error.table), "suggestion": error.suggestion}
         return None, count, asked | {"preview": _preview(path, given, error)}
     except (ValueError, ImportError, MemoryError):
         raise

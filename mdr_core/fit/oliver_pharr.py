@@ -6,12 +6,16 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
+from .._errors import Refusal
 from ..applicability import check_pair
+from ..measured_curve import MeasuredCurve
 from ..medium import Medium
+from ..numerics.results import Remark, Remedy
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..show.quantities import engineering
 from . import creep as creeping
+from .columns import Times, columns_of
 from .errors import roughness
 from .first_contact import FirstContact, first_contact
 from .materials import doubts
@@ -26,11 +30,11 @@ _GIVEN = FirstContact(0.0, 0.0, 0.0, 0.0)
 @_check.keywords_explained
 def oliver_pharr(
     profile: Profile,
-    depth: ArrayLike,
-    force: ArrayLike,
+    depth: ArrayLike | MeasuredCurve,
+    force: ArrayLike | None = None,
     *,
-    time: ArrayLike | None = None,
-    stiffness: ArrayLike | None = None,
+    time: Times = ...,
+    stiffness: ArrayLike | bool | None = None,
     epsilon: float = 0.75,
     beta: float = 1.0,
     cycles: bool = False,
@@ -49,12 +53,15 @@ def oliver_pharr(
     depth, force : array_like
         Depths (m) and forces (N), (N,), in the order of time. Samples with NaN are left out. Where the
         record begins in the air first contact and the force without contact are found and subtracted;
-        else depths count from first contact and forces from the baseline. See Notes.
+        else depths count from first contact and forces from the baseline. See Notes. In the place of depth
+        and force a `MeasuredCurve`, as of `read_curve`.
     time : array_like, optional
-        Increasing times (s) of the samples, (N,): the stiffness is corrected for creep. See Notes.
-    stiffness : array_like, optional
+        Increasing times (s) of the samples, (N,): the stiffness is corrected for creep. See Notes. Those of
+        a `MeasuredCurve` are taken unless this is None.
+    stiffness : array_like or True, optional
         Measured contact stiffness S (N/m) at each sample, (N,), of a continuous measurement; NaN where
-        there is none. Results are then those of each sample. Not with `time` or `cycles`.
+        there is none; True for that of a `MeasuredCurve`. Results are then those of each sample. Not with
+        `time` or `cycles`.
     epsilon : float, optional
         Constant ε: 1 for a flat punch, 3/4 for a paraboloid, 2 − 4/π for a cone.
     beta : float, optional
@@ -124,11 +131,14 @@ def oliver_pharr(
     """
     check_pair(profile, Medium(1.0), "an unloading")
     constants = _check.positive_number("epsilon", epsilon, zero=True), _check.positive_number("beta", beta)
-    columns = _columns(depth, force, time, stiffness)
+    given = columns_of(depth, force, None if stiffness is not None and time is ... else time)
+    time, read = given.time, _one(given.remarks)
+    stiffness = _stiffness(given, stiffness)
     if stiffness is not None and (time is not None or cycles):
         raise ValueError("stiffness is measured at each sample: give it without time and cycles")
+    columns = _columns(given.depth, given.force, time, stiffness)
     depth, force = columns["depth"], columns["force"]
-    contact, text = _contact(profile, depth, force)
+    contact, begins = _contact(profile, depth, force)
     depth, force = depth - contact.depth, force - contact.baseline
     if stiffness is not None:
         values, errors, remarks = _over_depth(
@@ -136,16 +146,35 @@ def oliver_pharr(
         )
         # Near first contact single samples may be far off.
         middle = [np.nanmedian(values[name]) for name in ("E_star", "hardness")]
-        remarks = (*remarks, text, *doubts(*middle), *profile.remarks)
+        remarks = (*read, *remarks, begins, *doubts(*middle), *profile.remarks)
         return OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
     parts, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
     numbers, pairs = zip(*parts.items(), strict=True)
     corrected, uncorrected = zip(*pairs, strict=True)
     numbers = _check.frozen(numbers if cycles else numbers[0])
-    result = _collected(profile, corrected, contact, numbers, (*remarks, text))
+    result = _collected(profile, corrected, contact, numbers, (*read, *remarks, begins))
     if time is None:
         return result
     return replace(result, uncorrected=_collected(profile, uncorrected, contact, numbers, ()))
+
+
+def _one(remarks):
+    """The remarks of one curve that was read from a file."""
+    if len(remarks) > 1:
+        raise ValueError(f"{len(remarks)} curves: an evaluation is of one, as of curves[0]")
+    return remarks[0] if remarks else ()
+
+
+def _stiffness(given, stiffness):
+    """The measured stiffness that is given, or that of a curve."""
+    if stiffness is not True:
+        return None if stiffness is False else stiffness
+    if given.stiffness is None:
+        raise ValueError(
+            "stiffness = True takes that of a MeasuredCurve, and there is none: give its values, or leave "
+            "it out to evaluate the unloading"
+        )
+    return given.stiffness
 
 
 def _columns(depth, force, time, stiffness):
@@ -170,12 +199,13 @@ def _columns(depth, force, time, stiffness):
     )
     arrays = {name: array[used] for name, array in arrays.items()}
     if not arrays["depth"].size:
-        raise ValueError("depth and force have no samples: an unloading needs five or more")
+        text = "depth and force have no samples: an unloading needs five or more"
+        raise Refusal(Remark(text, "no unloading"))
     if "time" in arrays:
         # Segments of a file may share the time at which one ends and the next begins.
         back = np.diff(arrays["time"], prepend=-np.inf) < 0
-        remedy = "sort the samples by time"
-        _check.refuse("time", arrays["time"], back, "does not increase", unit="s", remedy=remedy)
+        advice = "sort the samples by time"
+        _check.refuse("time", arrays["time"], back, "does not increase", unit="s", advice=advice)
     return arrays
 
 
@@ -189,7 +219,7 @@ def _contact(profile, depth, force):
     point = with_error(*_rounded(depth, contact.depth, contact.depth_error), "m")
     level = with_error(*_rounded(force, contact.baseline, contact.baseline_error), "N")
     text = f"the record begins in the air: first contact at {point} is subtracted from the depth"
-    return contact, f"{text}, {level} from the force"
+    return contact, Remark(f"{text}, {level} from the force", "first contact")
 
 
 def _rounded(values, value, error):
@@ -209,16 +239,17 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
         try:
             both, notes = _with_creep(profile, depth[part], force[part], moments, constants, contact)
             results[number] = both
-            remarks += [f"{which}: {each}" for each in notes] if cycles and len(parts) > 1 else notes
+            remarks += [each.after(f"{which}: ") for each in notes] if cycles and len(parts) > 1 else notes
         except ValueError as error:
             if not cycles or len(parts) < 2:
                 raise
-            remarks.append(f"{which} is left out: {error}")
+            remarks.append(Remark.of(error, "left out", f"{which} is left out: "))
     if not results:
-        raise ValueError(remarks[0])
+        raise Refusal(remarks[0])
     if len(parts) > 1 and not cycles:
         text = f"unloading {taken} of {len(parts)}, which follows the largest depth, was evaluated"
-        remarks.insert(0, f"{text}; give cycles=True for each of them")
+        remedy = (Remedy("give", "cycles", True),)
+        remarks.insert(0, Remark(f"{text}; give cycles=True for each of them", "several", text, remedy))
     return results, remarks
 
 
@@ -230,17 +261,15 @@ def _with_creep(profile, depth, force, time, constants, contact):
         uncorrected = _values_and_errors(profile, depth, force, constants, contact)
     except ValueError as error:
         if rise and creep is None:
-            raise ValueError(creeping.sentence_of_rise(rise)) from error
+            raise Refusal(creeping.of_rise(rise, time is not None)) from error
         if creep is None:
             raise
         uncorrected = np.full((2, 5), np.nan)
     if creep is None:
         if rise:
-            notes.append(creeping.sentence_of_rise(rise))
+            notes.append(creeping.of_rise(rise, time is not None))
         if time is not None:
-            notes.append(
-                "no hold of the force before the unloading shows its creep: creep is not corrected"
-            )
+            notes.append(creeping.NO_HOLD)
         return (uncorrected, uncorrected), notes
     corrected, shifted = (
         _values_and_errors(profile, creep.without(depth, time, n), force, constants, contact)
@@ -249,8 +278,8 @@ def _with_creep(profile, depth, force, time, constants, contact):
     corrected[1] = np.hypot(corrected[1], shifted[0] - corrected[0])
     share = creeping.share_of_compliance(creep.rate, corrected[0, 0], force, time, creep.end)
     if rise or share > creeping.COUNTS:
-        notes.append(creeping.sentence(share))
-    notes.append(creeping.sentence_of_hold(creep.length))
+        notes.append(creeping.of_share(share))
+    notes.append(creeping.of_hold(creep.length))
     return (corrected, uncorrected), notes
 
 
@@ -267,10 +296,8 @@ def _values_and_errors(profile, depth, force, constants, contact):
     # A contact radius of 0 or ∞ makes the modulus or the hardness so.
     if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
         contact_depth = engineering(values[1], "m")
-        raise ValueError(
-            f"the contact depth h − ε F/S = {contact_depth} must be positive and within the profile: give "
-            "depth from first contact, and force from the baseline"
-        )
+        text = f"the contact depth h − ε F/S = {contact_depth} must be positive and within the profile"
+        raise _not_from_contact(text)
     parts = [values, *(results(*other) for other in others)]
     spread = np.ptp([part for part in parts if np.isfinite(part).all()], axis=0) / 2
     errors = np.maximum(np.linalg.norm(np.array(noisy) - values, axis=0), spread)
@@ -278,6 +305,13 @@ def _values_and_errors(profile, depth, force, constants, contact):
         shifted = results(*solution, shift=-contact.depth_error)
         errors = np.hypot(errors, np.where(np.isfinite(shifted), shifted - values, np.inf))
     return np.array([values, errors])
+
+
+def _not_from_contact(text):
+    """A refusal of depths and forces that may count from elsewhere."""
+    sentence = f"{text}: give depth from first contact, and force from the baseline"
+    words = f"{text}: depths have to count from first contact, and forces from the baseline"
+    return Refusal(Remark(sentence, "no unloading", words))
 
 
 def _moduli(profile, contact_depth, force, stiffness, beta):
@@ -295,9 +329,8 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     used = (stiffness > 0) & (force > 0) & (contact_depth > 0)
     used &= contact_depth < profile.known_depth
     if not used.any():
-        raise ValueError(
-            "no sample has a positive stiffness (N/m), force and contact depth h − ε F/S: give depth from "
-            "first contact, and force from the baseline"
+        raise _not_from_contact(
+            "no sample has a positive stiffness (N/m), force and contact depth h − ε F/S"
         )
 
     def at(shift):
@@ -315,8 +348,9 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     values = {"depth": depth, "stiffness": np.where(used, stiffness, np.nan), **values}
     values["contact_point"] = np.full(depth.size, contact.depth)
     without = np.count_nonzero(~used)
+    text = f"{without} of {used.size} samples have no contact or no stiffness: "
     remarks = (
-        [f"{without} of {used.size} samples have no contact or no stiffness: their results are NaN"]
+        [Remark(f"{text}their results are NaN", "missing", f"{text}they have no results")]
         if without
         else []
     )
