@@ -187,6 +187,11 @@ SEARCHED = [
     "Kelvin-Voigt",
     "Kelvin Voigt",
     "plastic zone",
+    "Leeb",
+    "Meyer's index",
+    "notebook",
+    "export",
+    "torsion",
 ]
 
 
