@@ -20,8 +20,7 @@ from mdr_core.files.table import decoded
 from mdr_core.fit.classes import HardnessVerdict
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.oliver_pharr_result import OliverPharr
-from mdr_core.fit.quoted import Quoted
-from mdr_core.fit.result import unloading_of
+from mdr_core.fit.quoted import Quoted, unloading
 from mdr_core.measured_curve import MeasuredCurves
 from mdr_core.numerics.results import Remark
 from mdr_core.reading import UnknownColumns
@@ -34,8 +33,8 @@ from .refusals import changed, refusal
 
 #: Most characters of the name of a column, and of a remark, which may quote the file, that are shown.
 _HEAD, _REMARK = 80, 500
-#: Kinds of remarks on an unloading that change its number by more than its error.
-_OF_THE_NUMBER = {"tip"}
+#: Kinds of remarks beside a number to quote of what changes it by more than its error.
+_OF_THE_NUMBER = {"creep", "tip"}
 
 
 # Jobs of the process: each is called with what can be sent.
@@ -130,13 +129,15 @@ def fit(given: dict[str, Any]) -> tuple[IndentationFit, dict[str, Any]]:
     refuse_range(asked)
     found, remarks = _fitted(asked)
     quoted, above, below = judged(found.quoted, asked)
-    told: dict[str, Any] = {"quoted": quoted, "above": above, "unloading": None}
+    told: dict[str, Any] = {"quoted": quoted, "unloading": None}
     if quoted.source == "unloading":
-        told["unloading"], _ = unloading_of(found)
-        below += tuple(each for each in told["unloading"].remarks if each.kind in _OF_THE_NUMBER)
+        told["unloading"], _ = unloading(found)
         remarks += told["unloading"].remarks
+        above += tuple(each for each in told["unloading"].remarks if each.kind == "units")
+    if quoted.value is not None:
+        below += tuple(each for each in remarks if each.kind in _OF_THE_NUMBER)
     # Classes are kept in the object that is sent.
-    told |= {"below": below, "remarks": remarks, "of_class": found.class_of_hardness}
+    told |= {"above": above, "below": below, "remarks": remarks, "of_class": found.class_of_hardness}
     return found, told
 
 

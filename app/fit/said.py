@@ -26,7 +26,9 @@ class Said:
     def show(self, *remarks: Remark | Message) -> None:
         """Show remarks in the place of those before; empty ones are none."""
         shown = tuple(
-            (words.sentence(each.text, self._page.setting.file), self._offers(each)) for each in remarks if each
+            (words.sentence(each.text, self._page.setting.file), self._offers(each))
+            for each in remarks
+            if each
         )
         if shown == self._shown:
             return
