@@ -1,7 +1,7 @@
 """Reading and fitting, without a page: what the process of `worker` does, and what it answers.
 
-Arguments and answers are numbers, texts, arrays and objects of `mdr_core`, which can be sent; classes of the
-page cannot, which have another name where it is served.
+Arguments and answers are numbers, texts, arrays and objects of `mdr_core`, which can be sent. Classes of
+the page cannot: they have another name where it is served.
 """
 
 import json
@@ -42,9 +42,10 @@ _OF_THE_NUMBER = {"creep", "tip"}
 
 @dataclass(frozen=True)
 class Question:
-    """What is asked about a file: why, as values of a `Message`, the first rows of its table, and what is suggested.
+    """What is asked about a file: why, the first rows of its table, and what is suggested.
 
-    `preview` has depth (m) and force (N) of the first curve as it is suggested, None if it lacks something.
+    `why` has the values of a `Message`. `preview` has depth (m) and force (N) of the first curve as it is
+    suggested, None if it lacks something.
     """
 
     why: tuple[Any, ...]

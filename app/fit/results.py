@@ -230,9 +230,10 @@ class Results:
     def _range_words(self, ends: tuple[int, ...], count: int) -> str:
         """The samples that are fitted, with depth and force of the first and the last one."""
         curve = self._page.curve
+        deepest, largest = (float(np.max(np.abs(each))) for each in (curve.depth, curve.force))
         places = [
-            f"{k} ({words.quantity(float(curve.depth[k - 1]), 'length')}, "
-            f"{words.quantity(float(curve.force[k - 1]), 'force')})"
+            f"{k} ({words.quantity(float(curve.depth[k - 1]), 'length', deepest)}, "
+            f"{words.quantity(float(curve.force[k - 1]), 'force', largest)})"
             for k in ends
         ]
         return f"Fitted: samples {' to '.join(places)} of {count}"

@@ -37,9 +37,9 @@ def _true_minus(text: str) -> str:
     return re.sub(r"(?<![\w/])-(?=[\d.])", "−", text)
 
 
-def quantity(value: float, kind: str) -> str:
-    """A value (SI) with its unit, as in `written`; 0 has one, too."""
-    return written(value, kind) if value else with_unit("0", fitting(value, kind).name)
+def quantity(value: float, kind: str, like: float = 0.0) -> str:
+    """A value (SI) with its unit, as in `written`; 0 has that of the value `like`."""
+    return written(value, kind) if value else with_unit("0", fitting(0.0, kind, like).name)
 
 
 def amount(value: float, error: float | None, unit: str) -> str:

@@ -252,7 +252,7 @@ def _send(process: subprocess.Popen[bytes], data: bytes) -> None:
 
 
 def received(kind: str, answer: Any) -> Any:
-    """An answer of the process, which has no class of the page: that has another name where it is served."""
+    """An answer of the process, which has no class of the page: it has another name there."""
     return Message(*answer) if kind == "refused" else answer
 
 
