@@ -82,7 +82,7 @@ class Form:
                 widget.param.watch(self._told, "value")
         meanings = {"the depth of the tip": "depth", "the position of a piezo": "piezo"}
         self.meaning = field(select, label="The depth is", options=meanings)
-        self.parts = field(select, label="The table has", options={"one curve": _ONE})
+        self.parts = field(select, "of-by", label="The table has", options={"one curve": _ONE})
         for widget in (self.meaning, self.parts):
             widget.param.watch(self._told, "value")
         self.preview = html("", "note", visible=False)

@@ -7,8 +7,14 @@ from mdr_core.show.units import written
 
 from .setting import CLASS_NAMES, CORRECTIONS, MEDIA, NUMBERS, OF_CLASS, parameter
 
-#: Names of columns, as "the column of times".
+#: Names of columns, and what else is chosen of a table.
 _COLUMNS = {"depth": "depth", "piezo": "depth", "force": "force", "time": "time", "stiffness": "stiffness"}
+_CHOOSE = {"columns": "Choose the columns"}
+#: What parts the curves of a table.
+_BY = {
+    None: "Choose what parts the curves", "whole": "Read it as one curve", "gaps": "Part the curves at empty lines",
+    "restart": "Part the curves where the depth starts anew",
+}  # fmt: skip
 
 
 def label(remedy: Remedy, page: Any) -> str:
@@ -19,7 +25,9 @@ def label(remedy: Remedy, page: Any) -> str:
 def do(remedy: Remedy, page: Any) -> None:
     """Do what a remedy says: change the setting, or lead to the field where a person can."""
     what, value = remedy.what, remedy.value
-    if remedy.action == "part":
+    if what == "by" and value:
+        page.reread(by=value)
+    elif remedy.action == "part":
         page.choose_part(what)
     elif remedy.action == "class":
         page.choose_medium(OF_CLASS[what])
@@ -36,7 +44,8 @@ def do(remedy: Remedy, page: Any) -> None:
         page.free(what, False)
         page.form.focus(what)
     else:
-        page.form.focus(f"unit-{_COLUMNS[what]}" if remedy.action == "unit" else _COLUMNS.get(what, what))
+        place = _COLUMNS.get(what, "depth" if what == "columns" else what)
+        page.form.focus(f"unit-{place}" if remedy.action == "unit" else place)
 
 
 def _parameters(page: Any) -> list[str]:
@@ -69,8 +78,11 @@ def _give(remedy: Remedy, page: Any) -> str:
         return f"Give the {CORRECTIONS[what].label}"
     if what in NUMBERS:
         return f"Give the {NUMBERS[what].label}"
-    has_columns = page.table is not None and not page.is_afm
-    return f"Give the column of {_COLUMNS[what]}" if what in _COLUMNS and has_columns else ""
+    if page.table is None or page.is_afm:
+        return ""
+    if what == "by":
+        return _BY[remedy.value]
+    return f"Give the column of {_COLUMNS[what]}" if what in _COLUMNS else _CHOOSE.get(what, "")
 
 
 def _unit(remedy: Remedy, page: Any) -> str:

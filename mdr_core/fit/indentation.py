@@ -1,5 +1,6 @@
 """Fit of a medium to measured force–depth curves."""
 
+from collections.abc import Sequence
 from types import EllipsisType
 
 import numpy as np
@@ -9,11 +10,13 @@ from .._check import ArrayLike
 from ..applicability import check_pair, refuse_own_law
 from ..contact.yielding import yield_rule
 from ..hardness import HardnessLaw
+from ..measured_curve import MeasuredCurve, MeasuredCurves
 from ..medium import Medium
 from ..numerics.results import Remark
 from ..profiles.profile import Profile
 from ..show.progress import progress
 from ..show.quantities import engineering
+from .columns import Times, columns_of
 from .measurement import measurement, rates
 from .parameters import PARAMETERS, hardness_by_default, held_values
 from .result import IndentationFit, collected
@@ -23,10 +26,10 @@ from .solution import problems, solved, table_depth
 @_check.keywords_explained
 def fit_indentation(
     profile: Profile,
-    depth: ArrayLike,
-    force: ArrayLike,
+    depth: ArrayLike | MeasuredCurve | MeasuredCurves | Sequence[MeasuredCurve],
+    force: ArrayLike | None = None,
     *,
-    time: ArrayLike | None = None,
+    time: Times = ...,
     E_star: ArrayLike | None = None,
     q_c: ArrayLike | EllipsisType | None = ...,
     hardness: ArrayLike | EllipsisType | None = ...,
@@ -56,12 +59,14 @@ def fit_indentation(
         (R, N) with one indenter, each on a virgin medium; or lists of R arrays of different lengths.
         Samples with NaN are left out. A drift and the compliance of a frame are subtracted before, by
         `MeasuredCurve.minus_drift` and `minus_frame`. With `q_c=inf`, without `time` and without adhesion
-        the order does not matter.
+        the order does not matter. In the place of depth and force a `MeasuredCurve`, as of `read_curve`, or
+        `MeasuredCurves`, whose remarks come first in those of the fit.
     time : array_like, optional
         Increasing times (s) of the samples, of the same shape; needed for `eta` and `drag`, and for remarks
         on drag and drift that are left out. The rate ż is the central difference of the depths, so that a
         noisy depth makes a noisy rate: average neighbouring samples first. Where the rate jumps from one
-        sample to the next, the sample has no weight.
+        sample to the next, the sample has no weight. Those of a `MeasuredCurve` are taken unless this is
+        None.
     E_star : float, optional
         Effective modulus (Pa).
     q_c, hardness, f_c : float, optional
@@ -205,10 +210,11 @@ def fit_indentation(
     given = {"E_star": E_star} | hardnesses | {"eta": eta, "work_of_adhesion": work_of_adhesion}
     given |= {"contact_point": contact_point, "baseline": baseline, "tilt": tilt, "drag": drag}
     noise = _check.positive_number("depth_noise", depth_noise, unit="m") if depth_noise else 0.0
-    reasons = {}
+    columns = columns_of(depth, force, time, skip=invalid == "nan")
+    depth, force, time, reasons = columns.depth, columns.force, columns.time, dict(columns.unread)
     if invalid == "nan" and any(np.ndim(row) for row in depth):
         held = _held(profile, given, len(depth), noise, time)
-        depth, force, time, reasons = _without_invalid(profile, depth, force, time, held)
+        depth, force, time, reasons = _without_invalid(profile, depth, force, time, held, reasons)
     measured = measurement(depth, force, time, force_noise)
     held = _held(profile, given, len(measured.depth), noise, time)
     fitted = np.array([i for i in range(len(measured.depth)) if i not in reasons], int)
@@ -224,7 +230,7 @@ def fit_indentation(
             )
             done(rows.size)
     _refuse_all_invalid(reasons, len(measured.depth))
-    return collected(profile, measured, noise, solutions, reasons)
+    return collected(profile, measured, noise, solutions, reasons, columns.remarks)
 
 
 def _solutions(rows, curves, noise_known, reasons):
@@ -261,8 +267,11 @@ def _in_time(held):
     return [name for name in needs_time if name not in held or held[name].any()]
 
 
-def _without_invalid(profile, depth, force, time, held):
-    """Depths, forces and times with NaN for the curves that cannot be fitted, and the reasons by number."""
+def _without_invalid(profile, depth, force, time, held, unread):
+    """Depths, forces and times with NaN for the curves that cannot be fitted, and the reasons by number.
+
+    `unread` are the reasons of those that could not be read.
+    """
     columns = [depth, force] if time is None else [depth, force, time]
     sizes = [len(column) for column in columns]
     if len(set(sizes)) > 1:
@@ -270,8 +279,10 @@ def _without_invalid(profile, depth, force, time, held):
             f"depth, force and time must have the same number of curves, got "
             f"{' and '.join(map(str, sizes))}"
         )
-    curves, reasons = list(zip(*columns, strict=True)), {}
+    curves, reasons = list(zip(*columns, strict=True)), dict(unread)
     for i, curve in enumerate(curves):
+        if i in unread:
+            continue
         try:
             measured = measurement(*curve, *[None] * (4 - len(curve)))
             own = {name: values[[i]] for name, values in held.items()}

@@ -8,12 +8,14 @@ from .. import _check
 from .._check import ArrayLike
 from .._errors import Refusal
 from ..applicability import check_pair
+from ..measured_curve import MeasuredCurve
 from ..medium import Medium
 from ..numerics.results import Remark, Remedy
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..show.quantities import engineering
 from . import creep as creeping
+from .columns import Times, columns_of
 from .errors import roughness
 from .first_contact import FirstContact, first_contact
 from .materials import doubts
@@ -28,11 +30,11 @@ _GIVEN = FirstContact(0.0, 0.0, 0.0, 0.0)
 @_check.keywords_explained
 def oliver_pharr(
     profile: Profile,
-    depth: ArrayLike,
-    force: ArrayLike,
+    depth: ArrayLike | MeasuredCurve,
+    force: ArrayLike | None = None,
     *,
-    time: ArrayLike | None = None,
-    stiffness: ArrayLike | None = None,
+    time: Times = ...,
+    stiffness: ArrayLike | bool | None = None,
     epsilon: float = 0.75,
     beta: float = 1.0,
     cycles: bool = False,
@@ -51,12 +53,15 @@ def oliver_pharr(
     depth, force : array_like
         Depths (m) and forces (N), (N,), in the order of time. Samples with NaN are left out. Where the
         record begins in the air first contact and the force without contact are found and subtracted;
-        else depths count from first contact and forces from the baseline. See Notes.
+        else depths count from first contact and forces from the baseline. See Notes. In the place of depth
+        and force a `MeasuredCurve`, as of `read_curve`.
     time : array_like, optional
-        Increasing times (s) of the samples, (N,): the stiffness is corrected for creep. See Notes.
-    stiffness : array_like, optional
+        Increasing times (s) of the samples, (N,): the stiffness is corrected for creep. See Notes. Those of
+        a `MeasuredCurve` are taken unless this is None.
+    stiffness : array_like or True, optional
         Measured contact stiffness S (N/m) at each sample, (N,), of a continuous measurement; NaN where
-        there is none. Results are then those of each sample. Not with `time` or `cycles`.
+        there is none; True for that of a `MeasuredCurve`. Results are then those of each sample. Not with
+        `time` or `cycles`.
     epsilon : float, optional
         Constant ε: 1 for a flat punch, 3/4 for a paraboloid, 2 − 4/π for a cone.
     beta : float, optional
@@ -126,9 +131,12 @@ def oliver_pharr(
     """
     check_pair(profile, Medium(1.0), "an unloading")
     constants = _check.positive_number("epsilon", epsilon, zero=True), _check.positive_number("beta", beta)
-    columns = _columns(depth, force, time, stiffness)
+    given = columns_of(depth, force, None if stiffness is not None and time is ... else time)
+    time, read = given.time, _one(given.remarks)
+    stiffness = _stiffness(given, stiffness)
     if stiffness is not None and (time is not None or cycles):
         raise ValueError("stiffness is measured at each sample: give it without time and cycles")
+    columns = _columns(given.depth, given.force, time, stiffness)
     depth, force = columns["depth"], columns["force"]
     contact, begins = _contact(profile, depth, force)
     depth, force = depth - contact.depth, force - contact.baseline
@@ -138,16 +146,35 @@ def oliver_pharr(
         )
         # Near first contact single samples may be far off.
         middle = [np.nanmedian(values[name]) for name in ("E_star", "hardness")]
-        remarks = (*remarks, begins, *doubts(*middle), *profile.remarks)
+        remarks = (*read, *remarks, begins, *doubts(*middle), *profile.remarks)
         return OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
     parts, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
     numbers, pairs = zip(*parts.items(), strict=True)
     corrected, uncorrected = zip(*pairs, strict=True)
     numbers = _check.frozen(numbers if cycles else numbers[0])
-    result = _collected(profile, corrected, contact, numbers, (*remarks, begins))
+    result = _collected(profile, corrected, contact, numbers, (*read, *remarks, begins))
     if time is None:
         return result
     return replace(result, uncorrected=_collected(profile, uncorrected, contact, numbers, ()))
+
+
+def _one(remarks):
+    """The remarks of one curve that was read from a file."""
+    if len(remarks) > 1:
+        raise ValueError(f"{len(remarks)} curves: an evaluation is of one, as of curves[0]")
+    return remarks[0] if remarks else ()
+
+
+def _stiffness(given, stiffness):
+    """The measured stiffness that is given, or that of a curve."""
+    if stiffness is not True:
+        return None if stiffness is False else stiffness
+    if given.stiffness is None:
+        raise ValueError(
+            "stiffness = True takes that of a MeasuredCurve, and there is none: give its values, or leave "
+            "it out to evaluate the unloading"
+        )
+    return given.stiffness
 
 
 def _columns(depth, force, time, stiffness):

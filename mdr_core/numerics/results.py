@@ -129,6 +129,7 @@ class Limit:
 #: Kinds of a `Remark`, the most important first, and what each says.
 KINDS = {
     "invalid": "a curve of a map is not fitted, and why",
+    "file": "a file is not read as it is told",
     "deflection": "the depth includes the deflection of the cantilever, whose stiffness is not known",
     "units": "numbers that no material or tip has: a unit, a sign, or columns that are exchanged",
     "order": "samples are not in the order in which they were measured",
