@@ -12,9 +12,11 @@ _COLUMNS = {"depth": "depth", "piezo": "depth", "force": "force", "time": "time"
 _CHOOSE = {"columns": "Choose the columns"}
 #: What parts the curves of a table.
 _BY = {
-    None: "Choose what parts the curves", "whole": "Read it as one curve", "gaps": "Part the curves at empty lines",
+    None: "Choose what parts the curves",
+    "whole": "Read it as one curve",
+    "gaps": "Part the curves at empty lines",
     "restart": "Part the curves where the depth starts anew",
-}  # fmt: skip
+}
 
 
 def label(remedy: Remedy, page: Any) -> str:
@@ -78,7 +80,8 @@ def _give(remedy: Remedy, page: Any) -> str:
         return f"Give the {CORRECTIONS[what].label}"
     if what in NUMBERS:
         return f"Give the {NUMBERS[what].label}"
-    if page.table is None or page.is_afm:
+    # A question about the columns stands where they are chosen.
+    if page.table is None or page.is_afm or (what == "columns" and page.question):
         return ""
     if what == "by":
         return _BY[remedy.value]
