@@ -72,9 +72,9 @@ class Form:
             for name, known in NUMBERS.items()
         }
         select = pn.widgets.Select
-        self.columns = {role: field(select, f"of-{role}", label=f"Column of {role}") for role in SIZES}
+        self.columns = {role: field(select, f"to-{role}", label=f"Column of {role}") for role in SIZES}
         self.units = {
-            role: field(select, f"of-unit-{role}", label=f"Unit of {role}", options=[_ASK, *sizes])
+            role: field(select, f"to-unit-{role}", label=f"Unit of {role}", options=[_ASK, *sizes])
             for role, sizes in SIZES.items()
         }
         for role in SIZES:
@@ -82,7 +82,7 @@ class Form:
                 widget.param.watch(self._told, "value")
         meanings = {"the depth of the tip": "depth", "the position of a piezo": "piezo"}
         self.meaning = field(select, label="The depth is", options=meanings)
-        self.parts = field(select, "of-by", label="The table has", options={"one curve": _ONE})
+        self.parts = field(select, "to-by", label="The table has", options={"one curve": _ONE})
         for widget in (self.meaning, self.parts):
             widget.param.watch(self._told, "value")
         self.preview = html("", "note", visible=False)
@@ -189,7 +189,7 @@ class Form:
         """Lead to a field by its name, as "drag", or "unit-depth" for the unit of depth."""
         show(self.reader, collapsed=False)
         self._led += 1
-        show(self._to, value=f"of-{name} {self._led}")
+        show(self._to, value=f"to-{name} {self._led}")
 
     # What is shown.
 

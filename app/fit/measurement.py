@@ -33,8 +33,9 @@ from .refusals import changed, refusal
 
 #: Most characters of the name of a column, and of a remark, which may quote the file, that are shown.
 _HEAD, _REMARK = 80, 500
-#: Kinds of remarks beside a number to quote of what changes it by more than its error.
-_OF_THE_NUMBER = {"creep", "tip"}
+#: Kinds of remarks on what changes a number by more than its error, by the source of that. A drift changes
+#: the model's E* beside an unloading, which hardly depends on it.
+_OF_THE_NUMBER = {"unloading": {"creep", "tip"}, "fit": {"drift", "drag", "tilt", "tip"}}
 
 
 # Jobs of the process: each is called with what can be sent.
@@ -135,8 +136,7 @@ def fit(given: dict[str, Any]) -> tuple[IndentationFit, dict[str, Any]]:
         told["unloading"], _ = unloading(found)
         remarks += told["unloading"].remarks
         above += tuple(each for each in told["unloading"].remarks if each.kind == "units")
-    if quoted.value is not None:
-        below += tuple(each for each in remarks if each.kind in _OF_THE_NUMBER)
+    below += tuple(each for each in remarks if each.kind in _OF_THE_NUMBER.get(quoted.source, ()))
     # Classes are kept in the object that is sent.
     told |= {"above": above, "below": below, "remarks": remarks, "of_class": found.class_of_hardness}
     return found, told

@@ -51,7 +51,9 @@ class Said:
         return tuple(each for each in labels if each[0])
 
     def _parts(self, text: Markup, offers: tuple[tuple[str, Remedy], ...]) -> list[Any]:
-        made = html((_REFUSED if self._alert else _TEXT).format(text), "note", "remark")
+        made = html(
+            (_REFUSED if self._alert else _TEXT).format(text), "note", "remark", *("refusal",) * self._alert
+        )
         if not offers:
             return [made]
         buttons = []

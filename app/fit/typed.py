@@ -16,7 +16,7 @@ from .setting import Number
 #: Units of numbers that have no value yet.
 _FIRST = {
     "radius": "µm", "half_angle": "°", "tip_modulus": "GPa", "spring_constant": "N/m", "sensitivity": "nm",
-    "drift": "nm/s", "frame": "nm/mN", "depth_noise": "nm",
+    "drift": "nm/s", "frame": "nm/mN", "depth_noise": "nm", "contact_point": "nm",
 }  # fmt: skip
 _REFUSED = Markup('<p class="refused" role="alert">{}</p>')
 #: Headings of a part of the column, and of a group in it.
@@ -40,7 +40,7 @@ class Typed:
         self.said = html("", "note")
         self.label = html(Markup("<label>{}</label>").format(words.name_html(known)), "name")
         self.row = pn.Row(self.label, self.field, css_classes=["fields"], **WIDE)
-        self.view = pn.Column(self.row, self.said, css_classes=["typed-number", f"of-{name}"], **WIDE)
+        self.view = pn.Column(self.row, self.said, css_classes=["typed-number", f"to-{name}"], **WIDE)
         self.field.param.watch(self._typed, "value")
 
     def show(self, value: float | None, **options: Any) -> None:
