@@ -9,13 +9,13 @@ from typing import Any
 from . import _check
 from .files.afm import SUFFIXES, from_afm, is_afm_text, refuse_binary
 from .files.columns import SIZES
-from .files.question import UnknownColumns, refused
+from .files.question import UnknownColumns
 from .files.several import curves_of_text
 from .files.split import WORDS
 from .files.table import decoded
 from .files.workbook import from_workbook
 from .measured_curve import MeasuredCurve, MeasuredCurves
-from .numerics.results import Remark, Remedy
+from .numerics.results import Remark, Remedy, refused
 
 __all__ = ["SIZES", "WORDS", "UnknownColumns", "read_curve", "read_curves"]
 

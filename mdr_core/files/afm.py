@@ -8,9 +8,8 @@ from functools import partial
 import numpy as np
 
 from .. import _check
-from .._errors import Refusal
 from ..measured_curve import MODALITIES, MeasuredCurves
-from ..numerics.results import Remark, Remedy
+from ..numerics.results import Remark, Remedy, refused
 from ..show.report import imported
 from .cantilever import Cantilever
 from .curve import curve_of
@@ -107,7 +106,7 @@ def _refused(errors, path):
         export = export_of(path.suffix.lower())
         sentence, words, remedy = _CURES.get(type(error).__name__, (export, export, ()))
         text = f"{path.name} cannot be read by afmformats: {error}"
-        raise Refusal(Remark(text + sentence, "file", text + words, remedy)) from None
+        raise refused(text + sentence, text + words, *remedy) from None
 
 
 def from_afm(path, given):

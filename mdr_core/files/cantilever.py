@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from ..numerics.results import Remark, Remedy
+from ..numerics.results import Remark, Remedy, refused
 from .names import normal, parted
-from .question import UnknownColumns, refused
+from .question import UnknownColumns
 from .table import LONGEST_HEADER
 from .units import COLUMN_UNITS, size_of, unit_alone
 

@@ -7,10 +7,9 @@ import numpy as np
 
 from .. import _check
 from ..measured_curve import MeasuredCurve, named_segments, segments_of
-from ..numerics.results import Remark, Remedy
+from ..numerics.results import Remark, Remedy, refused
 from .cantilever import constants
 from .columns import ask_for_parts, ask_for_results, plain_beside, taken, told
-from .question import refused
 from .split import WORDS, joined, parts, place_of, several
 from .units import COLUMN_UNITS, size_of
 

@@ -2,16 +2,10 @@
 
 from typing import Any
 
-from .._errors import Refusal
-from ..numerics.results import Remark, Remedy
+from ..numerics.results import Remedy
 
 #: Most columns that a question shows, and columns of words.
 _SHOWN, _WORDS = 14, 3
-
-
-def refused(sentence: str, text: str, *remedy: Remedy) -> Refusal:
-    """The refusal of a file that is told in another way than it is."""
-    return Refusal(Remark(sentence, "file", text, remedy))
 
 
 class NoCurve(ValueError):

@@ -4,11 +4,11 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 
-from ..numerics.results import Remark, Remedy
+from ..numerics.results import Remark, Remedy, refused
 from .columns import taken, told
 from .curve import curve_maker, curves_of
 from .formats import format_of
-from .question import NoCurve, UnknownColumns, refused
+from .question import NoCurve, UnknownColumns
 from .split import below, goes_on
 from .table import read_tables
 

@@ -5,8 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..numerics.results import Remedy
-from .question import UnknownColumns, refused
+from ..numerics.results import Remedy, refused
+from .question import UnknownColumns
 
 #: Jump of the depth back to its beginning, and the rise after it, as shares of the range; in median steps.
 _JUMP, _RISE, _STEPS = 0.2, 0.3, 5.0

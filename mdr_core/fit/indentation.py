@@ -7,18 +7,19 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
+from .._errors import Refusal
 from ..applicability import check_pair, refuse_own_law
 from ..contact.yielding import yield_rule
 from ..hardness import HardnessLaw
 from ..measured_curve import MeasuredCurve, MeasuredCurves
 from ..medium import Medium
-from ..numerics.results import Remark
+from ..numerics.results import Remark, Remedy, refused
 from ..profiles.profile import Profile
 from ..show.progress import progress
 from ..show.quantities import engineering
 from .columns import Times, columns_of
 from .measurement import measurement, rates
-from .parameters import PARAMETERS, hardness_by_default, held_values
+from .parameters import PARAMETERS, hardness_by_default, held_values, symbols
 from .result import IndentationFit, collected
 from .solution import problems, solved, table_depth
 
@@ -152,9 +153,10 @@ def fit_indentation(
     and a force that is different on unloading (creep, hysteresis) are reported with the change of E* where
     they would lower the residuals in contact clearly, or change E* by more than its error at 3.3 standard
     deviations; drag and drift only if `time` is given. Such a remark is made on 0.3 % of clean curves. If
-    the medium yields, the drift is measured in a hold; without a hold the report states the effect of 0.1
-    nm/s. If E* is held, or with adhesion, these effects are not tested. The report has the numbers of
-    Oliver and Pharr if the model fits the curve, without viscosity and adhesion.
+    the medium yields, the drift is measured in a hold; without a hold it is not seen, and 0.1 nm/s over two
+    minutes changes the E* of a metal by some per cent. If E* is held, or with adhesion, these effects are
+    not tested. The report has the numbers of Oliver and Pharr if the model fits the curve, without
+    viscosity and adhesion.
 
     **Standard errors** come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the
     slope. In simulated curves deviations over errors have standard deviations of 0.9 to 1.2; with depth
@@ -255,7 +257,13 @@ def _held(profile, given, count, noise, time):
     _refuse_with_other_classes(profile, held)
     in_time = _in_time(held)
     if in_time and time is None:
-        raise ValueError(f"{' and '.join(in_time)} need time, the times (s) of the samples: give time=")
+        need = "the times (s) of the samples: give"
+        raise refused(
+            f"{' and '.join(in_time)} need time, {need} time=",
+            f"{symbols(in_time)} need {need} a column of times",
+            Remedy("give", "time"),
+            *(Remedy("hold", name, 0.0) for name in in_time),
+        )
     if "work_of_adhesion" not in held or held["work_of_adhesion"].any():
         _refuse_with_adhesion(held, noise)
     return held
@@ -300,7 +308,7 @@ def _without_invalid(profile, depth, force, time, held, unread):
 
 def _refuse_all_invalid(reasons, count):
     if len(reasons) == count:
-        raise ValueError(f"none of {count} curves can be fitted; curve 0: {reasons[0]}")
+        raise Refusal(reasons[0].after(f"none of {count} curves can be fitted; curve 0: "))
 
 
 def _refuse_with_adhesion(held, noise):
@@ -308,13 +316,22 @@ def _refuse_with_adhesion(held, noise):
     q_c = held.get("q_c", np.array([np.nan]))
     if not np.all(np.isinf(q_c)):
         given = "free" if np.isnan(q_c[0]) else engineering(q_c, "N/m")
-        raise ValueError(
-            f"work_of_adhesion with q_c {given}: adhesion is fitted for an elastic medium only, q_c = inf; "
-            "give q_c=np.inf, or work_of_adhesion=0"
+        only = "adhesion is fitted for an elastic medium only"
+        raise refused(
+            f"work_of_adhesion with q_c {given}: {only}, q_c = inf; give q_c=np.inf, or work_of_adhesion=0",
+            only,
+            Remedy("class", "elastic"),
+            Remedy("hold", "work_of_adhesion", 0.0),
         )
     for name, given in (("eta", "eta" not in held or held["eta"].any()), ("depth_noise", noise > 0)):
         if given:
-            raise ValueError(f"work_of_adhesion is not fitted together with {name}: hold one of them at 0")
+            what = "the viscosity" if name == "eta" else "a noise of the depth"
+            raise refused(
+                f"work_of_adhesion is not fitted together with {name}: hold one of them at 0",
+                f"the work of adhesion is not fitted together with {what}: leave out one of them",
+                Remedy("hold", "work_of_adhesion", 0.0),
+                Remedy("hold" if name == "eta" else "give", name, 0.0),
+            )
 
 
 def _refuse_with_other_classes(profile, held):
@@ -324,32 +341,39 @@ def _refuse_with_other_classes(profile, held):
         return name not in held or held[name].any()
 
     if used("hardness"):
-        # Refuses shapes that are not convex.
-        yield_rule(profile, Medium(1.0, hardness=1.0))
+        try:
+            yield_rule(profile, Medium(1.0, hardness=1.0))
+        except ValueError as error:
+            words = "a constant hardness is not fitted under a tip that is not convex"
+            raise refused(str(error), words, Remedy("class", "b")) from None
     for name in ("eta", "work_of_adhesion"):
         if used(name) and (used("hardness") or used("f_c")):
-            raise ValueError(
-                f"{name} is not fitted together with hardness or f_c: hold it at 0, or hold these at 0"
+            raise refused(
+                f"{name} is not fitted together with hardness or f_c: hold it at 0, or hold these at 0",
+                f"{symbols([name])} is fitted with a hardness of class (b) only: hold it at 0, or take it",
+                Remedy("hold", name, 0.0),
+                Remedy("class", "b"),
             )
 
 
 def _refuse_empty(measured, held):
     depth, force = (np.where(measured.used, values, np.nan) for values in (measured.depth, measured.force))
     free = [name for name in PARAMETERS if name not in held]
-    counts, names = np.count_nonzero(measured.used, axis=1), ", ".join(free) or "a residual"
+    counts = np.count_nonzero(measured.used, axis=1)
     i = int(counts.argmin())
     if counts[i] <= len(free):
         which = "" if measured.single else f"curve {i}: "
-        raise ValueError(
-            f"{which}{counts[i]} samples do not determine {names}: hold some of these, or give more"
-        )
+        text, more = f"{which}{counts[i]} samples do not determine", "hold some of these, or give more"
+        names = ", ".join(free) or "a residual", symbols(free) or "a residual"
+        raise refused(*(f"{text} {each}: {more}" for each in names), Remedy("part", "all"))
     lowest, highest = np.nanmin(force, axis=1), np.nanmax(force, axis=1)
     width = np.nanmax(depth, axis=1) - np.nanmin(depth, axis=1)
     _check.refuse("range of depth", width, width == 0, "m: the indenter does not move", advice="check it")
     rise = highest - held.get("baseline", lowest)
     bound, advice = "above the baseline: no contact", "forces are positive in compression; or free baseline"
-    attracted = np.any(held.get("work_of_adhesion", 1.0))
-    _check.refuse("largest force", rise, (rise <= 0) & ~attracted, bound, unit="N", advice=advice)
+    attracted, free = np.any(held.get("work_of_adhesion", 1.0)), (Remedy("free", "baseline"),)
+    bad = (rise <= 0) & ~attracted
+    _check.refuse("largest force", rise, bad, bound, unit="N", advice=advice, remedy=free)
     height = highest - lowest
     bound = f"must be at least {_check.SHORTEST:g}"
     _check.refuse("range of force", height, height < _check.SHORTEST, bound, unit="N", advice="check it")

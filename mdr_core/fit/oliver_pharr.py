@@ -21,6 +21,7 @@ from .first_contact import FirstContact, first_contact
 from .materials import doubts
 from .oliver_pharr_result import OliverPharr, OverDepth
 from .report import with_error
+from .tip import of_ideal_tip
 from .unloading import last_at_top, laws_of, parts_of
 
 #: First contact of depths that are taken as they are given.
@@ -147,6 +148,7 @@ def oliver_pharr(
         # Near first contact single samples may be far off.
         middle = [np.nanmedian(values[name]) for name in ("E_star", "hardness")]
         remarks = (*read, *remarks, begins, *doubts(*middle), *profile.remarks)
+        remarks = (*remarks, *of_ideal_tip(profile, values["contact_depth"]))
         return OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
     parts, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
     numbers, pairs = zip(*parts.items(), strict=True)
@@ -374,6 +376,7 @@ def _collected(profile, results, contact, numbers, remarks):
     if contact.depth_error:
         errors["contact_point"] = _check.frozen(np.full(shape, contact.depth_error))
     remarks = [*remarks, *doubts(values["E_star"], values["hardness"]), *profile.remarks]
+    remarks += of_ideal_tip(profile, values["contact_depth"])
     return OliverPharr(profile=profile, **values, standard_errors=errors, remarks=tuple(remarks))
 
 
