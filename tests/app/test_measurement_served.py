@@ -172,9 +172,11 @@ def test_the_explorer_leads_there_and_back(explorer):
     page.get_by_text("A curve in, E* out").wait_for()
     explorer.press("Sample: gel by AFM")
     number(explorer, "kPa")
-    page.get_by_role("link", name="Tip and medium in the explorer").click()
+    page.get_by_role("link", name="Model of this curve in the explorer").click()
     page.wait_for_function("window.explorer?.idle()")
     assert explorer.field("E*").input_value() == "19.7 kPa"
+    # As deep as the curve from first contact on.
+    assert explorer.field("d_max").input_value().startswith("138")
     assert explorer.chosen("Shape") == "Paraboloid"
 
 
