@@ -83,7 +83,8 @@ def _trend(depth, force, noise):
 
 def _contact_of_loading(profile, depth, force, seen, level, noise):
     """`FirstContact` of a loading whose force is seen from one sample on."""
-    exponents = _exponents(profile, depth[-1] - depth[0])
+    least, most = elastic_exponents(profile, depth[-1] - depth[0])
+    exponents = least - _SOFTER, most + _STIFFER
     parts, contacts = [], []
     for share in _SHARES:
         height = share * (force[-1] - level)
@@ -109,12 +110,12 @@ def _contact_of_loading(profile, depth, force, seen, level, noise):
     return replace(ends[0], depth=middle, depth_error=half)
 
 
-def _exponents(profile, largest):
-    """Least and largest exponent of a loading to a depth (m): those of elastic contacts, and beyond."""
+def elastic_exponents(profile, largest):
+    """Least and largest exponent m of F ∝ d^m of elastic contacts up to a depth (m)."""
     depth = min(largest, profile.known_depth) * np.array([0.05, 0.2, 1.0])
     force = integrals(profile).radius_integral(LiveInterval.elastic(depth))
     exponents = depth * profile.radius_at(depth) / force
-    return float(exponents.min()) - _SOFTER, float(exponents.max()) + _STIFFER
+    return float(exponents.min()), float(exponents.max())
 
 
 def _power_law(depth, force, seen, least, most):

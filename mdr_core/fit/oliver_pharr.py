@@ -14,8 +14,9 @@ from ..show.quantities import engineering
 from . import creep as creeping
 from .errors import roughness
 from .first_contact import FirstContact, first_contact
+from .iso_14577 import iso_numbers
 from .materials import doubts
-from .oliver_pharr_result import OliverPharr, OverDepth
+from .oliver_pharr_result import ISO_14577, OliverPharr, OverDepth
 from .report import with_error
 from .unloading import last_at_top, laws_of, parts_of
 
@@ -139,13 +140,13 @@ def oliver_pharr(
         remarks = (*remarks, text, *doubts(*middle), *profile.remarks)
         return OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
     parts, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
-    numbers, pairs = zip(*parts.items(), strict=True)
-    corrected, uncorrected = zip(*pairs, strict=True)
+    numbers, triples = zip(*parts.items(), strict=True)
+    corrected, uncorrected, iso = zip(*triples, strict=True)
     numbers = _check.frozen(numbers if cycles else numbers[0])
-    result = _collected(profile, corrected, contact, numbers, (*remarks, text))
+    result = _collected(profile, corrected, iso, contact, numbers, (*remarks, text))
     if time is None:
         return result
-    return replace(result, uncorrected=_collected(profile, uncorrected, contact, numbers, ()))
+    return replace(result, uncorrected=_collected(profile, uncorrected, iso, contact, numbers, ()))
 
 
 def _columns(depth, force, time, stiffness):
@@ -208,7 +209,9 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
         moments = None if time is None else time[part]
         try:
             both, notes = _with_creep(profile, depth[part], force[part], moments, constants, contact)
-            results[number] = both
+            whole = part if every or not parts else slice(0, parts[taken - 1].stop)
+            iso = iso_numbers(profile, depth, force, time, whole, both)
+            results[number] = *both, iso
             remarks += [f"{which}: {each}" for each in notes] if cycles and len(parts) > 1 else notes
         except ValueError as error:
             if not cycles or len(parts) < 2:
@@ -327,7 +330,7 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     return frozen, {name: _check.frozen(error) for name, error in errors.items()}, remarks
 
 
-def _collected(profile, results, contact, numbers, remarks):
+def _collected(profile, results, iso, contact, numbers, remarks):
     """An `OliverPharr` of the values and errors of unloadings by number, or of one where that is one."""
     columns = np.array(results) if numbers.ndim else np.array(results[0])
     names = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
@@ -339,6 +342,8 @@ def _collected(profile, results, contact, numbers, remarks):
     values |= {"contact_point": _check.frozen(np.full(shape, contact.depth)), "unloading": numbers}
     if contact.depth_error:
         errors["contact_point"] = _check.frozen(np.full(shape, contact.depth_error))
+    columns = zip(ISO_14577, np.array(iso if numbers.ndim else iso[0]).T, strict=True)
+    values |= {name: _check.frozen(each) for name, each in columns if not np.all(np.isnan(each))}
     remarks = [*remarks, *doubts(values["E_star"], values["hardness"]), *profile.remarks]
     return OliverPharr(profile=profile, **values, standard_errors=errors, remarks=tuple(remarks))
 

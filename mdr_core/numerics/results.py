@@ -247,7 +247,7 @@ class Record:
         )
 
     def to_dict(self) -> "dict[str, float | NDArray[np.float64]]":
-        """All quantities by name, in SI units: floats, or arrays of one shape.
+        """All quantities by name, in SI units: floats, or arrays of one shape. Those that are None are not.
 
         Examples
         --------
@@ -255,7 +255,8 @@ class Record:
         >>> indent(Cone(slope=1.0), Medium(E_star=1.0), [0.0, 1.0]).to_dict()["force"].round(4).tolist()
         [0.0, 0.6366]
         """
-        values = {name: np.asarray(getattr(self, name)) for name in self._quantities}
+        values = {name: getattr(self, name) for name in self._quantities}
+        values = {name: np.asarray(value) for name, value in values.items() if value is not None}
         return {name: value if value.ndim else float(value) for name, value in values.items()}
 
     def to_pandas(self) -> "pandas.DataFrame":
