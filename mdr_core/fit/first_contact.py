@@ -10,7 +10,7 @@ from .errors import SIGNIFICANT, block_factors, block_length, roughness
 from .least_squares import least_squares
 
 #: Least number of samples in the air, and least share of the largest depth that these are long.
-LEAST_SAMPLES, _LEAST_LENGTH = 20, 0.02
+LEAST_SAMPLES, _LEAST_LENGTH = 5, 0.02
 #: Largest force that a trend of the air would have at the largest depth, as a share of the largest force.
 _CONSTANT = 0.01
 #: Shares of the largest force of a loading up to which a power law is fitted, from large to small.

@@ -13,7 +13,7 @@ from ..profiles.profile import Profile
 from ..show.quantities import engineering
 from . import creep as creeping
 from .errors import roughness
-from .first_contact import FirstContact, first_contact
+from .first_contact import LEAST_SAMPLES, FirstContact, first_contact
 from .iso_14577 import iso_numbers
 from .materials import doubts
 from .oliver_pharr_result import ISO_14577, OliverPharr, OverDepth
@@ -182,7 +182,7 @@ def _columns(depth, force, time, stiffness):
 
 def _contact(profile, depth, force):
     """First contact of a record, and a remark on it."""
-    parts = parts_of(force - np.median(force[:20]))
+    parts = parts_of(force - np.median(force[:LEAST_SAMPLES]))
     loading = parts[0] if parts else slice(None)
     contact, why = first_contact(profile, depth[loading], force[loading])
     if contact is None:
