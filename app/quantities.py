@@ -147,7 +147,7 @@ def lowered(text):
 
 
 def in_words(error: ValueError) -> str:
-    """Message of an error of the core: of a refused number its symbol, value with unit, bound and remedy.
+    """Message of an error of the core: of a refused number its symbol, value with unit, bound and advice.
 
     All other messages are as they stand.
     """
@@ -156,5 +156,5 @@ def in_words(error: ValueError) -> str:
     known = QUANTITIES.get(error.argument)
     name = f"{lowered(known.symbol)}, {known.label}," if known else error.quantity
     value = written(float(error.value), KINDS.get(error.unit, "number"))
-    remedy = f"; {error.remedy}" if error.remedy and "SI units" not in error.remedy else ""
-    return f"{name} = {value} {error.bound}{remedy}"
+    advice = f"; {error.advice}" if error.advice and "SI units" not in error.advice else ""
+    return f"{name} = {value} {error.bound}{advice}"

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from .impacts.scaling import ScalingLaw, hardness_class
     from .medium import Medium
     from .numerics.motions import Motion
+    from .numerics.results import Remark, Remedy
     from .oblique.ball import Ball, at_angle
     from .oblique.oblique_impact import ObliqueImpact, oblique_impact
     from .profiles.power import Cone, FlatPunch, Paraboloid, PowerLaw
@@ -63,6 +64,8 @@ __all__ = [
     "Paraboloid",
     "PowerLaw",
     "Profile",
+    "Remark",
+    "Remedy",
     "RoundedCone",
     "RoundedPunch",
     "Sampled",
@@ -137,6 +140,10 @@ _MODULES = {
     ),
     "medium": ("Medium",),
     "numerics.motions": ("Motion",),
+    "numerics.results": (
+        "Remark",
+        "Remedy",
+    ),
     "oblique.ball": (
         "Ball",
         "at_angle",

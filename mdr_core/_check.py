@@ -1,4 +1,4 @@
-"""Checks of arguments, with errors that name the quantity, its value, the bound and a remedy."""
+"""Checks of arguments, with errors that name the quantity, its value, the bound and what to do."""
 
 import difflib
 from collections.abc import Callable, Sequence
@@ -86,12 +86,12 @@ def in_unit(quantity, value, unit):
             f"has dimensions with names, {shown(value.dims)}, which would be lost: arrays broadcast by the "
             "order of their axes"
         )
-        remedy = "give its .values, transposed as needed"
-        raise InvalidArgument(f"{quantity} {bound}; {remedy}", quantity, value, bound, unit, remedy)
+        advice = "give its .values, transposed as needed"
+        raise InvalidArgument(f"{quantity} {bound}; {advice}", quantity, value, bound, unit, advice)
     if hasattr(type(value), "__dask_graph__") and not _carries_unit(value):
         bound = "is a lazy array, which would be taken into memory as a whole"
-        remedy = ".compute() it, or give it to mdr_core.sweep, which keeps it lazy"
-        raise InvalidArgument(f"{quantity} {bound}: {remedy}", quantity, value, bound, unit, remedy)
+        advice = ".compute() it, or give it to mdr_core.sweep, which keeps it lazy"
+        raise InvalidArgument(f"{quantity} {bound}: {advice}", quantity, value, bound, unit, advice)
     if isinstance(value, list | tuple) and any(map(_carries_unit, value)):
         return [in_unit(quantity, part, unit) for part in value]
     if not _carries_unit(value):
@@ -127,12 +127,12 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False, within=Non
     if not infinite:
         bad = bad | (values == np.inf)
     bound = f"must be {'' if infinite else 'finite and '}{'not negative' if zero else 'positive'}"
-    remedy = f"give it in SI units ({unit})" if unit else "check it"
-    refuse(quantity, values, bad, bound, unit=unit, remedy=remedy)
+    advice = f"give it in SI units ({unit})" if unit else "check it"
+    refuse(quantity, values, bad, bound, unit=unit, advice=advice)
     least, most = within or _bounds(unit, zero)
     outside = (values > 0) & (values < least) | (values > most) & (values < np.inf)
     bound = f"must {'be 0 or ' if zero else ''}lie between {least:g} and {most:g}"
-    refuse(quantity, values, outside, bound, unit=unit, remedy=remedy)
+    refuse(quantity, values, outside, bound, unit=unit, advice=advice)
     return values if values.ndim else float(values)
 
 
@@ -183,26 +183,26 @@ def finite_array(quantity, value, *, unit="", most=FARTHEST, missing=False):
     # A result that keeps the array must not change with the argument.
     array = _real_array(quantity, in_unit(quantity, value, unit), unit=unit).copy()
     large = np.isfinite(array) & (np.abs(array) > most)
-    refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, remedy="give it in SI units")
-    remedy = "leave it out, or mend the data it comes from"
+    refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, advice="give it in SI units")
+    advice = "leave it out, or mend the data it comes from"
     bad = np.isinf(array) if missing else ~np.isfinite(array)
-    return refuse(quantity, array, bad, "must be finite", unit=unit, remedy=remedy)
+    return refuse(quantity, array, bad, "must be finite", unit=unit, advice=advice)
 
 
 def force(quantity, value):
     """`value` as a float array of normal forces, which are not negative."""
     array = finite_array(quantity, value, unit="N", most=LONGEST)
     refuse(
-        quantity, array, array < 0, "is negative", unit="N", remedy="a tension needs work_of_adhesion > 0"
+        quantity, array, array < 0, "is negative", unit="N", advice="a tension needs work_of_adhesion > 0"
     )
     tiny = (array > 0) & (array < SMALLEST)
     return refuse(quantity, array, tiny, f"must be 0 or at least {SMALLEST:g}", unit="N")
 
 
-def refuse(quantity, array, bad, bound, *, unit="", remedy=""):
+def refuse(quantity, array, bad, bound, *, unit="", advice="", remedy=()):
     """`array`, if no entry is `bad`; else an error that names the first one and counts the others."""
     if np.any(bad):
-        raise InvalidEntries(quantity, array, bad, bound, unit, remedy)
+        raise InvalidEntries(quantity, array, bad, bound, unit, advice, remedy)
     return array
 
 

@@ -234,9 +234,9 @@ def _samples(x, q):
     q = _check.finite_array("line load q", q, unit="N/m", most=_check.LARGEST)
     if x.ndim != 1 or x.shape != q.shape or not x.size:
         raise ValueError(f"line load q of shape {q.shape} needs as many coordinates, got shape {x.shape}")
-    _check.refuse("coordinate", x, x < 0, "is negative", unit="m", remedy="give x ≥ 0; the load is even")
+    _check.refuse("coordinate", x, x < 0, "is negative", unit="m", advice="give x ≥ 0; the load is even")
     back = np.append(False, np.diff(_lengths("coordinate", x)) < 0)
-    _check.refuse("coordinate", x, back, "comes after a larger one", unit="m", remedy="sort the samples")
+    _check.refuse("coordinate", x, back, "comes after a larger one", unit="m", advice="sort the samples")
     return x, q
 
 
@@ -244,7 +244,7 @@ def _lengths(quantity, x):
     """Coordinates or radii (m), if their squares and quotients are double precision."""
     outside = (x > 0) & (x < _check.SMALLEST) | (x > _check.LONGEST)
     bound = f"must be 0 or lie between {_check.SMALLEST:g} and {_check.LONGEST:g}"
-    return _check.refuse(quantity, x, outside, bound, unit="m", remedy="give it in SI units")
+    return _check.refuse(quantity, x, outside, bound, unit="m", advice="give it in SI units")
 
 
 def _slopes(x, q):

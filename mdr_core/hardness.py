@@ -217,10 +217,10 @@ def _range_of(law):
     return radius[first], radius[last - 1]
 
 
-def refused_law(law, what, remedy):
+def refused_law(law, what, advice):
     """The error of a law of hardness: what is wrong with it, and what to do."""
-    text = f"{what}; {remedy}"
-    return _check.InvalidArgument(f"hardness {shown(law)}: {text}", "hardness", law, what, "", remedy)
+    text = f"{what}; {advice}"
+    return _check.InvalidArgument(f"hardness {shown(law)}: {text}", "hardness", law, what, "", advice)
 
 
 def law_numbers(law, name, a):

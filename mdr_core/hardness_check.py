@@ -102,12 +102,12 @@ def _refuse_growth(law, profile, a):
     )  # fmt: skip
 
 
-def _refuse_radii(law, a, bad, what, remedy):
+def _refuse_radii(law, a, bad, what, advice):
     """Refuses a law at the first of the radii (m) that are `bad`; `what` says so for its index."""
     if np.any(bad):
         index = np.unravel_index(np.argmax(bad), bad.shape)
         one = law.entries(index, a.shape) if law.shape else law
-        raise refused_law(one, what(index), remedy)
+        raise refused_law(one, what(index), advice)
 
 
 def _refuse_jumps(law, a, hardness):

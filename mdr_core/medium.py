@@ -75,8 +75,8 @@ def _law_alone(q_c, law, f_c):
         value = _check.positive(quantity, value, unit=unit, zero=True, infinite=name == "q_c")
         beside = (np.asarray(value) > 0) & (np.asarray(value) < np.inf)
         bound = f"cannot be combined with the law of hardness {shown(law)}"
-        remedy = f"write {term} into its at(a), or take hardness = 0 beside {name}"
-        _check.refuse(quantity, np.asarray(value), beside, bound, unit=unit, remedy=remedy)
+        advice = f"write {term} into its at(a), or take hardness = 0 beside {name}"
+        _check.refuse(quantity, np.asarray(value), beside, bound, unit=unit, advice=advice)
     return {"q_c": 0.0, "hardness": law, "f_c": 0.0}
 
 
@@ -91,7 +91,7 @@ def _refuse_sum(medium):
         return
     others = np.asarray(medium.hardness) + np.asarray(medium.f_c)
     q_c = np.broadcast_to(medium.q_c, np.broadcast_shapes(np.shape(medium.q_c), others.shape))
-    for bad, bound, remedy in (
+    for bad, bound, advice in (
         (
             (q_c == 0) & (others == 0),
             "leaves no hardness, because the other constants are 0",
@@ -103,7 +103,7 @@ def _refuse_sum(medium):
             "give q_c = 0 or a finite one",
         ),
     ):
-        _check.refuse("yield constant q_c", q_c, bad, bound, unit="N/m", remedy=remedy)
+        _check.refuse("yield constant q_c", q_c, bad, bound, unit="N/m", advice=advice)
     if np.any((np.asarray(medium.work_of_adhesion) > 0) & (others > 0)):
         raise ValueError(
             "adhesion is modelled for the hardness q_c/a only; set the work of adhesion work_of_adhesion "
@@ -425,7 +425,7 @@ class Medium(_check.Parameters):
         _check.common_shape("hardness_at", radius=a, medium=np.empty(self.shape))
         hardness = law_numbers(self.law, "at", a)
         bound = "is no hardness: it must be above 0"
-        _check.refuse("hardness", hardness, ~(hardness > 0), bound, unit="Pa", remedy="mend the law")
+        _check.refuse("hardness", hardness, ~(hardness > 0), bound, unit="Pa", advice="mend the law")
         return _check.frozen(hardness + np.zeros(np.shape(a)))
 
     @property

@@ -106,11 +106,11 @@ class Structure(_check.Parameters):
             "is finite beside a finite impedance: in series they are not a plate on its support, because "
             "an endless plate goes on for ever under a constant force"
         )
-        remedy = (
+        advice = (
             "take the impedance for a light and fast body, whose contact is over before waves are back "
             "from the edges, or the stiffness for a body at least as heavy as the plate"
         )
-        _check.refuse("stiffness", stiffness, both, bound, unit="N/m", remedy=remedy)
+        _check.refuse("stiffness", stiffness, both, bound, unit="N/m", advice=advice)
 
     @classmethod
     @_check.keywords_explained
@@ -209,7 +209,7 @@ class Structure(_check.Parameters):
         bound = "is not below √(D11 D22): no laminate has such stiffnesses"
         D12 = np.broadcast_to(D12, shape)
         _check.refuse(
-            "bending stiffness D12", D12, np.abs(D12) >= root, bound, unit="N·m", remedy="check it"
+            "bending stiffness D12", D12, np.abs(D12) >= root, bound, unit="N·m", advice="check it"
         )
         mean = np.sqrt(root) * (np.pi / 2) / scipy.special.ellipk((1 - (D12 + 2 * D66) / root) / 2)
         return cls(

@@ -38,7 +38,7 @@ def effective_modulus(E_in_plane, E_axial, nu_in_plane, nu_axial, G_axial):
 def _stable(n, nu_p, nu):
     """Δ = 1 − ν_p − 2nν², if the elastic energy of every strain is positive; 0 if incompressible."""
     bound = "must lie in −1 < ν < 1"
-    _check.refuse("Poisson ratio nu_in_plane", nu_p, np.abs(nu_p) >= 1, bound, remedy="check it")
+    _check.refuse("Poisson ratio nu_in_plane", nu_p, np.abs(nu_p) >= 1, bound, advice="check it")
     delta = 1 - nu_p - 2 * n * nu**2
     unstable = delta < -_ROUNDING
     if np.any(unstable):
@@ -47,6 +47,6 @@ def _stable(n, nu_p, nu):
             "leaves no stable medium: 1 − ν_p − 2ν_zp² E_p/E_z must be positive, so that |nu_axial| must "
             f"be below {largest[unstable].min():.4g}"
         )
-        remedy = "nu_axial is ν_zp = ν_pz E_z/E_p, the strain in the plane for a stress along the axis"
-        _check.refuse("Poisson ratio nu_axial", nu, unstable, bound, remedy=remedy)
+        advice = "nu_axial is ν_zp = ν_pz E_z/E_p, the strain in the plane for a stress along the axis"
+        _check.refuse("Poisson ratio nu_axial", nu, unstable, bound, advice=advice)
     return np.maximum(delta, 0.0)

@@ -350,7 +350,7 @@ class TestWhatIsNoLaw:
         with pytest.raises(ValueError, match=FAULTS[fault]) as error:
             CALLS[call](mdr.Medium(E, hardness=Wrong(fault)))
         assert f"hardness Wrong(fault='{fault}')" in str(error.value)
-        assert error.value.remedy
+        assert error.value.advice
 
     @pytest.mark.parametrize("fault", [fault for fault in FAULTS if fault not in ("grows", "other rate")])
     def test_counts_where_the_contact_is(self, fault):

@@ -1,4 +1,4 @@
-"""The error of a refused argument carries its name, the value, the bound, the unit and a remedy."""
+"""The error of a refused argument carries its name, the value, the bound, the unit and what to do."""
 
 import pickle
 from types import SimpleNamespace
@@ -30,7 +30,7 @@ class Kilogram:
 
 KILOGRAM, LAZY = Kilogram(), Lazy()
 BETWEEN = "must lie between 1e-60 and 1e+60"
-# A call; argument, value, bound, unit and remedy of its error.
+# A call; argument, value, bound, unit and advice of its error.
 REFUSALS = {
     "no number": (
         lambda: mdr.Medium("soft"),
@@ -121,12 +121,12 @@ def refusal(make):
 def test_what_an_error_carries(kind):
     make, expected = REFUSALS[kind]
     error = refusal(make)
-    assert (error.argument, error.value, error.bound, error.unit, error.remedy) == expected
+    assert (error.argument, error.value, error.bound, error.unit, error.advice) == expected
     # The message says the same.
     said = str(error)
     assert said.startswith(error.quantity)
     assert error.bound in said
-    assert said.endswith(error.remedy)
+    assert said.endswith(error.advice)
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from mdr_core.fit.classes import HardnessVerdict
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.noise import jitter
 from mdr_core.fit.oliver_pharr_result import OliverPharr
-from mdr_core.fit.result import unloading_of
+from mdr_core.fit.quoted import unloading as unloading_of
 from mdr_core.measured_curve import MeasuredCurve, MeasuredCurves
 from mdr_core.reading import UnknownColumns
 from mdr_core.show.units import written

@@ -97,8 +97,8 @@ def single_range(profile, medium, share):
 def _power_range(profile, threshold, exponent):
     """Start D (m) of the stable range of g ∝ xⁿ, in which √a g′(a) grows as a^(n − 1/2)."""
     bound = "is 1/2 or less: with adhesion the contact spreads without limit"
-    remedy = "set work_of_adhesion = 0, or take an exponent above 1/2"
-    _check.refuse("exponent", np.asarray(exponent), exponent <= 0.5, bound, remedy=remedy)
+    advice = "set work_of_adhesion = 0, or take an exponent above 1/2"
+    _check.refuse("exponent", np.asarray(exponent), exponent <= 0.5, bound, advice=advice)
     if np.any(profile.wall < np.inf):
         return np.zeros(np.broadcast_shapes(np.shape(threshold), profile.shape))
     # Of a weak power the radius may leave double precision.
@@ -204,7 +204,7 @@ def _one_path(profile, medium, depth):
     touching = number >= 0
     bound = f"presses {profile.too_deep()}, with adhesion"
     _check.refuse(
-        "depth", depth, touching & (live_depth > last[-1]), bound, unit="m", remedy="press less deep"
+        "depth", depth, touching & (live_depth > last[-1]), bound, unit="m", advice="press less deep"
     )
     # Out of contact the interval is empty.
     result = np.array([lower, lower, np.zeros_like(depth), np.zeros_like(depth)])
@@ -254,7 +254,7 @@ def force_path(profile, medium, force):
     rises = (slope > 0) & (np.abs(miss) <= 1e-6 * upper * slope)
     bound = f"presses {profile.too_deep()}, or is not reached because adhesion draws the indenter in"
     _check.refuse(
-        "force", force, ~((upper <= known) & rises), bound, unit="N", remedy="press to a depth instead"
+        "force", force, ~((upper <= known) & rises), bound, unit="N", advice="press to a depth instead"
     )
     loaded, _ = loaded_interval(profile, medium, upper)
     lower, limit = np.where(ever, loaded.lower, 0.0), loaded.length

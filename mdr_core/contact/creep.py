@@ -172,7 +172,7 @@ def _refuse_unknown(profile, pressed, force):
     known = pressed.depth <= min(profile.known_depth, _check.LONGEST)
     known[-1] &= not pressed.turned or pressed.turning_depth <= profile.known_depth
     bound = f"presses {profile.too_deep()}"
-    _check.refuse("force", force[: known.size], ~known, bound, unit="N", remedy="press less")
+    _check.refuse("force", force[: known.size], ~known, bound, unit="N", advice="press less")
     check_shape(profile, pressed.depth)
 
 

@@ -117,7 +117,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     limit = 2 * medium.E_star * rule.wall_integral()
     carrier = "the whole flat face yields" if profile.wall < np.inf else "all of the contact yields, π f_c"
     bound = f"must be less than the {limit:g} N at which {carrier}"
-    _check.refuse("force", force, force >= limit, bound, unit="N", remedy="press to a depth instead")
+    _check.refuse("force", force, force >= limit, bound, unit="N", advice="press to a depth instead")
     if adhesive:
         states = adhesion.force_path(profile, medium, force)
         check_shape(profile, states[1].upper)
@@ -146,7 +146,7 @@ def _refuse_not_carried(profile, medium, rule, branches, force, depth):
     if medium.has_own_law and profile.known_depth == np.inf and not np.all(carried):
         most = 2 * medium.E_star * np.max(_carried(rule, np.minimum(branches.high, _check.LONGEST)))
         bound = f"is more than the {most:g} N that the contact carries on loading"
-    _check.refuse("force", force, ~carried, bound, unit="N", remedy="press less")
+    _check.refuse("force", force, ~carried, bound, unit="N", advice="press less")
 
 
 class _Branches(NamedTuple):

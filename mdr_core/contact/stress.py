@@ -97,7 +97,7 @@ def depths(z):
     """Depths below the surface (m) as an array, if none is negative."""
     z = _check.finite_array("depth z", z, unit="m")
     bound = "is above the surface"
-    return _check.refuse("depth z", z, z < 0, bound, unit="m", remedy="z counts downward from it")
+    return _check.refuse("depth z", z, z < 0, bound, unit="m", advice="z counts downward from it")
 
 
 def stress(state, r, z):

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..numerics.results import Remark, Remedy
 from ..show.quantities import engineering
 from .errors import roughness
 from .unloading import last_at_top
@@ -143,22 +144,33 @@ def rise_of_depth(depth, force):
     return float(rise) if rise > least else 0.0
 
 
-def sentence(share):
+NO_HOLD = Remark(
+    "no hold of the force before the unloading shows its creep: creep is not corrected", "hold"
+)
+
+
+def of_share(share):
     """A remark on creep that is not small."""
-    return (
+    return Remark(
         f"the depth creeps at the start of the unloading: ḣ/|Ṗ| at the end of the hold is "
-        f"{100 * share:.2g} % of 1/S; the stiffness is corrected for it (Feng and Ngan)"
+        f"{100 * share:.2g} % of 1/S; the stiffness is corrected for it (Feng and Ngan)",
+        "creep",
     )
 
 
-def sentence_of_hold(length):
+def of_hold(length):
     """A remark on the hold whose end gives the rate."""
-    return f"the force is held for {engineering(length, 's')} before the unloading"
+    return Remark(f"the force is held for {engineering(length, 's')} before the unloading", "hold")
 
 
-def sentence_of_rise(rise):
-    """A remark on a depth that grows while the force falls."""
-    return (
+def of_rise(rise, in_time):
+    """A remark on a depth that grows while the force falls; `in_time` says whether times are given."""
+    text = (
         f"the depth creeps: it grows by {engineering(rise, 'm')} while the force falls, so that the "
-        "stiffness is too large; give time=, hold the force longer, or unload faster"
+        "stiffness is too large; "
     )
+    cure = "hold the force longer, or unload faster"
+    if in_time:
+        return Remark(text + cure, "creep")
+    times = f"{text}give a column of times, {cure}"
+    return Remark(f"{text}give time=, {cure}", "creep", times, (Remedy("give", "time"),))

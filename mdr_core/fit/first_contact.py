@@ -6,6 +6,7 @@ import numpy as np
 
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
+from ..numerics.results import Remark
 from .errors import SIGNIFICANT, block_factors, block_length, roughness
 from .least_squares import least_squares
 
@@ -35,7 +36,7 @@ class FirstContact:
 
 
 def first_contact(profile, depth, force):
-    """`FirstContact` of a loading that begins in the air, or None; and why, as text.
+    """`FirstContact` of a loading that begins in the air, or None; and a remark on why.
 
     F = F₀ + k (h − z₀)^m is fitted to the samples up to several shares of the largest force. A worn tip, or
     a medium that begins to yield, follows a power law over the beginning of the loading only: of the shares
@@ -44,9 +45,8 @@ def first_contact(profile, depth, force):
     an elastic contact.
     """
     given = "depths are taken as given from first contact"
-    air = (
-        f"{given}: the record does not begin with {LEAST_SAMPLES} samples in the air, or their force varies"
-    )
+    begin = f"the record does not begin with {LEAST_SAMPLES} samples in the air"
+    air = Remark(f"{given}: {begin}, or their force varies", "first contact")
     top = int(np.argmax(force))
     seen, level, noise = _first_seen(force[: top + 1])
     length = depth[top] - depth[0]
@@ -61,7 +61,7 @@ def first_contact(profile, depth, force):
     before = np.count_nonzero(depth[:seen] < contact.depth - 2 * contact.depth_error)
     if before < LEAST_SAMPLES or contact.depth - depth[0] < _LEAST_LENGTH * length:
         return None, air
-    return contact, ""
+    return contact, None
 
 
 def _first_seen(force):

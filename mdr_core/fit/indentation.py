@@ -10,6 +10,7 @@ from ..applicability import check_pair, refuse_own_law
 from ..contact.yielding import yield_rule
 from ..hardness import HardnessLaw
 from ..medium import Medium
+from ..numerics.results import Remark
 from ..profiles.profile import Profile
 from ..show.progress import progress
 from ..show.quantities import engineering
@@ -236,7 +237,7 @@ def _solutions(rows, curves, noise_known, reasons):
         if reasons is None:
             raise
         if rows.size == 1:
-            reasons[int(rows[0])] = str(error)
+            reasons[int(rows[0])] = Remark.of(error, "invalid")
             return []
     singles = ((rows[[i]], curves.rows([i])) for i in range(rows.size))
     return [each for single in singles for each in _solutions(*single, noise_known, reasons)]
@@ -279,7 +280,7 @@ def _without_invalid(profile, depth, force, time, held):
                 rates(measured.depth[:, measured.used[0]], measured.time[:, measured.used[0]])
             table_depth(profile, measured.depth, own)
         except ValueError as error:
-            reasons[i] = str(error)
+            reasons[i] = Remark.of(error, "invalid")
             curves[i] = [np.full(np.size(curve[0]), np.nan)] * len(curve)
     _refuse_all_invalid(reasons, len(curves))
     depth, force, *times = map(list, zip(*curves, strict=True))
@@ -333,11 +334,11 @@ def _refuse_empty(measured, held):
         )
     lowest, highest = np.nanmin(force, axis=1), np.nanmax(force, axis=1)
     width = np.nanmax(depth, axis=1) - np.nanmin(depth, axis=1)
-    _check.refuse("range of depth", width, width == 0, "m: the indenter does not move", remedy="check it")
+    _check.refuse("range of depth", width, width == 0, "m: the indenter does not move", advice="check it")
     rise = highest - held.get("baseline", lowest)
-    bound, remedy = "above the baseline: no contact", "forces are positive in compression; or free baseline"
+    bound, advice = "above the baseline: no contact", "forces are positive in compression; or free baseline"
     attracted = np.any(held.get("work_of_adhesion", 1.0))
-    _check.refuse("largest force", rise, (rise <= 0) & ~attracted, bound, unit="N", remedy=remedy)
+    _check.refuse("largest force", rise, (rise <= 0) & ~attracted, bound, unit="N", advice=advice)
     height = highest - lowest
     bound = f"must be at least {_check.SHORTEST:g}"
-    _check.refuse("range of force", height, height < _check.SHORTEST, bound, unit="N", remedy="check it")
+    _check.refuse("range of force", height, height < _check.SHORTEST, bound, unit="N", advice="check it")

@@ -2,12 +2,17 @@
 
 import numpy as np
 
+from ..numerics.results import Remark, Remedy
 from ..show.quantities import engineering
 
 #: Moduli E* (Pa) of materials, from the softest gels to diamond (1.15 TPa), with a margin.
 MODULI = 1.0, 2e12
+#: Least modulus (Pa) that is not asked about where it is one of an unloading.
+SOFTEST_OF_UNLOADINGS = 1e3
 #: Largest hardness (Pa), twice that of diamond.
 HARDEST = 200e9
+#: Where to look for another unit.
+UNITS = Remedy("unit", "depth"), Remedy("unit", "force")
 
 
 def is_modulus(E_star):
@@ -16,7 +21,7 @@ def is_modulus(E_star):
 
 
 def doubts(E_star, hardness):
-    """Sentences on moduli E* and hardnesses (Pa) of unloadings that are those of no material."""
+    """Remarks on moduli E* and hardnesses (Pa) of unloadings that are those of no material, or of few."""
     E_star, hardness = np.ravel(E_star), np.ravel(hardness)
     soft, stiff = E_star.min(), E_star.max()
     numbers = []
@@ -24,8 +29,22 @@ def doubts(E_star, hardness):
         numbers.append(("E*", stiff if is_modulus(soft) else soft))
     if hardness.max() > HARDEST:
         numbers.append(("H", hardness.max()))
-    remedy = "give depth in m and force in N, from first contact on"
-    return [
-        f"no material has {symbol} = {engineering(float(f'{value:.3g}'), 'Pa')}: {remedy}"
+    found = [
+        (f"no material has {symbol} = {_short(value)}", ", from first contact on")
         for symbol, value in numbers
     ]
+    if is_modulus(soft) and soft < SOFTEST_OF_UNLOADINGS:
+        found.append((f"E* = {_short(soft)} is less than that of nearly all materials", ""))
+    return [
+        Remark(
+            f"{text}: give depth in m and force in N{more}",
+            "units",
+            f"{text}: look at the units of depth and force{more and ', and at first contact'}",
+            UNITS,
+        )
+        for text, more in found
+    ]
+
+
+def _short(value):
+    return engineering(float(f"{value:.3g}"), "Pa")

@@ -99,9 +99,9 @@ def _padded(name, values, unit):
 
 def rates(depth, time):
     """Rates (m/s) by central differences, and at which samples they jump, arrays (R, N)."""
-    remedy = "sort the samples, drop repeated times, and count time on from one segment to the next"
+    advice = "sort the samples, drop repeated times, and count time on from one segment to the next"
     back = np.diff(time, prepend=-np.inf, axis=1) <= 0
-    _check.refuse("time", time, back, "does not increase", unit="s", remedy=remedy)
+    _check.refuse("time", time, back, "does not increase", unit="s", advice=advice)
     rate = np.array([np.gradient(z, t) for z, t in zip(depth, time, strict=True)])
     jump = np.zeros_like(depth)
     jump[:, 1:-1] = np.abs(np.diff(np.diff(depth, axis=1) / np.diff(time, axis=1), axis=1))

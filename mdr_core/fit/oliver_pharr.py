@@ -6,8 +6,10 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
+from .._errors import Refusal
 from ..applicability import check_pair
 from ..medium import Medium
+from ..numerics.results import Remark, Remedy
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..show.quantities import engineering
@@ -129,7 +131,7 @@ def oliver_pharr(
     if stiffness is not None and (time is not None or cycles):
         raise ValueError("stiffness is measured at each sample: give it without time and cycles")
     depth, force = columns["depth"], columns["force"]
-    contact, text = _contact(profile, depth, force)
+    contact, begins = _contact(profile, depth, force)
     depth, force = depth - contact.depth, force - contact.baseline
     if stiffness is not None:
         values, errors, remarks = _over_depth(
@@ -137,13 +139,13 @@ def oliver_pharr(
         )
         # Near first contact single samples may be far off.
         middle = [np.nanmedian(values[name]) for name in ("E_star", "hardness")]
-        remarks = (*remarks, text, *doubts(*middle), *profile.remarks)
+        remarks = (*remarks, begins, *doubts(*middle), *profile.remarks)
         return OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
     parts, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
     numbers, triples = zip(*parts.items(), strict=True)
     corrected, uncorrected, iso = zip(*triples, strict=True)
     numbers = _check.frozen(numbers if cycles else numbers[0])
-    result = _collected(profile, corrected, iso, contact, numbers, (*remarks, text))
+    result = _collected(profile, corrected, iso, contact, numbers, (*remarks, begins))
     if time is None:
         return result
     return replace(result, uncorrected=_collected(profile, uncorrected, iso, contact, numbers, ()))
@@ -171,12 +173,13 @@ def _columns(depth, force, time, stiffness):
     )
     arrays = {name: array[used] for name, array in arrays.items()}
     if not arrays["depth"].size:
-        raise ValueError("depth and force have no samples: an unloading needs five or more")
+        text = "depth and force have no samples: an unloading needs five or more"
+        raise Refusal(Remark(text, "no unloading"))
     if "time" in arrays:
         # Segments of a file may share the time at which one ends and the next begins.
         back = np.diff(arrays["time"], prepend=-np.inf) < 0
-        remedy = "sort the samples by time"
-        _check.refuse("time", arrays["time"], back, "does not increase", unit="s", remedy=remedy)
+        advice = "sort the samples by time"
+        _check.refuse("time", arrays["time"], back, "does not increase", unit="s", advice=advice)
     return arrays
 
 
@@ -190,7 +193,7 @@ def _contact(profile, depth, force):
     point = with_error(*_rounded(depth, contact.depth, contact.depth_error), "m")
     level = with_error(*_rounded(force, contact.baseline, contact.baseline_error), "N")
     text = f"the record begins in the air: first contact at {point} is subtracted from the depth"
-    return contact, f"{text}, {level} from the force"
+    return contact, Remark(f"{text}, {level} from the force", "first contact")
 
 
 def _rounded(values, value, error):
@@ -212,16 +215,17 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
             whole = part if every or not parts else slice(0, parts[taken - 1].stop)
             iso = iso_numbers(profile, depth, force, time, whole, both)
             results[number] = *both, iso
-            remarks += [f"{which}: {each}" for each in notes] if cycles and len(parts) > 1 else notes
+            remarks += [each.after(f"{which}: ") for each in notes] if cycles and len(parts) > 1 else notes
         except ValueError as error:
             if not cycles or len(parts) < 2:
                 raise
-            remarks.append(f"{which} is left out: {error}")
+            remarks.append(Remark.of(error, "left out", f"{which} is left out: "))
     if not results:
-        raise ValueError(remarks[0])
+        raise Refusal(remarks[0])
     if len(parts) > 1 and not cycles:
         text = f"unloading {taken} of {len(parts)}, which follows the largest depth, was evaluated"
-        remarks.insert(0, f"{text}; give cycles=True for each of them")
+        remedy = (Remedy("give", "cycles", True),)
+        remarks.insert(0, Remark(f"{text}; give cycles=True for each of them", "several", text, remedy))
     return results, remarks
 
 
@@ -233,17 +237,15 @@ def _with_creep(profile, depth, force, time, constants, contact):
         uncorrected = _values_and_errors(profile, depth, force, constants, contact)
     except ValueError as error:
         if rise and creep is None:
-            raise ValueError(creeping.sentence_of_rise(rise)) from error
+            raise Refusal(creeping.of_rise(rise, time is not None)) from error
         if creep is None:
             raise
         uncorrected = np.full((2, 5), np.nan)
     if creep is None:
         if rise:
-            notes.append(creeping.sentence_of_rise(rise))
+            notes.append(creeping.of_rise(rise, time is not None))
         if time is not None:
-            notes.append(
-                "no hold of the force before the unloading shows its creep: creep is not corrected"
-            )
+            notes.append(creeping.NO_HOLD)
         return (uncorrected, uncorrected), notes
     corrected, shifted = (
         _values_and_errors(profile, creep.without(depth, time, n), force, constants, contact)
@@ -252,8 +254,8 @@ def _with_creep(profile, depth, force, time, constants, contact):
     corrected[1] = np.hypot(corrected[1], shifted[0] - corrected[0])
     share = creeping.share_of_compliance(creep.rate, corrected[0, 0], force, time, creep.end)
     if rise or share > creeping.COUNTS:
-        notes.append(creeping.sentence(share))
-    notes.append(creeping.sentence_of_hold(creep.length))
+        notes.append(creeping.of_share(share))
+    notes.append(creeping.of_hold(creep.length))
     return (corrected, uncorrected), notes
 
 
@@ -270,10 +272,8 @@ def _values_and_errors(profile, depth, force, constants, contact):
     # A contact radius of 0 or ∞ makes the modulus or the hardness so.
     if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
         contact_depth = engineering(values[1], "m")
-        raise ValueError(
-            f"the contact depth h − ε F/S = {contact_depth} must be positive and within the profile: give "
-            "depth from first contact, and force from the baseline"
-        )
+        text = f"the contact depth h − ε F/S = {contact_depth} must be positive and within the profile"
+        raise _not_from_contact(text)
     parts = [values, *(results(*other) for other in others)]
     spread = np.ptp([part for part in parts if np.isfinite(part).all()], axis=0) / 2
     errors = np.maximum(np.linalg.norm(np.array(noisy) - values, axis=0), spread)
@@ -281,6 +281,13 @@ def _values_and_errors(profile, depth, force, constants, contact):
         shifted = results(*solution, shift=-contact.depth_error)
         errors = np.hypot(errors, np.where(np.isfinite(shifted), shifted - values, np.inf))
     return np.array([values, errors])
+
+
+def _not_from_contact(text):
+    """A refusal of depths and forces that may count from elsewhere."""
+    sentence = f"{text}: give depth from first contact, and force from the baseline"
+    words = f"{text}: depths have to count from first contact, and forces from the baseline"
+    return Refusal(Remark(sentence, "no unloading", words))
 
 
 def _moduli(profile, contact_depth, force, stiffness, beta):
@@ -298,9 +305,8 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     used = (stiffness > 0) & (force > 0) & (contact_depth > 0)
     used &= contact_depth < profile.known_depth
     if not used.any():
-        raise ValueError(
-            "no sample has a positive stiffness (N/m), force and contact depth h − ε F/S: give depth from "
-            "first contact, and force from the baseline"
+        raise _not_from_contact(
+            "no sample has a positive stiffness (N/m), force and contact depth h − ε F/S"
         )
 
     def at(shift):
@@ -318,8 +324,9 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     values = {"depth": depth, "stiffness": np.where(used, stiffness, np.nan), **values}
     values["contact_point"] = np.full(depth.size, contact.depth)
     without = np.count_nonzero(~used)
+    text = f"{without} of {used.size} samples have no contact or no stiffness: "
     remarks = (
-        [f"{without} of {used.size} samples have no contact or no stiffness: their results are NaN"]
+        [Remark(f"{text}their results are NaN", "missing", f"{text}they have no results")]
         if without
         else []
     )

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..numerics.results import Record
+from ..numerics.results import Record, Remark
 from ..profiles.profile import Profile
 from ..show.quantities import QUANTITIES, Quantity, described, engineering
 from ..show.report import rows
@@ -54,7 +54,7 @@ class OliverPharr(Record):
     contact_point: Any
     standard_errors: dict[str, Any]
     #: How first contact was found, creep, which unloading was taken of several, and which were left out.
-    remarks: tuple[str, ...] = ()
+    remarks: tuple[Remark, ...] = ()
     #: Results without the correction for creep, where times were given; NaN where these are no power law.
     uncorrected: "OliverPharr | None" = None
     #: Number of the unloading in the record, from 1 on; those that are left out are counted.

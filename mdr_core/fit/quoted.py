@@ -5,6 +5,7 @@ from typing import Literal
 
 import numpy as np
 
+from ..numerics.results import Remark, Remedy
 from .creep import COUNTS
 from .errors import SIGNIFICANT, roughness
 from .oliver_pharr import oliver_pharr
@@ -27,7 +28,8 @@ class Quoted:
     """The modulus of one curve that is comparable with tables and other instruments: `fit.quoted`.
 
     Of a medium that yields it is that of its unloading by Oliver and Pharr, of an elastic one that of the
-    fit. Where neither holds `value`, `standard_error` and `source` are None, and `reason` says why.
+    fit. Where neither holds `value`, `standard_error` and `source` are None, `reason` says why, without
+    names of Python, and `kind` and `remedy` are as those of a `Remark`.
 
     Examples
     --------
@@ -48,6 +50,9 @@ class Quoted:
     source: Literal["fit", "unloading"] | None
     #: Why it is this one, or why there is none.
     reason: str
+    #: What is doubted where there is none, one of the kinds of remarks, and what one can do.
+    kind: str | None = None
+    remedy: tuple[Remedy, ...] = ()
 
     def __repr__(self) -> str:
         if self.source is None:
@@ -56,77 +61,92 @@ class Quoted:
         return f"E* {value} {_SOURCES[self.source]}: {self.reason}"
 
 
-def quoted(fit, remarks):
-    """`Quoted` of one curve, with its remarks by their kinds."""
-    if fit.invalid:
-        return _none(fit.invalid[0])
+def quoted(fit):
+    """`Quoted` of one curve."""
+    for kind in ("invalid", "deflection"):
+        if doubt := _doubt(fit, {kind}):
+            return _none(doubt)
     if fit.medium.q_c == np.inf:
-        return _of_the_fit(fit, remarks)
-    result, contact = unloading(fit, remarks)
+        return _of_the_fit(fit)
+    result, contact = unloading(fit)
     if result is None:
         return _none(contact)
-    reason = f"the medium yields; first contact {contact}"
+    reason = f"the medium yields; first contact {contact.text}"
     value, error = float(result.E_star), float(result.standard_errors["E_star"])
     return Quoted("E_star", value, error, "unloading", reason)
 
 
-def _none(reason):
-    return Quoted("E_star", None, None, None, reason)
+def _none(doubt):
+    """Nothing is to be quoted because of a doubt, a `Remark`."""
+    return Quoted("E_star", None, None, None, doubt.text, doubt.kind, doubt.remedy)
 
 
-def _of_the_fit(fit, remarks):
+def _of_the_fit(fit):
     """`Quoted` of a medium that is elastic."""
-    if doubts := _doubts(remarks, NOT_COMPARABLE):
-        return _none(f"the elastic model does not fit: {doubts[0]}")
+    if doubt := _doubt(fit, NOT_COMPARABLE):
+        model = next((name for _, name in _others(fit)), "elastic")
+        return _none(doubt.after(f"the {model} model does not fit: "))
     if "E_star" not in fit.standard_errors:
-        return _none("E_star is held")
+        return _none(Remark("E* is held", "held", remedy=(Remedy("free", "E_star"),)))
     value, error = float(fit.medium.E_star), float(fit.standard_errors["E_star"])
     if not error < np.inf:
-        return _none("the data do not determine E*")
+        return _none(
+            Remark("the data do not determine E*", "undetermined", remedy=(Remedy("hold", "E_star"),))
+        )
     return Quoted("E_star", value, error, "fit", "the medium is elastic")
 
 
-def _doubts(remarks, kinds):
-    """Remarks of some kinds."""
-    return [text for kind, text in remarks.items() if kind.partition(":")[0] in kinds]
+def _others(fit):
+    """Yields parameters with which a medium is more than elastic and plastic, and what it is then."""
+    for name, text in (("eta", "viscous"), ("work_of_adhesion", "adhesive")):
+        if name in fit.standard_errors or getattr(fit.medium, name) > 0:
+            yield name, text
 
 
-def unloading(fit, remarks) -> tuple[OliverPharr | None, str]:
+def _doubt(fit, kinds):
+    """The first remark of some kinds, or None."""
+    return next((remark for remark in fit.remarks if remark.kind in kinds), None)
+
+
+def unloading(fit) -> tuple[OliverPharr | None, Remark]:
     """Results of Oliver and Pharr for one fitted curve, and what first contact is; or None, and why.
 
     First contact is that of the record where it begins in the air, or at its own zero; else that of the
-    fit, with its error, unless the model does not fit, of which its remarks by their kinds tell.
+    fit, with its error, unless the model does not fit, of which its remarks tell.
     """
-    for name, text in (("eta", "viscous"), ("work_of_adhesion", "adhesive")):
-        if name in fit.standard_errors or getattr(fit.medium, name) > 0:
-            return None, f"the medium is {text}: its unloading does not follow a power law"
+    for name, text in _others(fit):
+        text = f"the medium is {text}: its unloading does not follow a power law"
+        return None, Remark(text, "medium", remedy=(Remedy("hold", name, 0.0),))
     # Beside a law of hardness that does not fit, these are of the law, not of the force.
-    if not _doubts(remarks, {"misfit"}) and (doubts := _doubts(remarks, OF_THE_FORCE)):
-        return None, f"the force of the contact is not known: {doubts[0]}"
+    if not _doubt(fit, {"misfit"}) and (doubt := _doubt(fit, OF_THE_FORCE)):
+        return None, doubt.after("the force of the contact is not known: ")
     # Without background the measured force is that of the contact plus the residual.
     force = fit.path.force + fit.residuals
     try:
         result = _evaluated(fit, fit.path.depth, force)
         if "contact_point" in result.standard_errors:
-            return result, "is taken from the record, which begins in the air"
+            return result, _first("is taken from the record, which begins in the air")
         if "contact_point" not in fit.standard_errors:
-            return result, "is held"
+            return result, _first("is held")
         if _begins_at_contact(fit.depth, force):
-            return _evaluated(fit, fit.depth, force), "is at depth 0"
-        if doubts := _doubts(remarks, DOUBTS):
-            return (
-                None,
-                f"the model does not fit, so that its contact point is not first contact: {doubts[0]}",
+            return _evaluated(fit, fit.depth, force), _first("is at depth 0")
+        if doubt := _doubt(fit, DOUBTS):
+            return None, doubt.after(
+                "the model does not fit, so that its contact point is not first contact: "
             )
         shift = fit.standard_errors["contact_point"]
         shifted = _evaluated(fit, fit.path.depth + shift, force)
     except ValueError as error:
-        return None, str(error)
+        return None, Remark.of(error, getattr(error, "kind", "no unloading"))
     errors = {
         name: np.hypot(error, getattr(shifted, name) - getattr(result, name))
         for name, error in result.standard_errors.items()
     }
-    return replace(result, standard_errors=errors), "is taken from the fit"
+    return replace(result, standard_errors=errors), _first("is taken from the fit")
+
+
+def _first(text):
+    return Remark(text, "first contact")
 
 
 def _evaluated(fit, depth, force):

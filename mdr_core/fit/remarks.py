@@ -4,6 +4,7 @@ from itertools import chain
 
 import numpy as np
 
+from ..numerics.results import KINDS, Remark
 from ..show.quantities import engineering
 from .errors import SIGNIFICANT
 from .materials import is_modulus
@@ -11,12 +12,6 @@ from .nested import nested_tests
 from .noise import tests_of_noise
 from .parameters import PARAMETERS, TOGETHER
 
-#: All kinds of remarks, the most important first.
-KINDS = (
-    "invalid", "units", "order", "no contact", "adhesion", "no minimum", "bound", "second minimum",
-    "undetermined", "tilt", "drag", "drift", "misfit", "jitter", "unloading", "outliers", "blocks", "few",
-    "loading", "vague", "contact", "constants", "elastic", "noisy", "rest", "inviscid", "missing",
-)  # fmt: skip
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
 DOUBTS = {
     "units", "order", "no contact", "no minimum", "tilt", "drag", "drift", "misfit", "jitter", "noisy",
@@ -66,18 +61,19 @@ def remarks_of(solved):
         if {"misfit", "jitter"} & set(each):
             each.pop("unloading", None)
             each.pop("blocks", None)
-    return remarks
+    return [tuple(Remark(text, kind.partition(":")[0]) for kind, text in each.items()) for each in remarks]
 
 
 def by_importance(remarks):
     """Remarks in the order of `KINDS`."""
-    return dict(sorted(remarks.items(), key=lambda item: KINDS.index(item[0].partition(":")[0])))
+    return tuple(sorted(remarks, key=lambda remark: list(KINDS).index(remark.kind)))
 
 
 def missing(used, samples):
-    """A remark on samples that are left out."""
-    text = f"{samples - used} of {samples} samples have no number and are left out"
-    return {"missing": text} if used < samples else {}
+    """A remark on samples that are left out, if there are any."""
+    if used < samples:
+        text = f"{samples - used} of {samples} samples have no number and are left out"
+        yield Remark(text, "missing")
 
 
 def _units(solved, i):

@@ -11,13 +11,13 @@ from .._check import Array, ArrayLike
 from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..medium import Medium
-from ..numerics.results import check_single
+from ..numerics.results import Remark, check_single
 from ..show.quantities import engineering
 from .classes import ClassFit, HardnessVerdict, class_of_hardness, fit_again, fits_of_classes, verdict
 from .dataset import SAMPLES, dataset_of
 from .figures import plot_fit
 from .measurement import Measurement
-from .oliver_pharr_result import OLIVER_PHARR, OliverPharr
+from .oliver_pharr_result import OLIVER_PHARR
 from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
 from .quoted import Quoted, quoted, unloading
 from .remarks import by_importance, missing, remarks_of
@@ -60,8 +60,8 @@ class IndentationFit(Fit):
     #: States of the fitted model, with depth noise at the most probable depths; where a sample is left out,
     #: that of the sample before.
     path: Indentation
-    #: Remarks on each curve by their kind, and numbers of samples given.
-    _remarks: tuple[dict[str, str], ...]
+    #: Remarks on each curve, and numbers of samples given.
+    _remarks: tuple[tuple[Remark, ...], ...]
     _lengths: np.ndarray
 
     _names = tuple(PARAMETERS)
@@ -106,23 +106,37 @@ class IndentationFit(Fit):
         )
 
     @property
-    def remarks(self) -> tuple[str, ...]:
-        """Remarks, the most important first; of many curves one of each kind, with their number."""
+    def remarks(self) -> tuple[Remark, ...]:
+        """Remarks, the most important first.
+
+        Of many curves one of each kind, with the number of the first one that has it, and how many have it;
+        `text` and `remedy` are those of that curve. Those of a single one are ``fit[i].remarks``.
+        """
         if not self.shape:
-            return tuple(self._remarks[0].values())
-        kinds: dict[str, dict[int, str]] = {}
+            return self._remarks[0]
+        same: dict[Any, list[tuple[int, Remark]]] = {}
         for i, remarks in enumerate(self._remarks):
-            for kind, text in remarks.items():
-                kinds.setdefault(kind, {})[i] = text
-        return tuple(
-            f"curve {min(texts)} ({len(texts)} of {len(self)} curves): {texts[min(texts)]}"
-            for texts in by_importance(kinds).values()
-        )
+            for remark in remarks:
+                # Two parameters at their bounds are two remarks.
+                what = remark.kind, tuple((each.action, each.what) for each in remark.remedy)
+                same.setdefault(what, []).append((i, remark))
+        return by_importance(
+            Remark(
+                f"curve {found[0][0]} ({len(found)} of {len(self)} curves): {found[0][1]}",
+                found[0][1].kind, found[0][1].text, found[0][1].remedy,
+            )
+            for found in same.values()
+        )  # fmt: skip
 
     @property
-    def invalid(self) -> dict[int, str]:
+    def invalid(self) -> dict[int, Remark]:
         """Reasons why curves were not fitted, by their numbers; see `fit_indentation`."""
-        return {i: remarks["invalid"] for i, remarks in enumerate(self._remarks) if "invalid" in remarks}
+        return {
+            i: remark
+            for i, remarks in enumerate(self._remarks)
+            for remark in remarks
+            if remark.kind == "invalid"
+        }
 
     def _refuse_invalid(self, what):
         for i, reason in self.invalid.items():
@@ -165,7 +179,7 @@ class IndentationFit(Fit):
     def quoted(self) -> Quoted:
         """The modulus of one curve that is to be quoted, and of what it is; found when first read."""
         check_single(self, "quoted")
-        return quoted(self, self._remarks[0])
+        return quoted(self)
 
     def plot(self) -> Any:
         """Measured and fitted force over depth, and the residuals, of one curve as HoloViews elements.
@@ -228,8 +242,8 @@ class IndentationFit(Fit):
 
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
-        result, _ = unloading_of(self)
-        if result is None or {"misfit", "jitter", "noisy"} & set(self._remarks[0]):
+        result, _ = unloading(self)
+        if result is None or {"misfit", "jitter", "noisy"} & {remark.kind for remark in self.remarks}:
             return
         errors = result.standard_errors
         texts = [
@@ -258,11 +272,6 @@ class IndentationFit(Fit):
             yield "standard errors", f"block-wise (Newey–West), blocks of {lengths} samples"
 
 
-def unloading_of(fit: IndentationFit) -> tuple[OliverPharr | None, str]:
-    """Results of Oliver and Pharr for one fitted curve, and what first contact is; or None, and why."""
-    return unloading(fit, fit._remarks[0])
-
-
 class _MediumOrNone(Medium):
     """A medium whose parameters are NaN where a curve was not fitted."""
 
@@ -285,10 +294,10 @@ def collected(profile, measured, depth_noise, solutions, reasons):
     if reasons:
         joined = {name: _among(values, rows[order], count, name in free) for name, values in joined.items()}
     of_fits = [each for solution in solutions for each in remarks_of(solution)]
-    remarks = [{"invalid": f"not fitted: {reasons[i]}"} if i in reasons else {} for i in range(count)]
+    remarks = [(reasons[i].after("not fitted: "),) if i in reasons else () for i in range(count)]
     for i, own in zip(rows.tolist(), of_fits, strict=True):
         omitted = missing(np.count_nonzero(measured.used[i]), measured.lengths[i])
-        remarks[i] = by_importance(own | omitted)
+        remarks[i] = by_importance((*own, *omitted))
     medium = _medium(_MediumOrNone(**{name: joined.pop(name) for name in MEDIUM}))
     ends = (joined.pop(name) for name in ("lower", "upper", "live_depth"))
     states = joined.pop("path_depth"), LiveInterval(*ends), joined.pop("uniform_load")

@@ -4,6 +4,8 @@ from contextlib import suppress
 
 import numpy as np
 
+from .._errors import Refusal
+from ..numerics.results import Remark, Remedy
 from ..show.quantities import engineering
 from .errors import roughness
 from .least_squares import least_squares
@@ -65,10 +67,11 @@ def _part(depth, force, upper, lower):
     h, F = (values[first[-1] if first.size else end : end] for values in (h, F))
     if h.size < 5 or h.min() == 0:
         largest = engineering(depth[start], "m")
-        raise ValueError(
+        text = (
             f"the upper half of an unloading has {h.size} samples, 5 or more are needed: after the largest "
             f"depth, {largest} (sample {start + 1} of {depth.size}), depth and force must decrease"
         )
+        raise Refusal(Remark(text, "no unloading", remedy=(Remedy("part", "all"),)))
     return h, F
 
 
@@ -87,10 +90,11 @@ def _power_law(h, force):
     start = np.array([[1.0, np.polyfit(x, y, 1)[0], 1.5]])
     minimum = least_squares(function, start, _LOWER, _UPPER)
     if minimum.at_bound.any():
-        raise ValueError(
+        text = (
             "the upper half of the unloading does not follow a power law: the depth creeps, or the samples "
             "are not in the order of time"
         )
+        raise Refusal(Remark(text, "no unloading"))
     _, s, vt = np.linalg.svd(minimum.jacobian[0], full_matrices=False)
     scatter = np.sqrt(minimum.squares[0] / (h.size - 3))
     return minimum.x[0] * size, size[:, None] * vt.T * scatter / s

@@ -38,8 +38,8 @@ def check_times(time, path, quantity):
             f"of the same shape; give one time for each {quantity}"
         )
     back = np.append(False, np.diff(time) <= 0)
-    remedy = "drop repeated times, and give a jump a short time"
-    return _check.refuse("time", time, back, "does not increase", unit="s", remedy=remedy)
+    advice = "drop repeated times, and give a jump a short time"
+    return _check.refuse("time", time, back, "does not increase", unit="s", advice=advice)
 
 
 @_check.keywords_explained

@@ -96,14 +96,14 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, structure=None, *,
     mass, speed, imprint_depth = (np.broadcast_to(values, shape) for values in (mass, speed, imprint_depth))
     outside = imprint_depth > profile.known_depth
     if np.any(outside):
-        bound, remedy = f"is {_too_deep(profile, outside)}", "give a smaller one"
-        _check.refuse("plastic_depth", imprint_depth, outside, bound, unit="m", remedy=remedy)
+        bound, advice = f"is {_too_deep(profile, outside)}", "give a smaller one"
+        _check.refuse("plastic_depth", imprint_depth, outside, bound, unit="m", advice=advice)
     hit = _solved_by_law(profile, medium, mass, speed, imprint_depth, structure, in_time)
     known = np.minimum(profile.known_depth, _check.LONGEST)
     unknown = ~(hit.turning_point.live_interval.upper <= known)
     if np.any(unknown):
-        bound, remedy = f"presses {_too_deep(profile, unknown)}", "reduce speed or mass"
-        _check.refuse("speed", speed, unknown, bound, unit="m/s", remedy=remedy)
+        bound, advice = f"presses {_too_deep(profile, unknown)}", "reduce speed or mass"
+        _check.refuse("speed", speed, unknown, bound, unit="m/s", advice=advice)
     return hit
 
 
@@ -118,8 +118,8 @@ def _refuse_losses(medium, structure, shape):
     eta = np.broadcast_to(medium.eta, shape)
     bad = (eta > 0) & (structure.is_plate | structure.is_support)
     bound = "is not computed together with a structure by `impact`"
-    remedy = "take chain_impact(…, structure=…), or set eta = 0"
-    _check.refuse("viscosity eta", eta, bad, bound, unit="Pa·s", remedy=remedy)
+    advice = "take chain_impact(…, structure=…), or set eta = 0"
+    _check.refuse("viscosity eta", eta, bad, bound, unit="Pa·s", advice=advice)
 
 
 def _solved_by_law(profile, medium, mass, speed, imprint_depth, structure, in_time):

@@ -209,12 +209,12 @@ def fast_limit(hit):
     refuse_other_classes(medium, "the fast limit", "ScalingLaw has the powers of each class")
     d_c = np.asarray(medium.critical_depth)
     bound = "is infinite, so that nothing yields"
-    _check.refuse("critical depth", d_c, np.isinf(d_c), bound, unit="m", remedy="give the medium a q_c")
+    _check.refuse("critical depth", d_c, np.isinf(d_c), bound, unit="m", advice="give the medium a q_c")
     depth = depth_in_fast_limit(hit)
     known = np.min(profile.known_depth, initial=_check.LONGEST)
     bound = f"presses deeper than the known depth of the profile, {known:g} m, in this limit"
     speed = np.asarray(hit.speed)
-    _check.refuse("speed", speed, np.isinf(depth), bound, unit="m/s", remedy="reduce the speed")
+    _check.refuse("speed", speed, np.isinf(depth), bound, unit="m/s", advice="reduce the speed")
     a = profile.radius_at(depth)
     area = np.pi * a**2
     energy = hit.mass * hit.speed**2 / 2

@@ -54,8 +54,8 @@ def depth_before_snap(rule, imprint, interval, increase, energy, give, structure
             f"is no more than the {fall[snaps].flat[0]:.6g} N/m by which the force falls with depth after "
             "the onset of yield: the contact snaps, and loses energy that is in no term of the balance"
         )
-        remedy = "give a stiffer support, less speed, or a hardness without f_c"
-        _check.refuse("stiffness", stiffness, snaps, bound, unit="N/m", remedy=remedy)
+        advice = "give a stiffer support, less speed, or a hardness without f_c"
+        _check.refuse("stiffness", stiffness, snaps, bound, unit="N/m", advice=advice)
     return np.reshape(y, shape)
 
 

@@ -112,11 +112,11 @@ def _refuse_unsolved(error, rows, speed, profile, depth):
     bad[rows] = True
     one = profile.flat_entries(int(rows[0]), speed.shape)
     if not depth.flat[rows[0]] <= one.known_depth:
-        bound, remedy = f"presses {one.too_deep()}", "reduce speed or mass"
+        bound, advice = f"presses {one.too_deep()}", "reduce speed or mass"
     else:
         bound = f"has no solution: {error}"
-        remedy = "check mass and eta, and the functions of a shape or a law of your own"
-    raise _check.InvalidEntries("speed", speed, bad.reshape(speed.shape), bound, "m/s", remedy) from error
+        advice = "check mass and eta, and the functions of a shape or a law of your own"
+    raise _check.InvalidEntries("speed", speed, bad.reshape(speed.shape), bound, "m/s", advice) from error
 
 
 def _solved(bodies, equations):

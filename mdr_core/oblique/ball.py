@@ -26,8 +26,8 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
     speed = _check.positive("speed", speed, unit="m/s")
     angle = _check.finite_array("angle", angle, unit="rad")
     outside = np.abs(angle) >= np.pi / 2
-    remedy = "from degrees by numpy.radians"
-    _check.refuse("angle", angle, outside, "must lie within −π/2 … π/2", unit="rad", remedy=remedy)
+    advice = "from degrees by numpy.radians"
+    _check.refuse("angle", angle, outside, "must lie within −π/2 … π/2", unit="rad", advice=advice)
     _check.common_shape("at_angle", speed=speed, angle=angle)
     return _check.frozen(speed * np.cos(angle)), _check.frozen(speed * np.sin(angle))
 

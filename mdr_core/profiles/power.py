@@ -86,8 +86,8 @@ class Cone(Profile):
         1.0
         """
         angle = _check.finite_array("half-angle", degrees, unit="deg")
-        bound, remedy = "must lie between 0 and 90", "it is the angle between axis and generator"
-        _check.refuse("half-angle", angle, ~((angle > 0) & (angle < 90)), bound, unit="deg", remedy=remedy)
+        bound, advice = "must lie between 0 and 90", "it is the angle between axis and generator"
+        _check.refuse("half-angle", angle, ~((angle > 0) & (angle < 90)), bound, unit="deg", advice=advice)
         return cls((np.sin(np.radians(90 - angle)) / np.sin(np.radians(angle)))[()])
 
     @classmethod
@@ -202,8 +202,8 @@ class PowerLaw(Profile):
         _check.set_positive(self, coefficient="m^(1-n)", exponent="")
         exponent = np.asarray(self.exponent)
         outside = (exponent < 0.01) | (exponent > 100)
-        bound, remedy = "must lie between 0.01 and 100", "for a flat end, n → ∞, take FlatPunch"
-        _check.refuse("PowerLaw exponent", exponent, outside, bound, remedy=remedy)
+        bound, advice = "must lie between 0.01 and 100", "for a flat end, n → ∞, take FlatPunch"
+        _check.refuse("PowerLaw exponent", exponent, outside, bound, advice=advice)
 
     # Kept, single states are 1.5 times as fast, impacts 1.3 times.
     @cached_property
@@ -233,5 +233,5 @@ class PowerLaw(Profile):
         with np.errstate(over="ignore"):
             far = self.radius_at(np.maximum(depth, 0.0)) > _check.FARTHEST
         return _check.refuse(
-            "depth", depth, far, "has a contact beyond double precision", unit="m", remedy="press less deep"
+            "depth", depth, far, "has a contact beyond double precision", unit="m", advice="press less deep"
         )

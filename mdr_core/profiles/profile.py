@@ -152,13 +152,13 @@ class Profile(_check.Parameters, ABC):
     def contact_radius(self, depth: ArrayLike) -> Array:
         """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
         depth = self._places("depth", depth, most=_check.LONGEST)
-        _check.refuse("depth", depth, depth < 0, "is negative", unit="m", remedy="it counts downward")
+        _check.refuse("depth", depth, depth < 0, "is negative", unit="m", advice="it counts downward")
         depth = self._known(depth)
         radius = self.radius_at(depth)
-        bound, remedy = "has a contact beyond double precision", "press less deep"
-        _check.refuse("depth", depth, np.isinf(radius), bound, unit="m", remedy=remedy)
-        remedy = f"mend radius_at of {type(self).__name__}"
-        _check.refuse("depth", depth, np.isnan(radius), "has no contact radius", unit="m", remedy=remedy)
+        bound, advice = "has a contact beyond double precision", "press less deep"
+        _check.refuse("depth", depth, np.isinf(radius), bound, unit="m", advice=advice)
+        advice = f"mend radius_at of {type(self).__name__}"
+        _check.refuse("depth", depth, np.isnan(radius), "has no contact radius", unit="m", advice=advice)
         return radius[()]
 
     def radius_at(self, depth):
@@ -174,11 +174,11 @@ class Profile(_check.Parameters, ABC):
         r = np.abs(self._places(quantity, r))
         known = np.min(self.known_radius, initial=np.inf)
         bound = f"is beyond the radius up to which the shape is known, {known:g} m"
-        remedy = "give a smaller radius"
-        _check.refuse(quantity, r, r > self.known_radius, bound, unit="m", remedy=remedy)
+        advice = "give a smaller radius"
+        _check.refuse(quantity, r, r > self.known_radius, bound, unit="m", advice=advice)
         values = function(r)[()]
-        remedy = f"mend {function.__name__} of {type(self).__name__}"
-        _check.refuse(quantity, r, np.isnan(values), "has no height or slope", unit="m", remedy=remedy)
+        advice = f"mend {function.__name__} of {type(self).__name__}"
+        _check.refuse(quantity, r, np.isnan(values), "has no height or slope", unit="m", advice=advice)
         return values
 
     def _places(self, quantity, values, most=_check.FARTHEST):
@@ -193,7 +193,7 @@ class Profile(_check.Parameters, ABC):
             return depth
         too_deep = depth > self.known_depth
         bound = f"is {self.too_deep()}"
-        return _check.refuse("depth", depth, too_deep, bound, unit="m", remedy="press less deep")
+        return _check.refuse("depth", depth, too_deep, bound, unit="m", advice="press less deep")
 
     def too_deep(self):
         """Words for depths beyond `known_depth`, in messages of errors."""

@@ -54,15 +54,15 @@ class Sampled(Profile):
     def __post_init__(self):
         r, z = _lists("Sampled", self.r, self.z, most=_check.LONGEST)
         if r.size > _MOST_SAMPLES:
-            remedy = "thin them out, as in r[::10]"
-            raise ValueError(f"Sampled has {r.size} samples, more than {_MOST_SAMPLES}; {remedy}")
+            advice = "thin them out, as in r[::10]"
+            raise ValueError(f"Sampled has {r.size} samples, more than {_MOST_SAMPLES}; {advice}")
         if r[0] != 0:
             raise ValueError(f"Sampled r[0] = {r[0]:g} m must be 0: add the sample at the tip")
         tiny = (r > 0) & (r < _check.SHORTEST)
         bound = f"must be 0 or at least {_check.SHORTEST:g}"
-        _check.refuse("Sampled r", r, tiny, bound, unit="m", remedy="give it in SI units")
+        _check.refuse("Sampled r", r, tiny, bound, unit="m", advice="give it in SI units")
         back = np.append(False, np.diff(r) <= 0)
-        _check.refuse("Sampled r", r, back, "does not ascend", unit="m", remedy="sort, and drop duplicates")
+        _check.refuse("Sampled r", r, back, "does not ascend", unit="m", advice="sort, and drop duplicates")
         _check.store(self, r=tuple(r.tolist()), z=tuple((z - z[0]).tolist()))
         self._refuse_concave()
 

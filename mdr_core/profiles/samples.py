@@ -128,10 +128,10 @@ def area_samples(coefficients, height, samples, limit, unit):
     h = height * np.geomspace(1e-4, 1.0, int(samples) - 1)
     powers = 2.0 / 2.0 ** np.arange(coefficients.size)
     area = size**2 * ((h[:, None] / size) ** powers @ coefficients)
-    remedy = f"A must be positive and grow with h: check the coefficients and their unit, {unit}"
+    advice = f"A must be positive and grow with h: check the coefficients and their unit, {unit}"
     back = (np.diff(area, prepend=0.0) <= 0) | (area <= 0)
     _check.refuse(
-        "area A(h)", area, back & (h > _BLUNT * height), "does not grow", unit="m²", remedy=remedy
+        "area A(h)", area, back & (h > _BLUNT * height), "does not grow", unit="m²", advice=advice
     )
     # Below its calibration a function may fall: from there to the axis the tip is a cone.
     first = int(np.flatnonzero(back)[-1]) + 1 if back.any() else 0
@@ -148,8 +148,8 @@ def area_samples(coefficients, height, samples, limit, unit):
     z = np.append(0.0, np.cumsum(slopes * np.diff(r)))
     far = np.abs(z - h) > 0.03 * np.maximum(h, 0.1 * height)
     bound = "is where the tip is concave by more than 3 %"
-    remedy = "the contact would not be compact"
-    _check.refuse("area function: height", h, far, bound, unit="m", remedy=remedy)
+    advice = "the contact would not be compact"
+    _check.refuse("area function: height", h, far, bound, unit="m", advice=advice)
     remarks = [_repaired(z, h)] if np.any(np.abs(z - h) > _REPAIRED * h[-1]) else []
     if first:
         below = _in_words(h[1])

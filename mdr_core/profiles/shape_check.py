@@ -288,15 +288,15 @@ def _check_each(profile, depth):
     _refuse(profile, depth, radius, off, f"{wrong}, where g is not that depth", _RADIUS)
 
 
-def _refuse(profile, places, values, bad, what, remedy):
+def _refuse(profile, places, values, bad, what, advice):
     """Refuses a profile at the first of the places (m) that is `bad`, with its value in words."""
     if np.any(bad):
         first = np.unravel_index(np.argmax(bad), bad.shape)
         one = profile.entries(first[-1:]) if profile.shape else profile
-        raise _refused(one, what.format(place=places[first], value=values[first]), remedy)
+        raise _refused(one, what.format(place=places[first], value=values[first]), advice)
 
 
-def _refused(profile, what, remedy):
+def _refused(profile, what, advice):
     """The error of a shape that is not valid: what is wrong with it, and what to do."""
-    text = f"profile {shown(profile)}: {what}; {remedy}"
-    return _check.InvalidArgument(text, "profile", profile, what, "", remedy)
+    text = f"profile {shown(profile)}: {what}; {advice}"
+    return _check.InvalidArgument(text, "profile", profile, what, "", advice)

@@ -97,9 +97,9 @@ class Smooth(Profile):
             if edges[-1] < end:
                 break
         if not panels:
-            remedy = "a fractional power of r belongs to PowerLaw, kinks to Sampled"
+            advice = "a fractional power of r belongs to PowerLaw, kinks to Sampled"
             bad = "is not finite, not smooth or not positive next to the axis"
-            raise ValueError(f"Smooth slope_function {bad}; {remedy}")
+            raise ValueError(f"Smooth slope_function {bad}; {advice}")
         return scipy.interpolate.PPoly(np.transpose(panels), np.array(edges))
 
     def _panel(self, low, high):

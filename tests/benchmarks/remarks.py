@@ -10,7 +10,7 @@ from collections import Counter, defaultdict
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.fit.remarks import KINDS
+from mdr_core.numerics.results import KINDS
 
 from ..fit import families
 from ..fit.test_fit import AFM, HERTZ, measured
@@ -33,7 +33,7 @@ CORRELATED = {"tilt", "retract", "drift", "creep", "correlated noise"}
 
 
 def kinds(fit, i=0):
-    return {name.partition(":")[0] for name in fit._remarks[i]}
+    return {remark.kind for remark in (fit[i] if fit.shape else fit).remarks}
 
 
 def of_families(seeds):

@@ -96,7 +96,7 @@ def covered(kind, fit):
 
 def told(fit):
     """The kinds of the remarks on each curve, but that on a common drift, which all curves in time have."""
-    return [{name.partition(":")[0] for name in each} - {"rest"} for each in fit._remarks]
+    return [{remark.kind for remark in each.remarks} - {"rest"} for each in fit]
 
 
 def visible(kind, family, size):
