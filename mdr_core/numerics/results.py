@@ -166,6 +166,7 @@ KINDS = {
     "left out": "columns, tables, unloadings or measurements that are left out",
     "several": "which one of several curves or unloadings was taken",
     "corrected": "what is subtracted from the depth",
+    "zero": "the depth is 0 where the force is not",
     "first contact": "from where depth and force of an unloading count",
     "hold": "the hold of the force before the unloading, which shows its creep",
     "area": "where a tip is another one than that of its area function",
