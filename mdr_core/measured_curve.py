@@ -10,7 +10,7 @@ import scipy
 from numpy.typing import NDArray
 
 from ._check import Array, frozen, number, positive_number
-from .numerics.results import Record
+from .numerics.results import Record, Remark
 from .show.quantities import engineering
 from .show.report import rows
 from .show.units import KINDS
@@ -69,7 +69,7 @@ class MeasuredCurve(Record):
     #: "piezo" in the place of "depth" for the position of one. `read_curve(path, columns=…)` takes them.
     columns: dict[str, tuple[int, str] | None]
     #: Reversed signs, corrections, and lines and columns that are left out.
-    remarks: tuple[str, ...]
+    remarks: tuple[Remark, ...]
     table: Any
     #: Depth (m), force (N) and time (s), None for a time that the file does not have.
     depth: Array
@@ -205,7 +205,7 @@ class MeasuredCurve(Record):
         return self.time
 
     def _minus(self, depth, text):
-        remarks = (*self.remarks, f"depth: {text} is subtracted")
+        remarks = (*self.remarks, Remark(f"depth: {text} is subtracted", "corrected"))
         return replace(self, depth=frozen(self.depth - depth), remarks=remarks)
 
 

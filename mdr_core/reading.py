@@ -15,6 +15,7 @@ from .files.split import WORDS
 from .files.table import decoded
 from .files.workbook import from_workbook
 from .measured_curve import MeasuredCurve, MeasuredCurves
+from .numerics.results import Remark, Remedy, refused
 
 __all__ = ["SIZES", "WORDS", "UnknownColumns", "read_curve", "read_curves"]
 
@@ -58,8 +59,16 @@ def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> Measu
     if not 0 <= index < len(curves):
         raise ValueError(f"index = {index} must be from 0 to less than {len(curves)}, the curves of {path}")
     curve = curves[index]
-    several = [f"curve {index} of {len(curves)}: index= picks another one"] * (len(curves) > 1)
-    return replace(curve, remarks=(*several, *curve.remarks))
+    if len(curves) == 1:
+        return curve
+    text = f"curve {index} of {len(curves)}"
+    other = Remark(
+        f"{text}: index= picks another one",
+        "several",
+        f"{text}, counted from 0",
+        (Remedy("give", "index"),),
+    )
+    return replace(curve, remarks=(other, *curve.remarks))
 
 
 def read_curves(
@@ -157,7 +166,8 @@ def read_curves(
         return MeasuredCurves(path.name, None, from_workbook(path, options))
     if suffix.startswith(SUFFIXES):
         if columns or by is not None:
-            raise ValueError(f"{path.name} is no table: leave out columns and by")
+            text = f"{path.name} is no table: leave out "
+            raise refused(f"{text}columns and by", f"{text}the choice of columns and curves")
         return from_afm(path, given)
     data = path.read_bytes()
     refuse_binary(path, data)

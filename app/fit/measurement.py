@@ -121,7 +121,7 @@ def read(path: str, given: dict[str, Any], number: int) -> Any:
         remarks = tuple(each[:_REMARK] for each in curve.remarks)
         return replace(curve, table=curve.table and _few(curve.table), remarks=remarks), count, None
     except UnknownColumns as error:
-        asked = {"why": error.why, "table": _few(error.table), "suggestion": error.suggestion}
+        asked = {"why": error.text, "table": _few(error.table), "suggestion": error.suggestion}
         return None, count, asked | {"preview": _preview(path, given, error)}
     except (ValueError, ImportError, MemoryError):
         raise

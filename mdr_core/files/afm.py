@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _check
 from ..measured_curve import MODALITIES, MeasuredCurves
+from ..numerics.results import Remark, Remedy, refused
 from ..show.report import imported
 from .cantilever import Cantilever
 from .curve import curve_of
@@ -22,11 +23,20 @@ logging.getLogger("afmformats").addHandler(logging.NullHandler())
 SUFFIXES = ".jpk", ".h5", ".hdf5", ".ibw", ".zip"
 #: Text that only files of AFM instruments have.
 _OF_AFM = re.compile(r"# afmformats |Force-Distance Curve|Device:\tChiaro")
-#: What to do about errors of `afmformats`.
-_REMEDIES = {
-    "MissingMetaDataError": " Give spring_constant= (N/m) and sensitivity= (m/V)",
-    "NotImplementedError": " Its forces are in N: give neither. minus_frame(1 / k) subtracts a deflection",
-    "UnicodeDecodeError": "; if it is packed, unpack it and read its files",
+_GIVE = Remedy("give", "spring_constant"), Remedy("give", "sensitivity")
+#: What to do about errors of `afmformats`, in Python and in words.
+_CURES = {
+    "MissingMetaDataError": (
+        " Give spring_constant= (N/m) and sensitivity= (m/V)",
+        " Give the spring constant (N/m) and the sensitivity (m/V) of the cantilever",
+        _GIVE,
+    ),
+    "NotImplementedError": (
+        " Its forces are in N: give neither. minus_frame(1 / k) subtracts a deflection",
+        " Its forces are in N: give neither. A deflection is subtracted as a frame of the compliance 1/k",
+        (),
+    ),
+    "UnicodeDecodeError": ("; if it is packed, unpack it and read its files",) * 2 + ((),),
 }
 #: What to export instead of files that are not read, by their suffixes.
 _EXPORTS = {
@@ -93,8 +103,10 @@ def _refused(errors, path):
         yield
     # Most errors of this package are none that `except Exception` would handle.
     except (Exception, errors.AFMFileFormatError, errors.MissingMetaDataError) as error:
-        remedy = _REMEDIES.get(type(error).__name__, export_of(path.suffix.lower()))
-        raise ValueError(f"{path.name} cannot be read by afmformats: {error}{remedy}") from None
+        export = export_of(path.suffix.lower())
+        sentence, words, remedy = _CURES.get(type(error).__name__, (export, export, ()))
+        text = f"{path.name} cannot be read by afmformats: {error}"
+        raise refused(text + sentence, text + words, *remedy) from None
 
 
 def from_afm(path, given):
@@ -107,6 +119,17 @@ def from_afm(path, given):
     position = None if np.isnan(position).any() else _check.frozen(position)
     makers = [partial(_afm_curve, afmformats.errors, data) for data in curves]
     return MeasuredCurves(path.name, position, makers)
+
+
+def _deflection(head):
+    """A remark on a height of which the deflection is not subtracted."""
+    text = f"{head!r} includes the deflection force/stiffness: give "
+    return Remark(
+        f"{text}spring_constant= (N/m)",
+        "deflection",
+        f"{text}the spring constant of the cantilever (N/m)",
+        (Remedy("give", "spring_constant"),),
+    )
 
 
 def _afm_curve(errors, data):
@@ -124,8 +147,7 @@ def _afm_curve(errors, data):
     # A height includes the deflection: without a stiffness it stays in it.
     place = "piezo" if stiffness is not None and heads[0] != "tip position" else "depth"
     columns = {place if each == "depth" else each: column for each, column in columns.items()}
-    doubt = f"{heads[0]!r} includes the deflection force/stiffness: give spring_constant= (N/m)"
-    remarks = [doubt] * (stiffness is None and heads[0] != "tip position")
+    remarks = [_deflection(heads[0])] * (stiffness is None and heads[0] != "tip position")
     options = {"turn": False, "segment": segment, "remarks": remarks}
     return curve_of(
         table, data.path.name, columns, Cantilever(stiffness), "as afmformats reads them", **options

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from ..numerics.results import Remark, Remedy, refused
 from .names import normal, parted
 from .question import UnknownColumns
 from .table import LONGEST_HEADER
@@ -20,8 +21,9 @@ _NAMES = {
 }  # fmt: skip
 #: Names that stand in JPK's text without a unit, N/m and m/V.
 _OF_JPK = "springconstant", "sensitivity"
-#: What is asked for.
-_GIVE = {"spring_constant": "spring_constant= (N/m)", "sensitivity": "sensitivity= (m/V)"}
+#: Their units, and their names in a sentence.
+_UNITS = {"spring_constant": "N/m", "sensitivity": "m/V"}
+_WORDS = {"spring_constant": "the spring constant of the cantilever", "sensitivity": "its sensitivity"}
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,7 @@ class Cantilever:
 
     stiffness: float | None = None
     sensitivity: float | None = None
-    remarks: tuple[str, ...] = ()
+    remarks: tuple[Remark, ...] = ()
 
     def force_per_deflection(self, unit):
         """Force (N) for a deflection of 1 m, or of 1 V."""
@@ -53,25 +55,34 @@ def constants(table, name, layout, given):
         own = constant(table.header, kind, names)
         if own is None or (each == "sensitivity" and not volts):
             continue
-        text = f"{each} = {own:.6g} {'N/m' if kind == 'stiffness' else 'm/V'}"
+        text, words = f"{own:.6g} {_UNITS[each]}", _WORDS[each]
         if known.get(each) is None:
             known[each] = own
             if needed[each]:
-                remarks.append(f"{text} is taken from the file")
+                sentence = f"{each} = {text} is taken from the file"
+                remarks.append(Remark(sentence, "cantilever", f"{words}, {text}, is taken from the file"))
         elif known[each] != own:
-            remarks.append(f"{each} = {known[each]:.6g} is taken as it is given; the file has {text}")
-    lacking = [_GIVE[each] for each in needed if needed[each] and known.get(each) is None]
+            value = f"{known[each]:.6g}"
+            sentence = f"{each} = {value} is taken as it is given; the file has {each} = {text}"
+            words = f"{words}, {value} {_UNITS[each]}, is taken as it is given; the file has {text}"
+            remarks.append(Remark(sentence, "cantilever", words))
+    lacking = [each for each in needed if needed[each] and known.get(each) is None]
     if lacking:
-        _ask(table, name, layout, " and ".join(lacking), deflection)
+        _ask(table, name, layout, lacking, deflection)
     return Cantilever(known.get("spring_constant"), known.get("sensitivity"), tuple(remarks))
 
 
 def _refuse_unused(name, given, needed, deflection, unit):
     if given.get("spring_constant") is not None and not needed["spring_constant"]:
-        raise ValueError(
-            f"{name}: spring_constant is given, and nothing uses it: the depth of the tip stays as it is, "
-            'and the force is in units of force. Leave it out, or give the column as columns={"piezo": …} '
-            "if it is the position of a piezo"
+        text = (
+            "and nothing uses it: the depth of the tip stays as it is, and the force is in units of force"
+        )
+        raise refused(
+            f"{name}: spring_constant is given, {text}. Leave it out, or give the column as "
+            'columns={"piezo": …} if it is the position of a piezo',
+            f"{name}: a spring constant is given, {text}. Leave it out, or choose the column as the "
+            "position of a piezo if it is one",
+            Remedy("give", "columns"),
         )
     if given.get("sensitivity") is not None and not needed["sensitivity"]:
         what = (
@@ -79,7 +90,7 @@ def _refuse_unused(name, given, needed, deflection, unit):
             if deflection
             else f"the forces of {name} are already in units of force"
         )
-        raise ValueError(f"{what}: leave out sensitivity")
+        raise refused(f"{what}: leave out sensitivity", f"{what}: leave out the sensitivity")
 
 
 def _ask(table, name, layout, lacking, deflection):
@@ -89,10 +100,19 @@ def _ask(table, name, layout, lacking, deflection):
         if deflection
         else f"{head!r} is the position of a piezo, from which the deflection F/k is subtracted"
     )
-    remedy = "" if deflection else ', or columns={"depth": …} if it is the depth of the tip'
-    file = name.removesuffix(f", {table.name}") if table.name else name
-    why, suggestion = f"{what}: give {lacking}", {"columns": dict(layout)}
-    raise UnknownColumns(why, table, file, suggestion, hint=remedy)
+    hint = "" if deflection else ', or columns={"depth": …} if it is the depth of the tip'
+    words = "" if deflection else ", or choose it as the depth of the tip if it is"
+    give = " and ".join(f"{each}= ({_UNITS[each]})" for each in lacking)
+    said = " and ".join(f"{_WORDS[each]} ({_UNITS[each]})" for each in lacking)
+    raise UnknownColumns(
+        what,
+        table,
+        name.removesuffix(f", {table.name}") if table.name else name,
+        {"columns": dict(layout)},
+        hint=f": give {give}{hint}",
+        text=f"{what}: give {said}{words}",
+        remedy=tuple(Remedy("give", each) for each in lacking),
+    )
 
 
 def constant(header, kind, names):

@@ -151,10 +151,10 @@ def _ask_for_piezo(table, file, columns, stiffness):
     if name != "h" or stiffness is not None:
         given = {"piezo" if each == "depth" else each: column for each, column in columns.items()}
     why = (
-        f"is {head!r} the depth of the tip, or the position of a piezo, from which spring_constant= "
-        "subtracts the deflection?"
+        f"is {head!r} the depth of the tip, or the position of a piezo, from which the deflection F/k is "
+        "subtracted?"
     )
-    hint = ' Give it as "depth" or as "piezo"'
+    hint = ' Give it as "depth" or as "piezo", of which spring_constant= (N/m) is needed'
     raise UnknownColumns(why, table, file, _with_by(table, given), hint=hint)
 
 

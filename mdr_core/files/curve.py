@@ -7,6 +7,7 @@ import numpy as np
 
 from .. import _check
 from ..measured_curve import MeasuredCurve, named_segments, segments_of
+from ..numerics.results import Remark, Remedy, refused
 from .cantilever import constants
 from .columns import ask_for_parts, ask_for_results, plain_beside, taken, told
 from .split import WORDS, joined, parts, place_of, several
@@ -25,8 +26,10 @@ def curves_of(table, file, columns=None, by=None, given=None):
     if isinstance(columns, list | tuple):
         return _side_by_side(table, file, [told(table, name, each) for each in columns], by, given)
     if by == "segments":
-        raise ValueError(
-            f"by = 'segments' parts nothing in {name}: give a list of columns, one dict for each part"
+        raise refused(
+            f"by = 'segments' parts nothing in {name}: give a list of columns, one dict for each part",
+            f"{name} has no second columns or tables that are parts of a curve",
+            Remedy("give", "by"),
         )
     layout, source = told(table, name, columns or {}), "as told" if columns else "by its header"
     by_person = "force" in layout and bool({"depth", "piezo"} & layout.keys())
@@ -53,7 +56,11 @@ def _side_by_side(table, file, layouts, by, given):
         raise ValueError(f"columns of {name}: each of the list needs a depth (or piezo) and a force")
     if by == "segments":
         if len(layouts) < 2:
-            raise ValueError(f"by = 'segments' of {name}: give two or more columns of depth and of force")
+            raise refused(
+                f"by = 'segments' of {name}: give two or more columns of depth and of force",
+                f"a curve of parts has two or more columns of depth and of force, {name} has one",
+                Remedy("give", "by"),
+            )
         table, layout = joined(table, layouts, file)
         return [curve_maker(table, name, layout, given, "as told")]
     if by is not None:
@@ -106,7 +113,8 @@ def curve_of(table, name, layout, cantilever, source, *, turn=True, segment=None
     for each in _turned(values[place], values["force"]) if turn else ():
         values[each], (column, unit) = -values[each], columns[each]
         columns[each] = column, unit[1:] if unit[0] == "−" else f"−{unit}"
-        remarks.append(f"the sign of {each} is reversed: {each} is positive in compression")
+        text = f"the sign of {each} is reversed: {each} is positive in compression"
+        remarks.append(Remark(text, "sign"))
     depth = values.pop(place)
     values["depth"] = depth - values["force"] / cantilever.stiffness if place == "piezo" else depth
     arrays = {"time": None} | {each: _check.frozen(value) for each, value in values.items()}
@@ -133,7 +141,8 @@ def _in_time(values, rows, columns, remarks):
     if np.all(steps <= 0) and np.any(steps):
         return rows[::-1]
     if (steps < 0).any() or not np.any(steps):
-        remarks.append("the time does not ascend and is left out: samples are in the order of the file")
+        text = "the time does not ascend and is left out: samples are in the order of the file"
+        remarks.append(Remark(text, "time"))
         columns["time"] = None
         del values["time"]
     return rows
@@ -147,8 +156,8 @@ def _omissions(table, rows, name, labels):
     if len(lines) > len(rows):
         raise ValueError(f"most lines of {name} are not rows of numbers, for example {what}")
     named = [column for column in table.words if column != labels and " " in column.strip()]
-    left = [f"column {column}, which has no numbers, is left out" for column in named]
-    return left + [f"left out {what}"] * bool(lines)
+    left = [Remark(f"column {each}, which has no numbers, is left out", "left out") for each in named]
+    return left + [Remark(f"left out {what}", "missing")] * bool(lines)
 
 
 def _turned(depth, force):

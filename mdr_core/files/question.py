@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from ..numerics.results import Remedy
+
 #: Most columns that a question shows, and columns of words.
 _SHOWN, _WORDS = 14, 3
 
@@ -19,6 +21,10 @@ class UnknownColumns(ValueError):
     ----------
     why : str
         What is asked, in words. The message has the columns and a line to paste besides.
+    text : str
+        The same, and what to do, without names of Python.
+    remedy : tuple of Remedy
+        To give the columns, or the constants of a cantilever.
     suggestion : dict
         Arguments of `read_curves`, "columns" and perhaps "by", as far as they are known; empty if nothing
         is. "?" stands for a unit that is open.
@@ -47,9 +53,11 @@ class UnknownColumns(ValueError):
 
     def __init__(
         self, why: str, table: Any, file: str = "", suggestion: dict[str, Any] | None = None,
-        *, hint: str = "", results: bool = False,
+        *, hint: str = "", results: bool = False, text: str = "",
+        remedy: tuple[Remedy, ...] = (Remedy("give", "columns"),),
     ):  # fmt: skip
         self.why, self.table, self.file, self._hint = why, table, file, hint
+        self.text, self.remedy = text or why, remedy
         self.suggestion: dict[str, Any] = suggestion or {}
         #: Whether the rows are rather those of tests, one each, than samples of a curve.
         self.results = results
@@ -63,15 +71,19 @@ class UnknownColumns(ValueError):
         super().__init__(f"{place}: {sentence}\n{_shown(table)}\n{_paste(self.suggestion)}")
 
     def __reduce__(self):
-        return _again, (self.why, self.table, self.file, self.suggestion, self._hint, self.results)
+        return _again, self._with(self.suggestion)
 
     def elsewhere(self, suggestion: dict[str, Any]) -> "UnknownColumns":
         """The same question with another suggestion."""
-        return _again(self.why, self.table, self.file, suggestion, self._hint, self.results)
+        return _again(*self._with(suggestion))
+
+    def _with(self, suggestion):
+        given = {"hint": self._hint, "results": self.results, "text": self.text, "remedy": self.remedy}
+        return self.why, self.table, self.file, suggestion, given
 
 
-def _again(why, table, file, suggestion, hint, results):
-    return UnknownColumns(why, table, file, suggestion, hint=hint, results=results)
+def _again(why, table, file, suggestion, given):
+    return UnknownColumns(why, table, file, suggestion, **given)
 
 
 def _shown(table):

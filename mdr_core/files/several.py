@@ -4,6 +4,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 
+from ..numerics.results import Remark, Remedy, refused
 from .columns import taken, told
 from .curve import curve_maker, curves_of
 from .formats import format_of
@@ -53,7 +54,7 @@ def curves_of_tables(tables, file, options):
         if isinstance(outcome, list):
             makers += outcome
         elif any(wanted) and _no_curve(outcome):
-            left.append(f"{table.name!r} is left out, as it has no curve")
+            left.append(Remark(f"{table.name!r} is left out, as it has no curve", "left out"))
         else:
             makers.append(partial(_refuse, _for_pasting(outcome, table, tables, first)))
     if all(make.func is _refuse for make in makers):
@@ -146,7 +147,9 @@ def _of_parts(tables, file, columns, given):
         elif same:
             groups.append([table])
     if all(len(group) == 1 for group in groups):
-        raise ValueError(f"by = 'segments' joins nothing in {file}: no table goes on where one ends")
+        text = f"in {file}: no table goes on where one ends"
+        sentence = f"by = 'segments' joins nothing {text}"
+        raise refused(sentence, f"no parts of a curve are {text}", Remedy("give", "by"))
     layout = {each: column for each, column in layout.items() if column}
     label = f"{file}, curve {{}}" if len(groups) > 1 else file
     source = "as told" if columns else "by its header"

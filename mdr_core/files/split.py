@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ..numerics.results import Remedy, refused
 from .question import UnknownColumns
 
 #: Jump of the depth back to its beginning, and the rise after it, as shares of the range; in median steps.
@@ -172,7 +173,11 @@ def parts(table, by, columns):
         rows = falls if _begin_again(depth, falls) else []
     if not rows:
         what = "the depth does not start anew" if by == "restart" else "there are no gaps between the rows"
-        raise ValueError(f"by = {by!r} parts nothing: {what}; leave it out, or give by='whole'")
+        raise refused(
+            f"by = {by!r} parts nothing: {what}; leave it out, or give by='whole'",
+            f"nothing parts the rows: {what}; take them as one curve",
+            Remedy("give", "by", "whole"),
+        )
     edges = [0, *rows, len(table.lines)]
     return [(f"curve {i}", table.rows(slice(a, b))) for i, (a, b) in enumerate(pairwise(edges), 1)]
 
@@ -186,12 +191,22 @@ def _grouped(table, by):
     _, first, group = np.unique(codes, axis=1, return_index=True, return_inverse=True)
     group, heads = group.ravel(), " and ".join(repr(head) for head, _ in chosen)
     if first.size < 2:
-        raise ValueError(f"by = {by!r} parts nothing: {heads} has one value; leave it out")
+        raise refused(
+            f"by = {by!r} parts nothing: {heads} has one value; leave it out",
+            f"{heads} does not part the rows, as it has one value",
+            Remedy("give", "by", "whole"),
+        )
     counts = np.bincount(group)
     if counts.min() < FEWEST:
-        raise ValueError(
-            f"by = {by!r} gives curves of fewer than {FEWEST} rows: {heads} has {first.size} values in "
-            f"{group.size} rows, perhaps with noise in their last digits; give by='restart', or 'gaps'"
+        text = (
+            f"curves of fewer than {FEWEST} rows: {heads} has {first.size} values in {group.size} rows, "
+            "perhaps with noise in their last digits"
+        )
+        raise refused(
+            f"by = {by!r} gives {text}; give by='restart', or 'gaps'",
+            f"that gives {text}",
+            Remedy("give", "by", "restart"),
+            Remedy("give", "by", "gaps"),
         )
     found = []
     order = np.argsort(group, kind="stable")

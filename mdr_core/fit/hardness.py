@@ -13,12 +13,13 @@ from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..impacts.scaling import class_of
 from ..medium import Medium, yield_constant
+from ..numerics.results import Remark, Remedy
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..show.quantities import engineering
 from .errors import covariances
 from .least_squares import least_squares
-from .parameters import CLASSES, hardness_by_default, held_values
+from .parameters import CLASSES, hardness_by_default, held_values, symbols
 from .report import Fit
 
 #: Power of the contact radius in the hardness of each class, and its tolerance.
@@ -197,17 +198,25 @@ def _remarks(yielded, constants, errors, free, power_law):
         text = (
             "have the pressure of an elastic contact: they do not determine the hardness and are left out"
         )
-        yield f"{count} {text}"
+        yield Remark(f"{count} {text}", "left out")
     used = [letter for letter, constant in CLASSES.items() if constants[constant] or constant in free]
     if len(used) == 1 and (name not in (*used, None) or reason.startswith("none")):
-        yield f"not of class ({used[0]}) alone: {reason}; two of hardness, q_c and f_c may be free"
+        text = f"not of class ({used[0]}) alone: {reason}; two "
+        more = "of hardness, q_c and f_c may be free", "constants of the hardness may be fitted"
+        remedy = tuple(Remedy("free", each) for each in CLASSES.values() if each not in free)
+        yield Remark(text + more[0], "misfit", text + more[1], remedy)
     for constant, error in zip(free, errors, strict=True):
         if len(free) > 1 and constants[constant] < 2 * error:
-            yield f"the radii do not distinguish {' and '.join(free)}: {constant} may be 0"
+            text, remedy = "the radii do not distinguish", (Remedy("hold", constant, 0.0),)
+            sentence = f"{text} {' and '.join(free)}: {constant} may be 0"
+            words = f"{text} {symbols(free)}: {symbols([constant])} may be 0"
+            yield Remark(sentence, "constants", words, remedy)
     if np.isinf(errors).any():
-        yield (
-            f"the standard error of {free[0]} cannot be determined from one measurement: give three or more"
+        text, more = (
+            "the standard error of",
+            "cannot be determined from one measurement: give three or more",
         )
+        yield Remark(f"{text} {free[0]} {more}", "few", f"{text} {symbols(free[:1])} {more}")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -226,7 +235,7 @@ class HardnessFit(Fit):
     slope_error: float
     #: a σ_c (N/m) at each radius that has yielded: q_c for class (b).
     q_c_values: Array
-    remarks: tuple[str, ...]
+    remarks: tuple[Remark, ...]
 
     _zero_unless_asked = tuple(CLASSES.values())
 

@@ -1,21 +1,25 @@
 """Fit of a medium to measured force–depth curves."""
 
+from collections.abc import Sequence
 from types import EllipsisType
 
 import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
+from .._errors import Refusal
 from ..applicability import check_pair, refuse_own_law
 from ..contact.yielding import yield_rule
 from ..hardness import HardnessLaw
+from ..measured_curve import MeasuredCurve, MeasuredCurves
 from ..medium import Medium
-from ..numerics.results import Remark
+from ..numerics.results import Remark, Remedy, refused
 from ..profiles.profile import Profile
 from ..show.progress import progress
 from ..show.quantities import engineering
+from .columns import Times, columns_of
 from .measurement import measurement, rates
-from .parameters import PARAMETERS, hardness_by_default, held_values
+from .parameters import PARAMETERS, hardness_by_default, held_values, symbols
 from .result import IndentationFit, collected
 from .solution import problems, solved, table_depth
 
@@ -23,10 +27,10 @@ from .solution import problems, solved, table_depth
 @_check.keywords_explained
 def fit_indentation(
     profile: Profile,
-    depth: ArrayLike,
-    force: ArrayLike,
+    depth: ArrayLike | MeasuredCurve | MeasuredCurves | Sequence[MeasuredCurve],
+    force: ArrayLike | None = None,
     *,
-    time: ArrayLike | None = None,
+    time: Times = ...,
     E_star: ArrayLike | None = None,
     q_c: ArrayLike | EllipsisType | None = ...,
     hardness: ArrayLike | EllipsisType | None = ...,
@@ -56,12 +60,14 @@ def fit_indentation(
         (R, N) with one indenter, each on a virgin medium; or lists of R arrays of different lengths.
         Samples with NaN are left out. A drift and the compliance of a frame are subtracted before, by
         `MeasuredCurve.minus_drift` and `minus_frame`. With `q_c=inf`, without `time` and without adhesion
-        the order does not matter.
+        the order does not matter. In the place of depth and force a `MeasuredCurve`, as of `read_curve`, or
+        `MeasuredCurves`, whose remarks come first in those of the fit.
     time : array_like, optional
         Increasing times (s) of the samples, of the same shape; needed for `eta` and `drag`, and for remarks
         on drag and drift that are left out. The rate ż is the central difference of the depths, so that a
         noisy depth makes a noisy rate: average neighbouring samples first. Where the rate jumps from one
-        sample to the next, the sample has no weight.
+        sample to the next, the sample has no weight. Those of a `MeasuredCurve` are taken unless this is
+        None.
     E_star : float, optional
         Effective modulus (Pa).
     q_c, hardness, f_c : float, optional
@@ -147,9 +153,10 @@ def fit_indentation(
     and a force that is different on unloading (creep, hysteresis) are reported with the change of E* where
     they would lower the residuals in contact clearly, or change E* by more than its error at 3.3 standard
     deviations; drag and drift only if `time` is given. Such a remark is made on 0.3 % of clean curves. If
-    the medium yields, the drift is measured in a hold; without a hold the report states the effect of 0.1
-    nm/s. If E* is held, or with adhesion, these effects are not tested. The report has the numbers of
-    Oliver and Pharr if the model fits the curve, without viscosity and adhesion.
+    the medium yields, the drift is measured in a hold; without a hold it is not seen, and 0.1 nm/s over two
+    minutes changes the E* of a metal by some per cent. If E* is held, or with adhesion, these effects are
+    not tested. The report has the numbers of Oliver and Pharr if the model fits the curve, without
+    viscosity and adhesion.
 
     **Standard errors** come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the
     slope. In simulated curves deviations over errors have standard deviations of 0.9 to 1.2; with depth
@@ -205,10 +212,11 @@ def fit_indentation(
     given = {"E_star": E_star} | hardnesses | {"eta": eta, "work_of_adhesion": work_of_adhesion}
     given |= {"contact_point": contact_point, "baseline": baseline, "tilt": tilt, "drag": drag}
     noise = _check.positive_number("depth_noise", depth_noise, unit="m") if depth_noise else 0.0
-    reasons = {}
+    columns = columns_of(depth, force, time, skip=invalid == "nan")
+    depth, force, time, reasons = columns.depth, columns.force, columns.time, dict(columns.unread)
     if invalid == "nan" and any(np.ndim(row) for row in depth):
         held = _held(profile, given, len(depth), noise, time)
-        depth, force, time, reasons = _without_invalid(profile, depth, force, time, held)
+        depth, force, time, reasons = _without_invalid(profile, depth, force, time, held, reasons)
     measured = measurement(depth, force, time, force_noise)
     held = _held(profile, given, len(measured.depth), noise, time)
     fitted = np.array([i for i in range(len(measured.depth)) if i not in reasons], int)
@@ -224,7 +232,7 @@ def fit_indentation(
             )
             done(rows.size)
     _refuse_all_invalid(reasons, len(measured.depth))
-    return collected(profile, measured, noise, solutions, reasons)
+    return collected(profile, measured, noise, solutions, reasons, columns.remarks)
 
 
 def _solutions(rows, curves, noise_known, reasons):
@@ -249,7 +257,13 @@ def _held(profile, given, count, noise, time):
     _refuse_with_other_classes(profile, held)
     in_time = _in_time(held)
     if in_time and time is None:
-        raise ValueError(f"{' and '.join(in_time)} need time, the times (s) of the samples: give time=")
+        need = "the times (s) of the samples: give"
+        raise refused(
+            f"{' and '.join(in_time)} need time, {need} time=",
+            f"{symbols(in_time)} need {need} a column of times",
+            Remedy("give", "time"),
+            *(Remedy("hold", name, 0.0) for name in in_time),
+        )
     if "work_of_adhesion" not in held or held["work_of_adhesion"].any():
         _refuse_with_adhesion(held, noise)
     return held
@@ -261,8 +275,11 @@ def _in_time(held):
     return [name for name in needs_time if name not in held or held[name].any()]
 
 
-def _without_invalid(profile, depth, force, time, held):
-    """Depths, forces and times with NaN for the curves that cannot be fitted, and the reasons by number."""
+def _without_invalid(profile, depth, force, time, held, unread):
+    """Depths, forces and times with NaN for the curves that cannot be fitted, and the reasons by number.
+
+    `unread` are the reasons of those that could not be read.
+    """
     columns = [depth, force] if time is None else [depth, force, time]
     sizes = [len(column) for column in columns]
     if len(set(sizes)) > 1:
@@ -270,8 +287,10 @@ def _without_invalid(profile, depth, force, time, held):
             f"depth, force and time must have the same number of curves, got "
             f"{' and '.join(map(str, sizes))}"
         )
-    curves, reasons = list(zip(*columns, strict=True)), {}
+    curves, reasons = list(zip(*columns, strict=True)), dict(unread)
     for i, curve in enumerate(curves):
+        if i in unread:
+            continue
         try:
             measured = measurement(*curve, *[None] * (4 - len(curve)))
             own = {name: values[[i]] for name, values in held.items()}
@@ -289,7 +308,7 @@ def _without_invalid(profile, depth, force, time, held):
 
 def _refuse_all_invalid(reasons, count):
     if len(reasons) == count:
-        raise ValueError(f"none of {count} curves can be fitted; curve 0: {reasons[0]}")
+        raise Refusal(reasons[0].after(f"none of {count} curves can be fitted; curve 0: "))
 
 
 def _refuse_with_adhesion(held, noise):
@@ -297,13 +316,22 @@ def _refuse_with_adhesion(held, noise):
     q_c = held.get("q_c", np.array([np.nan]))
     if not np.all(np.isinf(q_c)):
         given = "free" if np.isnan(q_c[0]) else engineering(q_c, "N/m")
-        raise ValueError(
-            f"work_of_adhesion with q_c {given}: adhesion is fitted for an elastic medium only, q_c = inf; "
-            "give q_c=np.inf, or work_of_adhesion=0"
+        only = "adhesion is fitted for an elastic medium only"
+        raise refused(
+            f"work_of_adhesion with q_c {given}: {only}, q_c = inf; give q_c=np.inf, or work_of_adhesion=0",
+            only,
+            Remedy("class", "elastic"),
+            Remedy("hold", "work_of_adhesion", 0.0),
         )
     for name, given in (("eta", "eta" not in held or held["eta"].any()), ("depth_noise", noise > 0)):
         if given:
-            raise ValueError(f"work_of_adhesion is not fitted together with {name}: hold one of them at 0")
+            what = "the viscosity" if name == "eta" else "a noise of the depth"
+            raise refused(
+                f"work_of_adhesion is not fitted together with {name}: hold one of them at 0",
+                f"the work of adhesion is not fitted together with {what}: leave out one of them",
+                Remedy("hold", "work_of_adhesion", 0.0),
+                Remedy("hold" if name == "eta" else "give", name, 0.0),
+            )
 
 
 def _refuse_with_other_classes(profile, held):
@@ -313,32 +341,39 @@ def _refuse_with_other_classes(profile, held):
         return name not in held or held[name].any()
 
     if used("hardness"):
-        # Refuses shapes that are not convex.
-        yield_rule(profile, Medium(1.0, hardness=1.0))
+        try:
+            yield_rule(profile, Medium(1.0, hardness=1.0))
+        except ValueError as error:
+            words = "a constant hardness is not fitted under a tip that is not convex"
+            raise refused(str(error), words, Remedy("class", "b")) from None
     for name in ("eta", "work_of_adhesion"):
         if used(name) and (used("hardness") or used("f_c")):
-            raise ValueError(
-                f"{name} is not fitted together with hardness or f_c: hold it at 0, or hold these at 0"
+            raise refused(
+                f"{name} is not fitted together with hardness or f_c: hold it at 0, or hold these at 0",
+                f"{symbols([name])} is fitted with a hardness of class (b) only: hold it at 0, or take it",
+                Remedy("hold", name, 0.0),
+                Remedy("class", "b"),
             )
 
 
 def _refuse_empty(measured, held):
     depth, force = (np.where(measured.used, values, np.nan) for values in (measured.depth, measured.force))
     free = [name for name in PARAMETERS if name not in held]
-    counts, names = np.count_nonzero(measured.used, axis=1), ", ".join(free) or "a residual"
+    counts = np.count_nonzero(measured.used, axis=1)
     i = int(counts.argmin())
     if counts[i] <= len(free):
         which = "" if measured.single else f"curve {i}: "
-        raise ValueError(
-            f"{which}{counts[i]} samples do not determine {names}: hold some of these, or give more"
-        )
+        text, more = f"{which}{counts[i]} samples do not determine", "hold some of these, or give more"
+        names = ", ".join(free) or "a residual", symbols(free) or "a residual"
+        raise refused(*(f"{text} {each}: {more}" for each in names), Remedy("part", "all"))
     lowest, highest = np.nanmin(force, axis=1), np.nanmax(force, axis=1)
     width = np.nanmax(depth, axis=1) - np.nanmin(depth, axis=1)
     _check.refuse("range of depth", width, width == 0, "m: the indenter does not move", advice="check it")
     rise = highest - held.get("baseline", lowest)
     bound, advice = "above the baseline: no contact", "forces are positive in compression; or free baseline"
-    attracted = np.any(held.get("work_of_adhesion", 1.0))
-    _check.refuse("largest force", rise, (rise <= 0) & ~attracted, bound, unit="N", advice=advice)
+    attracted, free = np.any(held.get("work_of_adhesion", 1.0)), (Remedy("free", "baseline"),)
+    bad = (rise <= 0) & ~attracted
+    _check.refuse("largest force", rise, bad, bound, unit="N", advice=advice, remedy=free)
     height = highest - lowest
     bound = f"must be at least {_check.SHORTEST:g}"
     _check.refuse("range of force", height, height < _check.SHORTEST, bound, unit="N", advice="check it")

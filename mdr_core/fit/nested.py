@@ -10,30 +10,42 @@ In a medium that yields a slow drift changes E* and hardly the residuals. Its ra
 a hold, where the force is constant.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
+from ..numerics.results import Remark, Remedy
 from ..show.quantities import engineering
 from .errors import SIGNIFICANT, SINGULAR, block_length, roughness
 
-#: Words for each, its unit, the factor by which the misfit falls clearly, and what follows. The misfit of
-#: measured curves without a tilt falls up to 1.2 times by one.
+
+class _Test(NamedTuple):
+    """Words for a parameter, its unit, the factor by which the misfit falls clearly, and what follows."""
+
+    what: str
+    unit: str
+    clearly: float
+    follows: str
+    remedy: tuple[Remedy, ...] = ()
+
+
+#: The misfit of measured curves without a tilt falls up to 1.2 times by one.
 _TESTS = {
-    "tilt": ("a tilt of {}", "N/m", 1.5, "give tilt=None and baseline=None"),
-    "drag": ("a drag of {}", "N·s/m", 1.3, "give drag=None"),
-    "drift": (
-        "a drift of {}",
-        "m/s",
-        1.6,
-        "the force changes at rest: the depth drifts, or the medium relaxes",
+    "tilt": _Test(
+        "a tilt of {}", "N/m", 1.5, "fit a tilt and a baseline, too",
+        (Remedy("free", "tilt"), Remedy("free", "baseline")),
     ),
-    "unloading": (
-        "a force that changes by {} on unloading",
-        "%",
-        np.inf,
-        "creep or hysteresis of the scanner or the medium, or a drag; compare with a fit of the "
-        "loading alone",
+    "drag": _Test("a drag of {}", "N·s/m", 1.3, "fit a drag, too", (Remedy("free", "drag"),)),
+    "drift": _Test(
+        "a drift of {}", "m/s", 1.6, "the force changes at rest: the depth drifts, or the medium relaxes"
     ),
-}
+    "unloading": _Test(
+        "a force that changes by {} on unloading", "%", np.inf,
+        "creep or hysteresis of the scanner or the medium, or a drag; compare with a fit of the loading "
+        "alone",
+        (Remedy("part", "loading"),),
+    ),
+}  # fmt: skip
 #: Standard deviations from which on one of them is significant, and change of E* in its errors beyond which
 #: these do not cover what is left out.
 _SIGNIFICANT, _UNCOVERED = 3.3, 1.0
@@ -45,56 +57,102 @@ _TURNS, _REACHED = 0.1, 0.02
 _HOLD_FORCE, _LEAST_FORCE, _HOLD_TIME = 0.005, 0.05, 0.05
 #: Standard deviations of noise that the force deviates by in a hold.
 _HOLD_NOISE = 5.0
-#: Least change of ln E* by a drift that is said, and a drift that is common (m/s).
-_LEAST_CHANGE, _COMMON = 0.005, 1e-10
+#: Least change of ln E* by a drift that is said.
+_LEAST_CHANGE = 0.005
 
 
 def nested_tests(solved, i):
     """Remarks on what a tilt, a drag or a drift changes in curve i of a `Solution`."""
-    curves, minimum, (_, state) = solved.curves, solved.minimum, solved.values_and_states
-    contact, noise = state.live_interval.length[i] > 0, solved.noise[i]
-    if "E_star" not in curves.free or minimum.at_bound[i, 0] or curves.adhesive:
+    curves, (_, state) = solved.curves, solved.values_and_states
+    contact = state.live_interval.length[i] > 0
+    if "E_star" not in curves.free or solved.minimum.at_bound[i, 0] or curves.adhesive:
         return
     if np.count_nonzero(contact) < _FEW:
         return
+    yield from _left_out(solved, i, contact)
     yields = not (curves.held_elastic or solved.elastic[i])
-    jacobian, before = minimum.jacobian[i][:, ~minimum.at_bound[i]], minimum.residual[i]
-    small = _rms((before * noise)[contact]) < _SMALL * curves.load[i, 0]
-    columns = {} if small else dict(_columns(curves, state, i, contact))
-    while columns:
-        trials = {}
-        for name, column in columns.items():
-            matrix = np.column_stack([jacobian, column / noise[:, None]])
-            step = _step(matrix, minimum.residual[i])
-            remainder = minimum.residual[i] + matrix @ step
-            factor = _rms(before[contact]) / _rms(remainder[contact])
-            gain = (before @ before - remainder @ remainder) / _rms(remainder) ** 2
-            independent = gain / block_length(remainder[solved.orders[i]])
-            change = step[0] / solved.errors(i)["E_star"]
-            clear = factor > _TESTS[name][2] and gain > SIGNIFICANT**2
-            if clear or (independent > _SIGNIFICANT**2 and abs(change) > _UNCOVERED):
-                # The first of those that are clear, else the best one.
-                rank = np.inf if clear else gain
-                trials[name] = rank, matrix, remainder, _sentence(name, step[-1], factor, change)
-        if not trials:
-            break
-        # The others are tested beside it.
-        best = max(trials, key=lambda name: trials[name][0])
-        del columns[best]
-        _, jacobian, before, text = trials[best]
-        yield best, text
     if yields and _increases(curves, i):
-        drift = _drift(curves, state, i, contact) / noise
-        change = _step(minimum.jacobian[i], drift)[0]
+        drift = _drift(curves, state, i, contact) / solved.noise[i]
+        change = _step(solved.minimum.jacobian[i], drift)[0]
         yield from _in_a_hold(curves, state, i, contact, change)
 
 
-def _sentence(name, size, factor, change):
-    what, unit, _, follows = _TESTS[name]
-    return (
-        f"{what.format(engineering(size, unit))} would lower the misfit in contact by a factor of "
-        f"{factor:.3g} and change E* by {change:+.1f} standard errors: {follows}"
-    )
+def _left_out(solved, i, contact):
+    """Yields remarks on the parameters with which a curve fits better, the best one first.
+
+    Each later one is tried beside those before it.
+    """
+    curves, minimum, noise = solved.curves, solved.minimum, solved.noise[i]
+    _, state = solved.values_and_states
+    if _rms((minimum.residual[i] * noise)[contact]) < _SMALL * curves.load[i, 0]:
+        return
+    columns = dict(_columns(curves, state, i, contact))
+    before, jacobian = minimum.residual[i], minimum.jacobian[i][:, ~minimum.at_bound[i]]
+    while columns:
+        trials = []
+        for name, column in columns.items():
+            wider = np.column_stack([jacobian, column / noise[:, None]])
+            trials.append(_Trial.of(name, solved, i, before, wider, contact))
+        best = max(trials, key=lambda trial: trial.rank)
+        if not best.rank:
+            return
+        yield best.remark(curves.free)
+        del columns[best.name]
+        before, jacobian = best.residual, best.jacobian
+
+
+class _Trial(NamedTuple):
+    """A fit with one parameter more, `name`, of the value `size` (SI).
+
+    The residuals (N,) that it leaves, their derivatives by all of its parameters (N, P), the factor by
+    which the misfit in contact falls, the decrease of χ² (in variances of a residual; and that of
+    `independent` residuals, where neighbours are correlated), and the change of E* in its errors.
+    """
+
+    name: str
+    size: float
+    residual: np.ndarray
+    jacobian: np.ndarray
+    factor: float
+    decrease: float
+    independent: float
+    change: float
+
+    @classmethod
+    def of(cls, name, solved, i, before, jacobian, contact):
+        """The one whose derivatives are the last column of the Jacobian, after the residuals `before`."""
+        first = solved.minimum.residual[i]
+        step = _step(jacobian, first)
+        residual = first + jacobian @ step
+        decrease = (before @ before - residual @ residual) / _rms(residual) ** 2
+        return cls(
+            name, step[-1], residual, jacobian,
+            factor=_rms(before[contact]) / _rms(residual[contact]),
+            decrease=decrease,
+            independent=decrease / block_length(residual[solved.orders[i]]),
+            change=step[0] / solved.errors(i)["E_star"],
+        )  # fmt: skip
+
+    @property
+    def rank(self):
+        """Infinite if it is clearly better, else the decrease if E* changes; 0 if nothing is to be said."""
+        if self.factor > _TESTS[self.name].clearly and self.decrease > SIGNIFICANT**2:
+            return np.inf
+        said = self.independent > _SIGNIFICANT**2 and abs(self.change) > _UNCOVERED
+        return self.decrease if said else 0.0
+
+    def remark(self, free):
+        """What it is, what it does to misfit and E*, and what follows beside parameters that are free."""
+        test = _TESTS[self.name]
+        text = (
+            f"{test.what.format(engineering(self.size, test.unit))} would lower the misfit in contact by a "
+            f"factor of {self.factor:.3g} and change E* by {self.change:+.1f} standard errors: "
+        )
+        remedy = tuple(each for each in test.remedy if each.what not in free)
+        given = " and ".join(f"{each.what}=None" for each in remedy if each.action == "free")
+        return Remark(
+            f"{text}{f'give {given}' if given else test.follows}", self.name, text + test.follows, remedy
+        )
 
 
 def _rms(values):
@@ -140,26 +198,19 @@ def _drift(curves, state, i, contact):
 
 
 def _in_a_hold(curves, state, i, contact, change):
-    """Remark on the drift in a hold, else on a common one; `change` is that of ln E* by 1 m/s."""
+    """Remark on the drift in a hold; `change` is that of ln E* by 1 m/s."""
     depth, time = curves.depth[i], curves.time[i]
     duration, hold = time[-1] - time[np.argmax(contact)], _longest_hold(curves, state, i)
     if hold.stop - hold.start < _FEW or time[hold][-1] - time[hold][0] < _HOLD_TIME * duration:
-        if abs(change) * _COMMON > _LEAST_CHANGE:
-            yield (
-                "rest",
-                f"no hold shows the drift of the depth: a drift of {engineering(_COMMON, 'm/s')} over the "
-                f"{engineering(duration, 's')} after first contact would change E* by "
-                f"{100 * change * _COMMON:+.2g} %",
-            )
         return
     rate = np.polyfit(time[hold], depth[hold], 1)[0]
     if abs(rate * change) > _LEAST_CHANGE:
-        yield (
-            "rest",
+        text = (
             f"in the hold at {engineering(curves.force[i][hold.start], 'N')} the depth changes by "
             f"{engineering(rate, 'm/s')}: this is creep, or a drift that since first contact would "
-            f"change E* by {100 * change * rate:+.2g} %",
+            f"change E* by {100 * change * rate:+.2g} %"
         )
+        yield Remark(text, "rest")
 
 
 def _longest_hold(curves, state, i):

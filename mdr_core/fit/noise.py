@@ -5,9 +5,10 @@ They may follow a curve, have outliers, be correlated over a large part of the c
 
 import numpy as np
 
+from ..numerics.results import Remark, Remedy
 from ..show.quantities import engineering
 from .errors import SIGNIFICANT, autocorrelation, roughness
-from .parameters import BACKGROUND, CLASSES
+from .parameters import BACKGROUND, CLASSES, symbols
 
 #: Size of the residuals of the arithmetic, as a share of the range of force.
 _EXACT = 1e-7
@@ -17,6 +18,9 @@ _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
 #: Standard deviations from the neighbours, by their lower quartile, from which on a sample is an outlier,
 #: and least number of samples for it; the quartile of absolute normal deviations is 0.3186.
 _OUTLIER, _ENOUGH = 6.0, 30
+#: Modulus (Pa) from which on a medium that is not elastic is one that yields, rather than one that sticks,
+#: flows or is pressed in a liquid.
+_YIELDS = 1e9
 #: Number of samples in contact beyond that of the parameters from which on errors are known.
 _SPARE = 3
 #: Least noise of the depth that counts, as a share of the depth that is recovered on unloading, and share
@@ -60,11 +64,12 @@ def _jitter(solved, i):
     noise, reversals = jitter(depth, curves.force[i])
     if reversals and not (curves.depth_noise or curves.held_elastic):
         size = engineering(noise, "m")
-        yield (
-            "jitter",
+        text = (
             f"the depth goes back and forth at {reversals} of {depth.size - 1} samples, and its noise is "
-            f"taken for new largest depths: E* is biased; give depth_noise, about {size}",
+            "taken for new largest depths: E* is biased; give "
         )
+        remedy = (Remedy("give", "depth_noise", float(f"{noise:.2g}")),)
+        yield Remark(f"{text}depth_noise, about {size}", "jitter", f"{text}the noise, about {size}", remedy)
 
 
 def _misfit(solved, i):
@@ -75,20 +80,34 @@ def _misfit(solved, i):
     size = np.sqrt(np.mean(solved.deviation[i] ** 2)) / curves.load[i, 0]
     largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
     if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
-        letters = [f"({letter})" for letter, name in CLASSES.items() if name in curves.constants]
-        cause = "not elastic" if curves.held_elastic else f"not of class {' + '.join(letters)}"
-        remedy = "; give time, to test for drag and drift" * (curves.time is None and not curves.adhesive)
-        yield (
-            "misfit",
+        letters = [letter for letter, name in CLASSES.items() if name in curves.constants]
+        of_class = f"of class {' + '.join(f'({letter})' for letter in letters)}"
+        text = (
             f"the residuals ({100 * size:.2g} % of the force) are systematic (correlation of neighbours "
-            f"{correlation:.2f}): the medium is {cause}, or the tip has another profile{remedy}",
+            f"{correlation:.2f}): the medium is not {'elastic' if curves.held_elastic else of_class}, or "
+            "the tip has another profile"
         )
+        sentence, words, remedy = text, text, _other_class(solved, i, letters)
+        if curves.time is None and not curves.adhesive:
+            sentence, words = (
+                f"{text}; give {what}, to test for drag and drift" for what in ("time", "times")
+            )
+            remedy = (*remedy, Remedy("give", "time"))
+        yield Remark(sentence, "misfit", words, remedy)
     elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > _EXACT:
-        yield (
-            "noisy",
+        text = (
             f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
-            "larger than the given noise",
+            "larger than the given noise"
         )
+        yield Remark(text, "noisy")
+
+
+def _other_class(solved, i, letters):
+    """The class of hardness to try in the place of one that does not fit."""
+    if solved.curves.held_elastic:
+        stiff = solved.values_and_states[0]["E_star"][i, 0] > _YIELDS
+        return (Remedy("class", "a"),) if stiff else ()
+    return (Remedy("class", "b" if letters == ["a"] else "a"),) if len(letters) == 1 else ()
 
 
 def _outliers(solved, i):
@@ -102,11 +121,12 @@ def _outliers(solved, i):
     if np.sum(distance[far] ** 2) > 0.5 * np.sum(residual**2):
         # Of an outlier both neighbours are half as far from theirs.
         single = np.count_nonzero(far & (size > 0.6 * size.max()))
-        yield (
-            "outliers",
+        text = (
             f"about {single} of {residual.size} samples are outliers, more than {_OUTLIER:g} standard "
-            "deviations from their neighbours: set them to NaN; with them E* is off by more than its error",
+            "deviations from their neighbours: "
         )
+        then = "; with them E* is off by more than its error"
+        yield Remark(f"{text}set them to NaN{then}", "outliers", f"{text}leave them out{then}")
 
 
 def _blocks(solved, i):
@@ -115,11 +135,11 @@ def _blocks(solved, i):
     count = curves.depth.shape[1]
     elastic = curves.held_elastic or solved.elastic[i]
     if 1 < length < count < _BLOCKS * length and not elastic:
-        yield (
-            "blocks",
+        text = (
             f"neighbouring residuals are correlated over {length} of {count} samples: the standard errors "
-            "are estimated from few blocks, and may be too small by up to a factor of two",
+            "are estimated from few blocks, and may be too small by up to a factor of two"
         )
+        yield Remark(text, "blocks")
 
 
 def _few(solved, i):
@@ -128,8 +148,9 @@ def _few(solved, i):
     count = np.count_nonzero(state.live_interval.length[i] > 0)
     names = [name for name in solved.curves.free if name not in BACKGROUND]
     if names and count < len(names) + _SPARE:
-        yield (
-            "few",
-            f"only {count} samples are in contact for {' and '.join(names)}: the standard errors are "
-            "uncertain; record more",
+        text, then = (
+            f"only {count} samples are in contact for",
+            "the standard errors are uncertain; record more",
         )
+        sentence, words = (f"{text} {each}: {then}" for each in (" and ".join(names), symbols(names)))
+        yield Remark(sentence, "few", words)

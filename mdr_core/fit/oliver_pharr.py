@@ -8,17 +8,20 @@ from .. import _check
 from .._check import ArrayLike
 from .._errors import Refusal
 from ..applicability import check_pair
+from ..measured_curve import MeasuredCurve
 from ..medium import Medium
 from ..numerics.results import Remark, Remedy
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..show.quantities import engineering
 from . import creep as creeping
+from .columns import Times, columns_of
 from .errors import roughness
 from .exponent import doubt
 from .iso_14577 import iso_numbers
 from .materials import doubts
 from .oliver_pharr_result import ISO_14577, OliverPharr, OverDepth
+from .tip import of_ideal_tip
 from .unloading import last_at_top, laws_of, parts_of
 from .zero import zero_of
 
@@ -26,11 +29,11 @@ from .zero import zero_of
 @_check.keywords_explained
 def oliver_pharr(
     profile: Profile,
-    depth: ArrayLike,
-    force: ArrayLike,
+    depth: ArrayLike | MeasuredCurve,
+    force: ArrayLike | None = None,
     *,
-    time: ArrayLike | None = None,
-    stiffness: ArrayLike | None = None,
+    time: Times = ...,
+    stiffness: ArrayLike | bool | None = None,
     epsilon: float = 0.75,
     beta: float = 1.0,
     cycles: bool = False,
@@ -49,12 +52,15 @@ def oliver_pharr(
     depth, force : array_like
         Depths (m) and forces (N), (N,), in the order of time. Samples with NaN are left out. Where the
         record begins in the air first contact and the force without contact are found and subtracted;
-        else depths count from first contact and forces from the baseline. See Notes.
+        else depths count from first contact and forces from the baseline. See Notes. In the place of depth
+        and force a `MeasuredCurve`, as of `read_curve`.
     time : array_like, optional
-        Increasing times (s) of the samples, (N,): the stiffness is corrected for creep. See Notes.
-    stiffness : array_like, optional
+        Increasing times (s) of the samples, (N,): the stiffness is corrected for creep. See Notes. Those of
+        a `MeasuredCurve` are taken unless this is None.
+    stiffness : array_like or True, optional
         Measured contact stiffness S (N/m) at each sample, (N,), of a continuous measurement; NaN where
-        there is none. Results are then those of each sample. Not with `time` or `cycles`.
+        there is none; True for that of a `MeasuredCurve`. Results are then those of each sample. Not with
+        `time` or `cycles`.
     epsilon : float, optional
         Constant ε: 1 for a flat punch, 3/4 for a paraboloid, 2 − 4/π for a cone.
     beta : float, optional
@@ -124,9 +130,12 @@ def oliver_pharr(
     """
     check_pair(profile, Medium(1.0), "an unloading")
     constants = _check.positive_number("epsilon", epsilon, zero=True), _check.positive_number("beta", beta)
-    columns = _columns(depth, force, time, stiffness)
+    given = columns_of(depth, force, None if stiffness is not None and time is ... else time)
+    time, read = given.time, _one(given.remarks)
+    stiffness = _stiffness(given, stiffness)
     if stiffness is not None and (time is not None or cycles):
         raise ValueError("stiffness is measured at each sample: give it without time and cycles")
+    columns = _columns(given.depth, given.force, time, stiffness)
     begin, contact, begins, in_contact = zero_of(profile, columns["depth"], columns["force"])
     columns = {name: values[begin:] for name, values in columns.items()}
     depth, force = columns["depth"] - contact.depth, columns["force"] - contact.baseline
@@ -138,17 +147,37 @@ def oliver_pharr(
         # Near first contact single samples may be far off.
         middle = [np.nanmedian(values[name]) for name in ("E_star", "hardness")]
         remarks = (*remarks, *begins, *doubts(*middle), *profile.remarks)
+        remarks = (*remarks, *of_ideal_tip(profile, values["contact_depth"]))
         result = OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
-        return _with_other_readings(result, in_contact, constants)
+        return _with_other_readings(result, read, in_contact, constants)
     parts, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
     numbers, triples = zip(*parts.items(), strict=True)
     corrected, uncorrected, iso = zip(*triples, strict=True)
     numbers = _check.frozen(numbers if cycles else numbers[0])
     result = _collected(profile, corrected, iso, contact, numbers, (*remarks, *begins))
-    result = _with_other_readings(result, in_contact, constants)
+    result = _with_other_readings(result, read, in_contact, constants)
     if time is None:
         return result
     return replace(result, uncorrected=_collected(profile, uncorrected, iso, contact, numbers, ()))
+
+
+def _one(remarks):
+    """The remarks of one curve that was read from a file."""
+    if len(remarks) > 1:
+        raise ValueError(f"{len(remarks)} curves: an evaluation is of one, as of curves[0]")
+    return remarks[0] if remarks else ()
+
+
+def _stiffness(given, stiffness):
+    """The measured stiffness that is given, or that of a curve."""
+    if stiffness is not True:
+        return None if stiffness is False else stiffness
+    if given.stiffness is None:
+        raise ValueError(
+            "stiffness = True takes that of a MeasuredCurve, and there is none: give its values, or leave "
+            "it out to evaluate the unloading"
+        )
+    return given.stiffness
 
 
 def _columns(depth, force, time, stiffness):
@@ -344,13 +373,14 @@ def _collected(profile, results, iso, contact, numbers, remarks):
     columns = zip(ISO_14577, np.array(iso if numbers.ndim else iso[0]).T, strict=True)
     values |= {name: _check.frozen(each) for name, each in columns if not np.all(np.isnan(each))}
     remarks = [*remarks, *doubts(values["E_star"], values["hardness"]), *profile.remarks]
+    remarks += of_ideal_tip(profile, values["contact_depth"])
     return OliverPharr(profile=profile, **values, standard_errors=errors, remarks=tuple(remarks))
 
 
-def _with_other_readings(result, in_contact, constants):
-    """The results, with a remark on those of other first contacts where the depth is 0 at a force."""
+def _with_other_readings(result, read, in_contact, constants):
+    """The results, with remarks of the file, and on other first contacts if the depth is 0 at a force."""
     if in_contact is None:
-        return result
+        return replace(result, remarks=(*read, *result.remarks))
     epsilon, beta = constants
     S, h_c = result.stiffness, result.contact_depth
     F = result.hardness * np.pi * (S / (2 * beta * result.E_star)) ** 2
@@ -362,7 +392,7 @@ def _with_other_readings(result, in_contact, constants):
     )
     # One number of several unloadings or samples.
     remark = in_contact.remark(*(tuple(float(np.nanmedian(each)) for each in pair) for pair in pairs))
-    return replace(result, remarks=(remark, *result.remarks))
+    return replace(result, remarks=(*read, remark, *result.remarks))
 
 
 def _radius_at_height(profile, height):

@@ -158,6 +158,11 @@ TOGETHER = {
 PARAMETERS = MEDIUM | {"contact_point": ContactPoint(Quantity("z₀", "m", "contact point"))} | BACKGROUND
 
 
+def symbols(names):
+    """Symbols of parameters as a text, as "E* and q_c"."""
+    return " and ".join(PARAMETERS[name].quantity.symbol for name in names)
+
+
 def held_values(count, **values):
     """Values (R,) of the parameters of `count` curves that are held, by name: those that are not None."""
     held = {}

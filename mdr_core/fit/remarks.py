@@ -4,13 +4,14 @@ from itertools import chain
 
 import numpy as np
 
-from ..numerics.results import KINDS, Remark
+from ..numerics.results import KINDS, Remark, Remedy
 from ..show.quantities import engineering
 from .errors import SIGNIFICANT
-from .materials import is_modulus
+from .materials import UNITS, is_modulus
 from .nested import nested_tests
 from .noise import tests_of_noise
-from .parameters import PARAMETERS, TOGETHER
+from .parameters import TOGETHER, symbols
+from .tip import of_ideal_tip
 
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
 DOUBTS = {
@@ -22,6 +23,8 @@ _OF_MINIMUM = {
 }  # fmt: skip
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
+#: Relative error of a parameter from which on it is not determined at all.
+_NOT_AT_ALL = 10.0
 #: Number of standard errors below which a constant of the hardness beside another one may be 0.
 _TOLD = 2.0
 #: Largest range of depth (m), and least share of the variance of the force that a contact explains.
@@ -41,27 +44,28 @@ _PULL_OFF = 0.02
 
 
 def remarks_of(solved):
-    """Remarks on each curve of a `Solution`: a sentence by its kind, the same for all curves."""
-    checks = _units, _order, _ambiguous, _adhesion, _undetermined, tests_of_noise, nested_tests
-    count = len(solved.rows)
-    remarks = [dict(chain.from_iterable(check(solved, i) for check in checks)) for i in range(count)]
-    for each in remarks:
-        lost = [kind.partition(":")[2] for kind in each if kind.startswith("undetermined")]
-        if lost:
-            for kind in _OF_MINIMUM & set(each):
-                del each[kind]
-            text = (
-                "the search found no minimum of the residuals, but a direction in which they do not change"
-            )
-            each["no minimum"] = f"{text}, of {', '.join(lost)}"
-        # The contact may be hidden by what a linear parameter describes.
-        if {"tilt", "drag", "drift"} & set(each):
-            each.pop("no contact", None)
-        # These say more.
-        if {"misfit", "jitter"} & set(each):
-            each.pop("unloading", None)
-            each.pop("blocks", None)
-    return [tuple(Remark(text, kind.partition(":")[0]) for kind, text in each.items()) for each in remarks]
+    """Remarks on each curve of a `Solution`."""
+    checks = _units, _order, _ambiguous, _adhesion, _undetermined, tests_of_noise, nested_tests, _tip
+    return [_consistent([*chain(*(check(solved, i) for check in checks))]) for i in range(len(solved.rows))]
+
+
+def _consistent(remarks):
+    """Remarks on one curve without those that others make void."""
+    made, void = {remark.kind for remark in remarks}, set()
+    lost = [each.what for remark in remarks if remark.kind == "undetermined" for each in remark.remedy]
+    if lost:
+        void |= _OF_MINIMUM
+        text = "the search found no minimum of the residuals, but a direction in which they do not change"
+        names = f"{text}, of {', '.join(lost)}", f"{text}, of {symbols(lost)}"
+        remedy = tuple(Remedy("hold", name) for name in lost)
+        remarks = [*remarks, Remark(names[0], "no minimum", names[1], remedy)]
+    # The contact may be hidden by what a linear parameter describes.
+    if {"tilt", "drag", "drift"} & (made - void):
+        void |= {"no contact"}
+    # These say more.
+    if {"misfit", "jitter"} & (made - void):
+        void |= {"unloading", "blocks"}
+    return [remark for remark in remarks if remark.kind not in void]
 
 
 def by_importance(remarks):
@@ -86,7 +90,7 @@ def _units(solved, i):
         swapped = _shares_of_others(*columns).get(_SWAPPED, 0.0) >= max(
             _EXPLAINED, _share_of_contact(*columns)
         )
-        yield "units", f"{text}: {_SWAPPED if swapped else 'give depth in m and force in N'}"
+        yield _in_other_units(text, _SWAPPED if swapped else "")
         return
     if "E_star" not in curves.free:
         return
@@ -108,16 +112,26 @@ def _units(solved, i):
     if straight and (unexplained or bent):
         text = "a straight line fits the force as well as an indentation"
         if other:
-            yield "units", f"{text}: {cause}"
+            yield _in_other_units(text, cause)
         elif not _contact_is_seen(depth, force):
-            yield "no contact", f"{text}: {_NO_CONTACT}"
+            yield Remark(f"{text}: {_NO_CONTACT}", "no contact")
     elif not plausible:
         small = E < 1.0 and np.ptp(depth) < _LONGEST
         text = f"no material has E* = {engineering(E, 'Pa')}"
         if small and not swapped and not _contact_is_seen(depth, force):
-            yield "no contact", f"{text}: {_NO_CONTACT}"
+            yield Remark(f"{text}: {_NO_CONTACT}", "no contact")
         else:
-            yield "units", f"{text}: {_SWAPPED if swapped else 'give depth in m and force in N'}"
+            yield _in_other_units(text, _SWAPPED if swapped else "")
+
+
+def _in_other_units(text, cause):
+    """A remark on what no material has, because of columns or signs, or of units if no cause is known."""
+    if not cause:
+        words = f"{text}: look at the units of depth and force"
+        return Remark(f"{text}: give depth in m and force in N", "units", words, UNITS)
+    columns = (Remedy("give", "columns"),)
+    remedy = columns if cause == _SWAPPED else [each for each in UNITS if each.what in cause]
+    return Remark(f"{text}: {cause}", "units", remedy=remedy)
 
 
 def _is_enormous(solved, i):
@@ -139,10 +153,10 @@ def _order(solved, i):
     turns = np.mean(steps[1:] * steps[:-1] < 0)
     if turns > _TURNS and np.median(np.abs(steps)) > _STEPS * np.ptp(depth):
         text = "depths go up and down from sample to sample, as in a shuffled record"
-        yield "order", f"{text}: give the samples in the order in which they were measured"
+        yield Remark(f"{text}: give the samples in the order in which they were measured", "order")
     elif _rise_after(depth, force) > _REVERSED * np.ptp(force):
         text = "forces are larger after the largest depth than before it, as in a reversed record"
-        yield "order", f"{text}: give the samples in the order in which they were measured"
+        yield Remark(f"{text}: give the samples in the order in which they were measured", "order")
 
 
 def _rise_after(depth, force):
@@ -204,15 +218,22 @@ def _ambiguous(solved, i):
     curves, squares = solved.curves, np.sum(solved.minimum.residual[i] ** 2)
     for name, at_bound in zip(curves.free, solved.minimum.at_bound[i], strict=False):
         if at_bound and name == "eta":
-            yield "inviscid", "the viscosity is 0 within the noise: hold eta = 0"
+            text, remedy = "the viscosity is 0 within the noise: hold", (Remedy("hold", name, 0.0),)
+            yield Remark(f"{text} eta = 0", "inviscid", f"{text} it at 0", remedy)
         elif at_bound and name not in TOGETHER:
-            yield f"bound:{name}", f"{name} is at the bound of its range: hold {name}, or check the data"
+            text = "is at the bound of its range: hold"
+            sentence = f"{name} {text} {name}, or check the data"
+            words = f"{symbols([name])} {text} it, or check the data"
+            yield Remark(sentence, "bound", words, (Remedy("hold", name),))
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
     if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
         rival = curves.rows([i]).values(solved.rival[[i]])
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
-        text = f"E* = {E} with contact at {point} fits about as well: hold contact_point or E_star"
-        yield "second minimum", text
+        text = f"E* = {E} with contact at {point} fits about as well: hold "
+        remedy = Remedy("hold", "contact_point"), Remedy("hold", "E_star")
+        yield Remark(
+            f"{text}contact_point or E_star", "second minimum", f"{text}first contact or E*", remedy
+        )
 
 
 def _adhesion(solved, i):
@@ -225,19 +246,24 @@ def _adhesion(solved, i):
     error = solved.errors(i).get("work_of_adhesion", 0.0)
     if error > _VAGUE:
         cause = "" if np.any(force < -SIGNIFICANT * noise) else "; there is no tension beyond the noise"
-        share = f"to {100 * error:.2g} %" if error < np.inf else "not at all"
-        text = f"the forces in contact hardly determine w ({share}{cause}): hold work_of_adhesion"
-        yield "adhesion", text
+        text = f"the forces in contact hardly determine w ({_share(error)}{cause}): hold "
+        remedy = (Remedy("hold", "work_of_adhesion", 0.0 if cause else None),)
+        yield Remark(f"{text}work_of_adhesion", "adhesion", f"{text}it", remedy)
     depth = curves.depth[i]
     lost = [_depth_of_loss(depth, held) for held in (curves.contact[i], state.live_interval.length[i] > 0)]
     if abs(lost[1] - lost[0]) > _PULL_OFF * np.ptp(depth):
         measured, model, difference = (engineering(z, "m") for z in (*lost, lost[1] - lost[0]))
-        yield (
-            "contact",
+        yield Remark(
             f"contact is lost at z = {measured} in the data and at {model} in the model (difference "
             f"{difference}): a soft cantilever loses contact earlier, or adhesion differs between "
             "approach and retraction",
+            "contact",
         )
+
+
+def _share(error):
+    """How well a number with a relative error is determined."""
+    return f"to {100 * error:.2g} %" if error < _NOT_AT_ALL else "not at all"
 
 
 def _depth_of_loss(depth, contact):
@@ -252,31 +278,33 @@ def _undetermined(solved, i):
     errors = solved.errors(i)
     constants = [name for name in solved.curves.constants if name in errors]
     if solved.elastic[i] and constants:
-        yield "elastic", f"no yield is seen beyond the noise: {_hardest(solved, i)}"
+        text = f"no yield is seen beyond the noise: {_hardest(solved, i)}"
+        yield Remark(text, "elastic", remedy=(Remedy("class", "elastic"),))
         return
     if len(constants) > 1:
         yield from _constants(solved, i, constants)
     unloading = np.count_nonzero((state.live_interval.length[i] > 0) & ~state.loading[i])
-    error = errors.get("E_star", 0.0)
+    error, hold = errors.get("E_star", 0.0), Remedy("hold", "E_star")
     if solved.curves.held_elastic:
         if _VAGUE < error < np.inf:
-            yield "vague", f"the data determine E* only to {100 * error:.2g} %: hold E_star"
+            text = f"the data hardly determine E* ({_share(error)}): hold "
+            yield Remark(f"{text}E_star", "vague", f"{text}it", (hold,))
     elif unloading < 2 and error > _VAGUE_LOADING:
-        share = f"to {100 * error:.2g} %"
-        text = f"loading alone hardly determines E* ({share}): record the unloading, or hold E_star"
-        yield "loading", text
+        text = f"loading alone hardly determines E* ({_share(error)}): record the unloading, or hold "
+        yield Remark(f"{text}E_star", "loading", f"{text}E*", (Remedy("part", "all"), hold))
     elif error > _VAGUE:
         recovered = "critical depth" if solved.curves.constants == ("q_c",) else "recovered depth"
-        yield (
-            "vague",
-            f"the unloading determines E* only to {100 * error:.2g} %: there are {unloading} samples "
-            f"within the {recovered} of {engineering(state.cap[i, -1], 'm')}; record more of them, or hold "
-            "E_star",
+        text = (
+            f"the unloading hardly determines E* ({_share(error)}): there are {unloading} samples within "
+            f"the {recovered} of {engineering(state.cap[i, -1], 'm')}; record more of them, or hold "
         )
+        yield Remark(f"{text}E_star", "vague", f"{text}E*", (hold,))
     for name, error in errors.items():
         if error == np.inf and name != "work_of_adhesion":
-            text = f"the data do not determine {name}: hold {name} or a parameter correlated with it"
-            yield f"undetermined:{name}", text
+            text, more = "the data do not determine", "or a parameter correlated with it"
+            sentence = f"{text} {name}: hold {name} {more}"
+            words = f"{text} {symbols([name])}: hold it {more}"
+            yield Remark(sentence, "undetermined", words, (Remedy("hold", name),))
 
 
 def _hardest(solved, i):
@@ -297,11 +325,17 @@ def _constants(solved, i, names):
     shares = {name: values[name] / solved.errors(i)[name] for name in names}
     name = min(shares, key=shares.get)
     if shares[name] < _TOLD:
-        quantities = [PARAMETERS[each].quantity for each in names]
-        symbols = " and ".join(quantity.symbol for quantity in quantities)
-        symbol = PARAMETERS[name].quantity.symbol
-        yield (
-            "constants",
-            f"the data do not distinguish {symbols}: {symbol} is {shares[name]:.2g} times its standard "
-            f"error; hold {name} = 0",
+        text = (
+            f"the data do not distinguish {symbols(names)}: {symbols([name])} is {shares[name]:.2g} times "
+            "its standard error; hold "
         )
+        yield Remark(f"{text}{name} = 0", "constants", f"{text}it at 0", (Remedy("hold", name, 0.0),))
+
+
+def _tip(solved, i):
+    """A small contact under an ideal tip, where first contact is held."""
+    curves, (_, state) = solved.curves, solved.values_and_states
+    largest = min(float(state.depth[i].max()), curves.profile.known_depth)
+    if "contact_point" not in curves.free and largest > 0:
+        height = curves.profile.height_at(curves.profile.radius_at(np.array([largest])))
+        yield from of_ideal_tip(curves.profile, height, held=True)

@@ -59,7 +59,7 @@ class Fit(Record):
         Covariance of the free parameters, in that order.
     residuals : ndarray
         Measured minus fitted values.
-    remarks : tuple of str
+    remarks : tuple of Remark
         Parameters that the data do not determine, and deviations from the model.
     """
 

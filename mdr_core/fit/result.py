@@ -60,7 +60,8 @@ class IndentationFit(Fit):
     #: States of the fitted model, with depth noise at the most probable depths; where a sample is left out,
     #: that of the sample before.
     path: Indentation
-    #: Remarks on each curve, and numbers of samples given.
+    #: Remarks on each curve, those of its file first and those of the fit, and numbers of samples given.
+    _read: tuple[tuple[Remark, ...], ...]
     _remarks: tuple[tuple[Remark, ...], ...]
     _lengths: np.ndarray
 
@@ -99,6 +100,7 @@ class IndentationFit(Fit):
             standard_errors={name: error[index] for name, error in self.standard_errors.items()},
             path=self.path[index][..., :longest],
             force_noise=noise[..., :longest] if self.force_noise.ndim > 1 else noise,
+            _read=tuple(self._read[i] for i in curves.ravel()),
             _remarks=tuple(self._remarks[i] for i in curves.ravel()),
             _lengths=self._lengths[index],
             **{name: getattr(self, name)[index] for name in _OF_CURVES},
@@ -107,26 +109,14 @@ class IndentationFit(Fit):
 
     @property
     def remarks(self) -> tuple[Remark, ...]:
-        """Remarks, the most important first.
+        """Remarks, those of the file first, then of the fit, the most important first.
 
         Of many curves one of each kind, with the number of the first one that has it, and how many have it;
         `text` and `remedy` are those of that curve. Those of a single one are ``fit[i].remarks``.
         """
         if not self.shape:
-            return self._remarks[0]
-        same: dict[Any, list[tuple[int, Remark]]] = {}
-        for i, remarks in enumerate(self._remarks):
-            for remark in remarks:
-                # Two parameters at their bounds are two remarks.
-                what = remark.kind, tuple((each.action, each.what) for each in remark.remedy)
-                same.setdefault(what, []).append((i, remark))
-        return by_importance(
-            Remark(
-                f"curve {found[0][0]} ({len(found)} of {len(self)} curves): {found[0][1]}",
-                found[0][1].kind, found[0][1].text, found[0][1].remedy,
-            )
-            for found in same.values()
-        )  # fmt: skip
+            return (*self._read[0], *self._remarks[0])
+        return (*_of_many(self._read), *by_importance(_of_many(self._remarks)))
 
     @property
     def invalid(self) -> dict[int, Remark]:
@@ -272,6 +262,20 @@ class IndentationFit(Fit):
             yield "standard errors", f"block-wise (Newey–West), blocks of {lengths} samples"
 
 
+def _of_many(remarks):
+    """One remark of each kind, of the first curve that has it, with their number in its sentence."""
+    same = {}
+    for i, own in enumerate(remarks):
+        for remark in own:
+            # Two parameters at their bounds are two remarks.
+            what = remark.kind, tuple((each.action, each.what) for each in remark.remedy)
+            same.setdefault(what, {}).setdefault(i, remark)
+    for found in same.values():
+        i, first = next(iter(found.items()))
+        sentence = f"curve {i} ({len(found)} of {len(remarks)} curves): {first}"
+        yield Remark(sentence, first.kind, first.text, first.remedy)
+
+
 class _MediumOrNone(Medium):
     """A medium whose parameters are NaN where a curve was not fitted."""
 
@@ -284,8 +288,11 @@ def _medium(medium):
     return medium if np.isnan(medium.E_star).any() else Medium(**medium.__getstate__())
 
 
-def collected(profile, measured, depth_noise, solutions, reasons):
-    """One result of the solutions, in the order of the curves; `reasons` are those of invalid ones."""
+def collected(profile, measured, depth_noise, solutions, reasons, read):
+    """One result of the solutions, in the order of the curves; `reasons` are those of invalid ones.
+
+    `read` are the remarks of curves that were read from files.
+    """
     count, free = len(measured.depth), solutions[0].curves.free
     rows = np.concatenate([solution.rows for solution in solutions])
     order = np.argsort(rows)
@@ -313,6 +320,7 @@ def collected(profile, measured, depth_noise, solutions, reasons):
         depth_noise=depth_noise,
         standard_errors={name: _check.frozen(errors[:, i]) for i, name in enumerate(free)},
         **{name: value if value is None else _check.frozen(value) for name, value in joined.items()},
+        _read=tuple(map(tuple, read)) or ((),) * count,
         _remarks=tuple(remarks),
         _lengths=measured.lengths,
     )

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
 import numpy as np
 
 from .._check import no_attribute
+from .._errors import Refusal
 
 if TYPE_CHECKING:
     import pandas
@@ -129,6 +130,7 @@ class Limit:
 #: Kinds of a `Remark`, the most important first, and what each says.
 KINDS = {
     "invalid": "a curve of a map is not fitted, and why",
+    "refused": "what is given cannot be read or fitted",
     "deflection": "the depth includes the deflection of the cantilever, whose stiffness is not known",
     "units": "numbers that no material or tip has: a unit, a sign, or columns that are exchanged",
     "order": "samples are not in the order in which they were measured",
@@ -253,6 +255,11 @@ class Remark(str):
         """Kind, text and remedies, as in files of JSON."""
         remedy = [{"action": each.action, "what": each.what, "value": each.value} for each in self.remedy]
         return {"kind": self.kind, "text": self.text, "remedy": remedy}
+
+
+def refused(sentence: str, text: str, *remedy: Remedy) -> Refusal:
+    """The refusal of what is given, as a sentence for users of the library, and without names of Python."""
+    return Refusal(Remark(sentence, "refused", text, remedy))
 
 
 class Record:

@@ -8,6 +8,7 @@ import numpy as np
 
 from .. import _check, _read_only
 from .._check import Array, ArrayLike
+from ..numerics.results import Remark
 from ..numerics.roots import increasing_root
 from .shape_check import is_own, sound_range
 
@@ -84,8 +85,8 @@ class Profile(_check.Parameters, ABC):
     kinks = ()
     #: Depth (m) at which g changes from one power of x to another, None if it is not known.
     transition_depth = None
-    #: Sentences on what was changed when the profile was made, as of a concave area function.
-    remarks = ()
+    #: Remarks on what was changed when the profile was made, as of a concave area function.
+    remarks: tuple[Remark, ...] = ()
     #: Words for the end of the known depth.
     _last = "the shape is known"
 

@@ -4,6 +4,7 @@ import numpy as np
 import scipy
 
 from .. import _check
+from ..numerics.results import Remark
 
 #: Sizes (m) of units of length.
 LENGTHS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "Å": 1e-10, "cm": 1e-2}
@@ -153,9 +154,8 @@ def area_samples(coefficients, height, samples, limit, unit):
     remarks = [_repaired(z, h)] if np.any(np.abs(z - h) > _REPAIRED * h[-1]) else []
     if first:
         below = _in_words(h[1])
-        remarks.append(
-            f"the area function does not grow below a height of {below}: the tip is a cone there"
-        )
+        text = f"the area function does not grow below a height of {below}: the tip is a cone there"
+        remarks.append(Remark(text, "area"))
     return r, z, tuple(remarks)
 
 
@@ -164,7 +164,8 @@ def _repaired(z, h):
     change = np.abs(z - h)
     share = change[1:] / h[1:]
     most, place, worst = (_in_words(x) for x in (change.max(), h[change.argmax()], h[1 + share.argmax()]))
-    return (
+    text = (
         f"the area function is concave in parts: heights were changed by up to {most} (at {place}), or "
         f"{100 * share.max():.2g} % (at {worst}), to make the tip convex"
     )
+    return Remark(text, "area")

@@ -1,11 +1,13 @@
-"""How often each remark of a fit is made, and how often it is right, on made and on measured curves.
+"""How often each remark is made, and how often it is right, on made and on measured curves.
 
     python -m tests.benchmarks.remarks
 
 prints the table, which is a part of assets/fits.md.
 """
 
+import tempfile
 from collections import Counter, defaultdict
+from pathlib import Path
 
 import numpy as np
 
@@ -13,9 +15,10 @@ import mdr_core as mdr
 from mdr_core.numerics.results import KINDS
 
 from ..fit import families
+from ..fit.test_creep import record
 from ..fit.test_fit import AFM, HERTZ, measured
 from ..fit.test_fit_in_time import fit_of
-from ..fit.test_fit_of_classes import BERKOVICH, BOUNDS, real
+from ..fit.test_fit_of_classes import BERKOVICH, BOUNDS, DATA, real
 
 GEL, GLASS, METAL = families.KINDS.values()
 #: Kinds of remarks that name what a family of made curves has.
@@ -32,8 +35,8 @@ NAMES = {
 CORRELATED = {"tilt", "retract", "drift", "creep", "correlated noise"}
 
 
-def kinds(fit, i=0):
-    return {remark.kind for remark in (fit[i] if fit.shape else fit).remarks}
+def kinds(result):
+    return {remark.kind for remark in result.remarks}
 
 
 def of_families(seeds):
@@ -44,7 +47,7 @@ def of_families(seeds):
                 fit = families.fits(medium, family, size, range(seeds))
                 covered = families.covered(medium, fit)
                 for i in range(seeds):
-                    made = kinds(fit, i)
+                    made = kinds(fit[i])
                     right = made & NAMES.get(family, set())
                     right |= made & {"blocks"} if family in CORRELATED else set()
                     yield made, right if covered[i] else made
@@ -89,11 +92,119 @@ def of_a_kind(medium, seed):
         yield fit(**other), {"misfit"}
 
 
+def of_unloadings(medium, seed):
+    """Yields results of Oliver and Pharr for made records with one thing each, and its kinds."""
+    tip, top, random = medium.tip, medium.depths[1], np.random.default_rng(seed)
+
+    def loaded(depth, tip=tip):
+        force = mdr.indent(tip, medium.medium, depth).force
+        return force + 5e-4 * force.max() * random.normal(size=force.size)
+
+    depth = np.append(np.linspace(0, top, 300), np.linspace(top, 0.3 * top, 200))
+    force, time = loaded(depth), np.linspace(0.0, 60.0, 500)
+    yield mdr.oliver_pharr(tip, depth, force), {"first contact"}
+    air = np.append(np.linspace(-0.3 * top, 0, 100, endpoint=False), depth)
+    yield mdr.oliver_pharr(tip, air + 0.3 * top, loaded(air)), {"first contact"}
+    yield mdr.oliver_pharr(tip, depth, force, time=time), {"first contact", "hold"}
+    yield mdr.oliver_pharr(tip, 1e3 * depth, 1e-3 * force), {"first contact", "units"}
+    twice = np.append(0.6 * depth, depth)
+    yield mdr.oliver_pharr(tip, twice, loaded(twice)), {"first contact", "several"}
+    spoiled = loaded(twice)
+    spoiled[300:500] = spoiled[299] * np.linspace(1, 0.2, 200) ** 0.2
+    yield mdr.oliver_pharr(tip, twice, spoiled, cycles=True), {"first contact", "left out"}
+    stiffness = np.array(mdr.indent(tip, medium.medium, depth).stiffness)
+    stiffness[::50] = np.nan
+    right = {"first contact", "missing"}
+    yield mdr.oliver_pharr(tip, depth, force, stiffness=stiffness), right
+    if medium is not GEL:
+        moments, z, F = record(0.2, "viscous")
+        yield mdr.oliver_pharr(tip, z, F, time=moments), {"first contact", "hold", "creep"}
+        real = mdr.RoundedCone(tip_radius=200e-9, slope=tip.slope)
+        found, true = (mdr.oliver_pharr(each, depth / 5, loaded(depth / 5, real)) for each in (tip, real))
+        off = found.hardness > 1.05 * true.hardness
+        yield found, {"first contact"} | ({"tip"} if off else set())
+
+
+def beside_fits():
+    """Yields files, tips and fits of hardnesses with one thing each, and the kinds that name it."""
+    yield from of_files()
+    for coefficients in ([24.5, 0.0, 50.0], [24.5, 200.0, -300.0]):
+        yield mdr.Sampled.from_area_function(coefficients, 1e-6, unit="nm"), {"area"}
+    cone, media = mdr.Cone(0.3), (mdr.Medium(10e9, hardness=0.5e9), mdr.Medium(10e9, 20.0, hardness=0.3e9))
+    depths = np.array([20e-9, 40e-9, 80e-9, 160e-9])
+    for medium in media:
+        state = mdr.indent(cone, medium, depths)
+        data = state.mean_pressure, state.contact_radius
+        few = tuple(each[:1] for each in data)
+        above = np.append(data[0], 2e9), np.append(data[1], 1e-9)
+        yield mdr.fit_hardness(cone, *few, E_star=10e9), {"few"}
+        yield mdr.fit_hardness(cone, *above, E_star=10e9, hardness=None), {"left out", "misfit"}
+        yield mdr.fit_hardness(cone, *data, E_star=10e9, f_c=None), {"misfit"}
+        both = mdr.fit_hardness(
+            cone, data[0] * [1, 1.1, 0.9, 1], data[1], E_star=10e9, hardness=None, q_c=None
+        )
+        yield both, {"constants"}
+
+
+def of_files():
+    """Yields curves of files with one thing each, and the kinds that name it."""
+    depth = np.append(np.arange(20.0), np.arange(18.0, 4.0, -1.0))
+    rows = [[f"{h:g}", f"{h**2:g}", f"{t:g}"] for t, h in enumerate(depth)]
+
+    def text(lines, head="Depth (nm);Load (mN);Time (s)"):
+        return "\n".join([head, *(";".join(line) for line in lines)])
+
+    files = (
+        (text(rows), {}, set()),
+        (text([*rows[:5], ["", "3", "4"], *rows[5:]]), {}, {"missing"}),
+        (text([["-" + line[0], *line[1:]] for line in rows]), {}, {"sign"}),
+        (text([[*line[:2], "7" if k % 9 else "1"] for k, line in enumerate(rows)]), {}, {"time"}),
+        (
+            text(rows, "Spring constant: 50 N/m\nDepth (nm);Load (mN);Time (s)"),
+            {"columns": {"piezo": (0, "nm"), "force": (1, "mN")}},
+            {"cantilever"},
+        ),
+    )
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "run.csv"
+        for content, given, right in files:
+            path.write_text(content, encoding="utf-8")
+            yield mdr.read_curve(path, **given), right
+        curve = mdr.read_curve(path, columns={"depth": (0, "nm"), "force": (1, "mN")})
+        yield curve.minus_frame(1e-9), {"corrected"}
+        path.write_text("\n".join(f"Test {k}\n{text(rows)}" for k in (1, 2)), encoding="utf-8")
+        yield mdr.read_curve(path, 1), {"several"}
+    yield _without_stiffness(), {"deflection"}
+
+
+def _without_stiffness():
+    """A curve of an AFM whose file has no stiffness of the cantilever, as `afmformats` reads it."""
+    import afmformats
+
+    depth = 1e-6 * np.append(np.linspace(-1.0, 0.6, 60), np.linspace(0.6, -1.0, 40))
+    force = mdr.indent(mdr.Paraboloid(5e-6), mdr.Medium(20e3), depth).force
+    data = {"force": force, "height (measured)": -depth - force / 0.05}
+    data["segment"] = np.repeat([0, 1], [60, 40]).astype(np.uint8)
+    known = {"enum": 0, "path": "made", "imaging mode": "force-distance"}
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "run.tab"
+        afmformats.mod_force_distance.AFMForceDistance(data, known).export_data(path, fmt="tab")
+        return mdr.read_curve(path)
+
+
+def record_of(name):
+    """Depth (m), force (N) and time (s) of a measured curve that yields."""
+    path = DATA / f"{name}.csv" if name != "silica" else DATA.parents[1] / "assets/silica.csv"
+    data = np.genfromtxt(path, delimiter=",", names=True)
+    return 1e-9 * data["depth_nm"], 1e-3 * data["force_mN"], data["time_s"]
+
+
 def of_measured():
     """Yields the kinds of remarks on measured curves, and those that are known to be right.
 
     Glass and quartz are of class (a), none of the four is elastic, steel has a noisy depth and NiAl a
-    pop-in; approach and retract of the gels differ, and the curve of a cell is nearly noise.
+    pop-in; approach and retract of the gels differ, and the curve of a cell is nearly noise. All four have
+    a hold before the unloading, none begins in the air, and the contact of steel is the one below 200 nm.
     """
     for name in AFM:
         for tip in HERTZ.values():
@@ -114,6 +225,12 @@ def of_measured():
             wrong_class = "hardness" not in options or name in ("nial", "steel")
             right = {"constants", "blocks", "vague"} | ({"misfit", "unloading"} if wrong_class else set())
             yield kinds(fit), right | ({"jitter"} if name == "steel" else set())
+        depth, force, time = record_of(name)
+        for times in (None, time):
+            result = mdr.oliver_pharr(BERKOVICH, depth, force, time=times)
+            right = {"first contact", "hold"} | ({"several"} if name == "quartz" else set())
+            # The correction of steel is 10 % of E*.
+            yield kinds(result), right | ({"tip", "creep"} if name == "steel" else set())
 
 
 def table(seeds=20):
@@ -131,12 +248,21 @@ def table(seeds=20):
                 counts["made"].update(made)
                 right["made"].update(made & true if covered else made)
                 curves["made"] += 1
+        for seed in range(seeds):
+            for result, true in of_unloadings(medium, seed):
+                counts["made"].update(kinds(result))
+                right["made"].update(kinds(result) & true)
+                curves["made"] += 1
+    for result, true in beside_fits():
+        counts["made"].update(kinds(result))
+        right["made"].update(kinds(result) & true)
+        curves["made"] += 1
     for made, true in of_measured():
         counts["measured"].update(made)
         right["measured"].update(made & true)
         curves["measured"] += 1
     rows = [
-        f"| remark | {curves['made']} made fits | {curves['measured']} fits of measured curves |",
+        f"| remark | {curves['made']} made cases | {curves['measured']} of measured curves |",
         "| --- | --- | --- |",
     ]
     for kind in KINDS:

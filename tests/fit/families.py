@@ -95,8 +95,8 @@ def covered(kind, fit):
 
 
 def told(fit):
-    """The kinds of the remarks on each curve, but that on a common drift, which all curves in time have."""
-    return [{remark.kind for remark in each.remarks} - {"rest"} for each in fit]
+    """The kinds of the remarks on each curve."""
+    return [{remark.kind for remark in each.remarks} for each in fit]
 
 
 def visible(kind, family, size):

@@ -112,24 +112,22 @@ class TestYielding:
         time = np.delete(np.insert(self.TIME, 400, self.TIME[400]), -1)
         return mdr.fit_indentation(CONE, depth + drift * self.TIME, force, time=time)
 
-    def test_without_a_hold_the_report_says_what_a_common_drift_would_do(self):
-        """It takes E* up by what the report says that it takes it down, to the second order of 4 %."""
+    def test_without_a_hold_a_common_drift_changes_the_modulus_by_some_per_cent(self):
+        """As the docstring of the fit says; of every record without a hold, so that it is no remark."""
         fit = self.fit(self.RAMP, 1e-10)
-        said = float(re.search(r"a drift of 100 pm/s over the .* would change E\* by (\S+) %", str(fit))[1])
-        bias = 100 * (fit.medium.E_star / METAL.E_star - 1)
-        assert 1 < bias < 6
-        assert said == approx(-bias, abs=0.1 * bias)
+        assert 0.01 < fit.medium.E_star / METAL.E_star - 1 < 0.06
+        assert not fit.remarks
 
     def test_a_hold_tells_it(self):
         fit = self.fit(self.HOLD, 1e-10)
-        (remark,) = [text for text in fit.remarks if "in the hold" in text]
+        (remark,) = [remark for remark in fit.remarks if remark.kind == "rest"]
         rate, said = re.search(
             r"depth changes by (\S+) pm/s: this is creep, or a drift.* by (\S+) %", remark
         ).groups()
         # Less what of the hold is not the hold: the force is the same to half a per cent.
         assert float(rate) == approx(100, rel=0.05)
         assert float(said) == approx(-100 * (fit.medium.E_star / METAL.E_star - 1), rel=0.15)
-        # Where nothing drifts nothing is said, of a common drift neither.
+        # Where nothing drifts nothing is said.
         assert not self.fit(self.HOLD, 0.0).remarks
 
     @pytest.mark.parametrize("noise", [0.004, 0.01, 0.02])
@@ -137,14 +135,12 @@ class TestYielding:
         """In 20 s at the largest load, with the noise of the force and none of the depth."""
         depth = 1e-9 * np.interp(self.TIME, [0, 5, 85, 105, 140], [-20, 0, 300, 300, 250])
         fit = self.fit(depth, 1e-10, noise, mdr.Medium(70e9, 2e3))
-        (remark,) = [text for text in fit.remarks if "hold at" in text]
+        (remark,) = [remark for remark in fit.remarks if remark.kind == "rest"]
         rate = float(re.search(r"depth changes by (\S+) pm/s", remark)[1])
         assert rate == approx(100, rel=0.05)
-        assert not [text for text in fit.remarks if "no hold" in text]
         # A ramp is none, whatever the noise.
         ramp = self.fit(self.RAMP, 1e-10, noise, mdr.Medium(70e9, 2e3))
-        assert "no hold shows the drift" in str(ramp)
-        assert not [text for text in ramp.remarks if "hold at" in text]
+        assert "rest" not in {remark.kind for remark in ramp.remarks}
 
 
 class TestData:

@@ -1,0 +1,82 @@
+"""The columns of measured curves that are given as arrays, or as curves that were read from a file."""
+
+from dataclasses import dataclass, field
+from types import EllipsisType
+from typing import Any
+
+import numpy as np
+
+from .._check import ArrayLike
+from ..measured_curve import MeasuredCurve, MeasuredCurves
+from ..numerics.results import Remark
+
+#: What is given as times: ... is those of the curve.
+Times = ArrayLike | EllipsisType | None
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Depth, force and time of one curve, or lists of those of many, as they were given.
+
+    `remarks` has those of each curve that was read; `unread` those on curves that are refused when they are
+    taken, by their numbers; `stiffness` that of a curve.
+    """
+
+    depth: Any
+    force: Any
+    time: Any
+    remarks: tuple[tuple[Remark, ...], ...] = ()
+    unread: dict[int, Remark] = field(default_factory=dict)
+    stiffness: Any = None
+
+
+def columns_of(depth, force, time, *, skip=False):
+    """`Columns` of arrays, a `MeasuredCurve`, or many, of which those that are refused may be skipped."""
+    if isinstance(depth, MeasuredCurve):
+        _refuse_force(force)
+        time = depth.time if time is ... else time
+        return Columns(depth.depth, depth.force, time, (depth.remarks,), stiffness=depth.stiffness)
+    if _are_curves(depth):
+        _refuse_force(force)
+        return _of_many(depth, time, skip)
+    if force is None:
+        raise ValueError("force is missing: give depth and force, or a MeasuredCurve in the place of depth")
+    return Columns(depth, force, None if time is ... else time)
+
+
+def _are_curves(depth):
+    if isinstance(depth, MeasuredCurves):
+        return True
+    return isinstance(depth, list | tuple) and any(isinstance(each, MeasuredCurve) for each in depth)
+
+
+def _refuse_force(force):
+    if force is not None:
+        raise ValueError(
+            "a MeasuredCurve has its own force: leave out force, or give curve.depth and force"
+        )
+
+
+def _of_many(curves, time, skip):
+    """`Columns` of many curves; their times where all of them have times."""
+    taken, unread = [], {}
+    for i in range(len(curves)):
+        try:
+            taken.append(curves[i])
+        except ValueError as error:
+            if not skip:
+                raise
+            taken.append(None)
+            unread[i] = Remark.of(error, "invalid")
+    read = [curve for curve in taken if curve is not None]
+    if time is ... and any(curve.time is None for curve in read):
+        time = None
+    none = np.full(1, np.nan)
+
+    def column(name):
+        return [none if curve is None else getattr(curve, name) for curve in taken]
+
+    remarks = tuple(() if curve is None else curve.remarks for curve in taken)
+    return Columns(
+        column("depth"), column("force"), column("time") if time is ... else time, remarks, unread
+    )
