@@ -41,7 +41,7 @@ class Creep:
 
 def creep(depth, force, time):
     """`Creep` of one unloading with the hold before it, None where the force is not held."""
-    held = _hold(time, force)
+    held = hold(time, force)
     if held is None:
         return None
     end = int(held[-1])
@@ -57,7 +57,7 @@ def creep(depth, force, time):
     return Creep(float(rate / scale), float(error / scale), end, float(time[end] - time[held[0]]))
 
 
-def _hold(time, force):
+def hold(time, force):
     """Samples at which the largest force is held, None if it is not.
 
     They lie between the times at which straight lines through the force before and after meet the median

@@ -6,18 +6,20 @@ import numpy as np
 
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
-from ..numerics.results import Remark
 from .errors import SIGNIFICANT, block_factors, block_length, roughness
 from .least_squares import least_squares
 
 #: Least number of samples in the air, and least share of the largest depth that these are long.
-LEAST_SAMPLES, _LEAST_LENGTH = 20, 0.02
+LEAST_SAMPLES, LEAST_LENGTH = 5, 0.02
+#: Most samples whose median and deviation are those of the air.
+_QUIET = 20
 #: Largest force that a trend of the air would have at the largest depth, as a share of the largest force.
 _CONSTANT = 0.01
 #: Shares of the largest force of a loading up to which a power law is fitted, from large to small.
 _SHARES = (1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01)
-#: The exponent of the loading may be so much smaller or larger than that of an elastic contact.
-_SOFTER, _STIFFER = 0.5, 1.0
+#: The exponent of the loading may be so much smaller or larger than that of an elastic contact; in a second
+#: search also as small as with a hardness that falls with the radius, and never below a number.
+_SOFTER, _SOFTEST, _STIFFER = (0.5, 1.2), 0.3, 1.0
 #: Trial contact points, as shares of the depth between the first sample and the first force that is seen.
 _STARTS = np.linspace(0.1, 1.0, 4)
 #: Least number of samples of a part that is fitted, standard deviations of noise that its force exceeds,
@@ -36,54 +38,69 @@ class FirstContact:
 
 
 def first_contact(profile, depth, force):
-    """`FirstContact` of a loading that begins in the air, or None; and a remark on why.
+    """`FirstContact` of a loading that begins in the air, or None; and the number of samples before it.
 
     F = F₀ + k (h − z₀)^m is fitted to the samples up to several shares of the largest force. A worn tip, or
     a medium that begins to yield, follows a power law over the beginning of the loading only: of the shares
-    the largest one is taken whose z₀ agrees with those of all smaller ones (Lepski, Theory Probab. Appl.
-    35, 1990, 454). The difference to these is part of its error. m is within 1/2 below and 1 above that of
-    an elastic contact.
+    whose z₀ agrees with those of all smaller ones (Lepski, Theory Probab. Appl. 35, 1990, 454) the one with
+    the smallest error is taken. The difference to smaller ones is part of it. m is within 1/2 below and 1
+    above that of an elastic contact.
     """
-    given = "depths are taken as given from first contact"
-    begin = f"the record does not begin with {LEAST_SAMPLES} samples in the air"
-    air = Remark(f"{given}: {begin}, or their force varies", "first contact")
     top = int(np.argmax(force))
     seen, level, noise = _first_seen(force[: top + 1])
     length = depth[top] - depth[0]
-    long = seen >= LEAST_SAMPLES and depth[seen] - depth[0] > _LEAST_LENGTH * length
+    long = seen >= LEAST_SAMPLES and depth[seen] - depth[0] > LEAST_LENGTH * length
     if not long or top - seen < _FEW:
-        return None, air
+        return None, 0
     # The last of the samples before may be in contact already, below the noise.
     quiet = slice(max(LEAST_SAMPLES, seen // 2))
-    if _trend(depth[quiet], force[quiet], noise) * length > _CONSTANT * (force[top] - level):
-        return None, air
-    contact = _contact_of_loading(profile, depth[: top + 1], force[: top + 1], seen, level, noise)
-    before = np.count_nonzero(depth[:seen] < contact.depth - 2 * contact.depth_error)
-    if before < LEAST_SAMPLES or contact.depth - depth[0] < _LEAST_LENGTH * length:
-        return None, air
-    return contact, None
+    if _trend(depth[quiet], force[quiet]) * length > _CONSTANT * (force[top] - level):
+        return None, 0
+    for softer in _SOFTER:
+        loading = depth[: top + 1], force[: top + 1]
+        contact = _contact_of_loading(profile, *loading, seen, level, noise, softer)
+        if softer > _SOFTER[0]:
+            # Such a force begins nearly at once, which is seen to the distance of samples.
+            step = depth[seen] - depth[seen - 1]
+            contact = replace(contact, depth_error=float(np.hypot(contact.depth_error, step)))
+        before = np.count_nonzero(depth[:seen] < contact.depth - 2 * contact.depth_error)
+        if before >= LEAST_SAMPLES and contact.depth - depth[0] >= LEAST_LENGTH * length:
+            return contact, before
+    return None, 0
+
+
+def contact_before(profile, depth, force):
+    """`FirstContact` before the first sample of a loading that begins in contact, without an offset."""
+    noise = roughness(force[None])[0, 0]
+    return _contact_of_loading(profile, depth, force, 0, 0.0, noise, _SOFTER[0])
 
 
 def _first_seen(force):
     """Index of the first sample whose force is seen, and the level and noise (N) of those before."""
-    quiet = force[:LEAST_SAMPLES]
-    level = np.median(quiet)
-    noise = max(roughness(force[None])[0, 0], np.std(quiet), 1e-12 * abs(force[-1] - level))
-    below = np.flatnonzero(force <= level + SIGNIFICANT * noise)
-    return (int(below[-1]) + 1 if below.size else 0), level, noise
+    rough, seen = roughness(force[None])[0, 0], 0
+    for _ in range(2):
+        # The first samples may be all that there is of the air; of more of them noise is better known.
+        quiet = force[: max(LEAST_SAMPLES, min(_QUIET, seen // 2))]
+        level = np.median(quiet)
+        noise = max(rough, np.std(quiet), 1e-12 * abs(force[-1] - level))
+        below = np.flatnonzero(force <= level + SIGNIFICANT * noise)
+        seen = int(below[-1]) + 1 if below.size else 0
+    return seen, level, noise
 
 
-def _trend(depth, force, noise):
-    """Slope (N/m) of the force in the air that is beyond its noise."""
-    x = depth - depth.mean()
-    squares = x @ x
-    slope = abs(x @ force) / max(squares, 1e-300)
-    return slope if slope > SIGNIFICANT * noise / np.sqrt(max(squares, 1e-300)) else 0.0
+def _trend(depth, force):
+    """Slope (N/m) of the force in the air that is beyond its scatter."""
+    x, y = depth - depth.mean(), force - force.mean()
+    squares = max(x @ x, 1e-300)
+    slope = x @ y / squares
+    scatter = np.sqrt(np.sum((y - slope * x) ** 2) / (x.size - 2) / squares)
+    return abs(slope) if abs(slope) > SIGNIFICANT * scatter else 0.0
 
 
-def _contact_of_loading(profile, depth, force, seen, level, noise):
+def _contact_of_loading(profile, depth, force, seen, level, noise, softer):
     """`FirstContact` of a loading whose force is seen from one sample on."""
-    exponents = _exponents(profile, depth[-1] - depth[0])
+    least, most = elastic_exponents(profile, depth[-1] - depth[0])
+    exponents = max(least - softer, _SOFTEST), most + _STIFFER
     parts, contacts = [], []
     for share in _SHARES:
         height = share * (force[-1] - level)
@@ -92,6 +109,7 @@ def _contact_of_loading(profile, depth, force, seen, level, noise):
             parts.append((depth[:end], force[:end]))
             contacts.append(_power_law(*parts[-1], seen, *exponents))
     contacts = [each for each in contacts if each.depth_error < np.inf]
+    agreeing = []
     for i, each in enumerate(contacts):
         smaller = contacts[i + 1 :]
         distances = [abs(each.depth - other.depth) for other in smaller]
@@ -101,7 +119,9 @@ def _contact_of_loading(profile, depth, force, seen, level, noise):
         ):
             others = zip(distances[:2], smaller[:2], strict=True)
             bias = max((min(distance, other.depth_error) for distance, other in others), default=0.0)
-            return replace(each, depth_error=float(np.hypot(each.depth_error, bias)))
+            agreeing.append(replace(each, depth_error=float(np.hypot(each.depth_error, bias))))
+    if agreeing:
+        return min(agreeing, key=lambda each: each.depth_error)
     # Where the exponent is not determined contact is between those of its bounds.
     part = parts[-1] if parts else (depth, force)
     ends = [_power_law(*part, seen, exponent, exponent) for exponent in exponents]
@@ -109,18 +129,21 @@ def _contact_of_loading(profile, depth, force, seen, level, noise):
     return replace(ends[0], depth=middle, depth_error=half)
 
 
-def _exponents(profile, largest):
-    """Least and largest exponent of a loading to a depth (m): those of elastic contacts, and beyond."""
+def elastic_exponents(profile, largest):
+    """Least and largest exponent m of F ∝ d^m of elastic contacts up to a depth (m)."""
     depth = min(largest, profile.known_depth) * np.array([0.05, 0.2, 1.0])
     force = integrals(profile).radius_integral(LiveInterval.elastic(depth))
     exponents = depth * profile.radius_at(depth) / force
-    return float(exponents.min()) - _SOFTER, float(exponents.max()) + _STIFFER
+    return float(exponents.min()), float(exponents.max())
 
 
 def _power_law(depth, force, seen, least, most):
-    """`FirstContact` by F₀ + k (h − z₀)^m with m within bounds; its error is infinite where m is at one."""
+    """`FirstContact` by F₀ + k (h − z₀)^m with m within bounds; its error is infinite where m is at one.
+
+    Without samples that are `seen` to be in the air F₀ is 0.
+    """
     size, origin, length = np.ptp(force), depth[0], depth[-1] - depth[0]
-    level = force[:seen].mean()
+    level = force[:seen].mean() if seen else 0.0
     x, y = (depth - origin) / length, (force - level) / size
 
     def function(parameters, _):
@@ -130,12 +153,13 @@ def _power_law(depth, force, seen, least, most):
         power = u**m
         by_depth = k * m * (power - np.where(u > 0, np.maximum(u, 1e-9) ** (m - 1), 0.0)) / reach
         by_exponent = k * power * np.log(np.maximum(u, 1e-300))
-        return F0 + k * power - y, np.stack([np.ones_like(power), power, by_depth, by_exponent], axis=-1)
+        by_level = np.full_like(power, 1.0 if seen else 0.0)
+        return F0 + k * power - y, np.stack([by_level, power, by_depth, by_exponent], axis=-1)
 
-    z = np.minimum(_STARTS * x[min(seen, x.size - 1)], 0.98)
+    z = np.minimum(_STARTS * x[min(seen, x.size - 1)], 0.98) if seen else -_STARTS
     start = np.column_stack([0 * z, 0 * z + y[-1], z, 0 * z + (least + most) / 2])
     # Of the baseline and the range of force in units of that of the samples, and of the contact point.
-    lower, upper = ([-1.0, 1e-3, -2.0, least], [1.0, 10.0, 1.0, most])
+    lower, upper = ([-1.0, 1e-3, -2.0 if seen else -50.0, least], [1.0, 10.0, 1.0, most])
     lower, upper = (np.tile(each, (z.size, 1)) for each in (lower, upper))
     minimum = least_squares(function, start, lower, upper, steps=60, tolerance=1e-8)
     best = int(np.argmin(minimum.squares))
@@ -147,7 +171,7 @@ def _power_law(depth, force, seen, least, most):
         _, s, vt = np.linalg.svd(jacobian, full_matrices=False)
         errors = np.linalg.norm(vt.T / np.maximum(s, 1e-14 * s[0]), axis=1) * scatter
         errors *= block_factors(residual, jacobian, block_length(residual))
-    air = np.std(force[:seen]) / np.sqrt(seen)
+    air = np.std(force[:seen]) / np.sqrt(seen) if seen else 0.0
     return FirstContact(
         float(origin + values[2] * length),
         float(errors[2] * length),

@@ -17,15 +17,13 @@ from ..show.quantities import engineering
 from . import creep as creeping
 from .columns import Times, columns_of
 from .errors import roughness
-from .first_contact import FirstContact, first_contact
+from .exponent import doubt
+from .iso_14577 import iso_numbers
 from .materials import doubts
-from .oliver_pharr_result import OliverPharr, OverDepth
-from .report import with_error
+from .oliver_pharr_result import ISO_14577, OliverPharr, OverDepth
 from .tip import of_ideal_tip
 from .unloading import last_at_top, laws_of, parts_of
-
-#: First contact of depths that are taken as they are given.
-_GIVEN = FirstContact(0.0, 0.0, 0.0, 0.0)
+from .zero import zero_of
 
 
 @_check.keywords_explained
@@ -138,26 +136,29 @@ def oliver_pharr(
     if stiffness is not None and (time is not None or cycles):
         raise ValueError("stiffness is measured at each sample: give it without time and cycles")
     columns = _columns(given.depth, given.force, time, stiffness)
-    depth, force = columns["depth"], columns["force"]
-    contact, begins = _contact(profile, depth, force)
-    depth, force = depth - contact.depth, force - contact.baseline
+    begin, contact, begins, in_contact = zero_of(profile, columns["depth"], columns["force"])
+    columns = {name: values[begin:] for name, values in columns.items()}
+    depth, force = columns["depth"] - contact.depth, columns["force"] - contact.baseline
+    begins = () if begins is None else (begins,)
     if stiffness is not None:
         values, errors, remarks = _over_depth(
             profile, depth, force, columns["stiffness"], constants, contact
         )
         # Near first contact single samples may be far off.
         middle = [np.nanmedian(values[name]) for name in ("E_star", "hardness")]
-        remarks = (*read, *remarks, begins, *doubts(*middle), *profile.remarks)
+        remarks = (*remarks, *begins, *doubts(*middle), *profile.remarks)
         remarks = (*remarks, *of_ideal_tip(profile, values["contact_depth"]))
-        return OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
+        result = OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
+        return _with_other_readings(result, read, in_contact, constants)
     parts, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
-    numbers, pairs = zip(*parts.items(), strict=True)
-    corrected, uncorrected = zip(*pairs, strict=True)
+    numbers, triples = zip(*parts.items(), strict=True)
+    corrected, uncorrected, iso = zip(*triples, strict=True)
     numbers = _check.frozen(numbers if cycles else numbers[0])
-    result = _collected(profile, corrected, contact, numbers, (*read, *remarks, begins))
+    result = _collected(profile, corrected, iso, contact, numbers, (*remarks, *begins))
+    result = _with_other_readings(result, read, in_contact, constants)
     if time is None:
         return result
-    return replace(result, uncorrected=_collected(profile, uncorrected, contact, numbers, ()))
+    return replace(result, uncorrected=_collected(profile, uncorrected, iso, contact, numbers, ()))
 
 
 def _one(remarks):
@@ -211,25 +212,6 @@ def _columns(depth, force, time, stiffness):
     return arrays
 
 
-def _contact(profile, depth, force):
-    """First contact of a record, and a remark on it."""
-    parts = parts_of(force - np.median(force[:20]))
-    loading = parts[0] if parts else slice(None)
-    contact, why = first_contact(profile, depth[loading], force[loading])
-    if contact is None:
-        return _GIVEN, why
-    point = with_error(*_rounded(depth, contact.depth, contact.depth_error), "m")
-    level = with_error(*_rounded(force, contact.baseline, contact.baseline_error), "N")
-    text = f"the record begins in the air: first contact at {point} is subtracted from the depth"
-    return contact, Remark(f"{text}, {level} from the force", "first contact")
-
-
-def _rounded(values, value, error):
-    """A value and its error without digits below 10⁻⁹ of the range of values, for a text."""
-    least = 1e-9 * np.ptp(values)
-    return round(value / least) * least, error if error > least else 0.0
-
-
 def _of_parts(profile, depth, force, time, constants, contact, cycles):
     """Values and errors by unloading, with and without a correction for creep; and remarks."""
     parts, results, remarks = parts_of(force), {}, []
@@ -240,7 +222,9 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
         moments = None if time is None else time[part]
         try:
             both, notes = _with_creep(profile, depth[part], force[part], moments, constants, contact)
-            results[number] = both
+            whole = part if every or not parts else slice(0, parts[taken - 1].stop)
+            iso = iso_numbers(profile, depth, force, time, whole, both)
+            results[number] = *both, iso
             remarks += [each.after(f"{which}: ") for each in notes] if cycles and len(parts) > 1 else notes
         except ValueError as error:
             if not cycles or len(parts) < 2:
@@ -260,7 +244,8 @@ def _with_creep(profile, depth, force, time, constants, contact):
     rise, notes = creeping.rise_of_depth(depth, force), []
     creep = None if time is None else creeping.creep(depth, force, time)
     try:
-        uncorrected = _values_and_errors(profile, depth, force, constants, contact)
+        laws = laws_of(depth, force)
+        uncorrected = _values_and_errors(profile, depth, laws, constants, contact)
     except ValueError as error:
         if rise and creep is None:
             raise Refusal(creeping.of_rise(rise, time is not None)) from error
@@ -270,38 +255,48 @@ def _with_creep(profile, depth, force, time, constants, contact):
     if creep is None:
         if rise:
             notes.append(creeping.of_rise(rise, time is not None))
+        elif remark := doubt(profile, depth.max(), laws, time is not None):
+            notes.append(remark)
         if time is not None:
             notes.append(creeping.NO_HOLD)
         return (uncorrected, uncorrected), notes
+    depths = [creep.without(depth, time, n) for n in (0, 1)]
+    laws = [laws_of(each, force) for each in depths]
     corrected, shifted = (
-        _values_and_errors(profile, creep.without(depth, time, n), force, constants, contact)
-        for n in (0, 1)
+        _values_and_errors(profile, *each, constants, contact) for each in zip(depths, laws, strict=True)
     )
     corrected[1] = np.hypot(corrected[1], shifted[0] - corrected[0])
     share = creeping.share_of_compliance(creep.rate, corrected[0, 0], force, time, creep.end)
     if rise or share > creeping.COUNTS:
         notes.append(creeping.of_share(share))
+    if remark := doubt(profile, depth.max(), laws[0], True):
+        notes.append(remark)
     notes.append(creeping.of_hold(creep.length))
     return (corrected, uncorrected), notes
 
 
-def _values_and_errors(profile, depth, force, constants, contact):
-    """Results of one unloading and their standard errors, (2, 5), in the order of `OliverPharr`."""
+def _values_and_errors(profile, depth, laws, constants, contact):
+    """Results and standard errors of the `Laws` of an unloading, (2, 5), in the order of `OliverPharr`."""
     epsilon, beta = constants
 
     def results(F, S, m, shift=0.0):
         contact_depth = depth.max() + shift - epsilon * F / S
         return np.stack([S, contact_depth, *_moduli(profile, contact_depth, F, S, beta), m]).T
 
-    solution, deviations, others = laws_of(depth, force)
-    values, *noisy = results(*np.column_stack([solution, solution[:, None] + deviations]))
+    solution = laws.solution
+    values, *noisy = results(*np.column_stack([solution, solution[:, None] + laws.deviations]))
     # A contact radius of 0 or ∞ makes the modulus or the hardness so.
     if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
         contact_depth = engineering(values[1], "m")
         text = f"the contact depth h − ε F/S = {contact_depth} must be positive and within the profile"
         raise _not_from_contact(text)
-    parts = [values, *(results(*other) for other in others)]
-    spread = np.ptp([part for part in parts if np.isfinite(part).all()], axis=0) / 2
+    others, further = (
+        [part for part in (results(*each) for each in group) if np.isfinite(part).all()]
+        for group in (laws.others, laws.further)
+    )
+    spread = np.ptp([values, *others], axis=0) / 2
+    if laws.bends(depth.max()):
+        spread = np.abs(np.array([values, *others, *further]) - values).max(axis=0)
     errors = np.maximum(np.linalg.norm(np.array(noisy) - values, axis=0), spread)
     if contact.depth_error:
         shifted = results(*solution, shift=-contact.depth_error)
@@ -363,7 +358,7 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     return frozen, {name: _check.frozen(error) for name, error in errors.items()}, remarks
 
 
-def _collected(profile, results, contact, numbers, remarks):
+def _collected(profile, results, iso, contact, numbers, remarks):
     """An `OliverPharr` of the values and errors of unloadings by number, or of one where that is one."""
     columns = np.array(results) if numbers.ndim else np.array(results[0])
     names = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
@@ -375,9 +370,29 @@ def _collected(profile, results, contact, numbers, remarks):
     values |= {"contact_point": _check.frozen(np.full(shape, contact.depth)), "unloading": numbers}
     if contact.depth_error:
         errors["contact_point"] = _check.frozen(np.full(shape, contact.depth_error))
+    columns = zip(ISO_14577, np.array(iso if numbers.ndim else iso[0]).T, strict=True)
+    values |= {name: _check.frozen(each) for name, each in columns if not np.all(np.isnan(each))}
     remarks = [*remarks, *doubts(values["E_star"], values["hardness"]), *profile.remarks]
     remarks += of_ideal_tip(profile, values["contact_depth"])
     return OliverPharr(profile=profile, **values, standard_errors=errors, remarks=tuple(remarks))
+
+
+def _with_other_readings(result, read, in_contact, constants):
+    """The results, with remarks of the file, and on other first contacts if the depth is 0 at a force."""
+    if in_contact is None:
+        return replace(result, remarks=(*read, *result.remarks))
+    epsilon, beta = constants
+    S, h_c = result.stiffness, result.contact_depth
+    F = result.hardness * np.pi * (S / (2 * beta * result.E_star)) ** 2
+    shifted = F - in_contact.force
+    pairs = (
+        (result.E_star, result.hardness),
+        _moduli(result.profile, h_c - in_contact.depth, F, S, beta),
+        _moduli(result.profile, h_c + epsilon * in_contact.force / S, shifted, S, beta),
+    )
+    # One number of several unloadings or samples.
+    remark = in_contact.remark(*(tuple(float(np.nanmedian(each)) for each in pair) for pair in pairs))
+    return replace(result, remarks=(*read, remark, *result.remarks))
 
 
 def _radius_at_height(profile, height):

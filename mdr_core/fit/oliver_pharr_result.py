@@ -9,6 +9,7 @@ from ..numerics.results import Record, Remark
 from ..profiles.profile import Profile
 from ..show.quantities import QUANTITIES, Quantity, described, engineering
 from ..show.report import rows
+from .iso_14577 import is_pyramid
 from .report import with_error
 
 if TYPE_CHECKING:
@@ -21,7 +22,14 @@ OLIVER_PHARR = QUANTITIES | {
     "hardness": Quantity("H", "Pa", "hardness"),
     "exponent": Quantity("m", "", "exponent"),
     "contact_point": Quantity("z₀", "m", "first contact"),
+    "elastic_work_ratio": Quantity("n_IT", "", "elastic work ratio"),
+    "indentation_creep": Quantity("C_IT", "", "indentation creep"),
+    "martens_hardness": Quantity("HM", "Pa", "Martens hardness"),
 }
+#: Quantities of ISO 14577, which a record may lack, and those that are printed in per cent.
+ISO_14577 = ("elastic_work_ratio", "indentation_creep", "martens_hardness")
+_RATIOS = ISO_14577[:2]
+_NO_PYRAMID = "none: of Berkovich and Vickers pyramids only, cones of 70.2° to 70.4°"
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -51,16 +59,31 @@ class OliverPharr(Record):
     uncorrected: "OliverPharr | None" = None
     #: Number of the unloading in the record, from 1 on; those that are left out are counted.
     unloading: Any = None
+    #: Quantities of ISO 14577, each None where the record lacks it, NaN for such an unloading of several:
+    #: n_IT, the work that the unloading gives back over that of the loading and the hold before it; C_IT,
+    #: (h₂ − h₁)/h₁ of the depths at both ends of a hold; HM (Pa), F/(26.43 h²) at the end of the loading,
+    #: of the cone of a Berkovich or Vickers pyramid.
+    elastic_work_ratio: Any = None
+    indentation_creep: Any = None
+    martens_hardness: Any = None
 
     _dimensions = ("unloading",)
-    _quantities = ("stiffness", "contact_depth", "E_star", "hardness", "exponent", "contact_point")
+    _quantities = (
+        *("stiffness", "contact_depth", "E_star", "hardness", "exponent", "contact_point"),
+        *ISO_14577,
+    )
     _shown = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
 
     def __getitem__(self, index: Any) -> "OliverPharr":
         if not self.shape:
             return super().__getitem__(index)
         errors = {name: error[index] for name, error in self.standard_errors.items()}
-        values = {name: getattr(self, name)[index] for name in self._quantities}
+        values = {name: getattr(self, name) for name in self._quantities}
+        values = {name: value if value is None else value[index] for name, value in values.items()}
+        for name in set(ISO_14577) & set(values):
+            value = values[name]
+            if value is not None and np.all(np.isnan(value)):
+                values[name] = None
         if self.unloading is not None:
             values["unloading"] = self.unloading[index]
         uncorrected = None if self.uncorrected is None else self.uncorrected[index]
@@ -93,12 +116,19 @@ class OliverPharr(Record):
             texts = dict(self.uncorrected._texts())
             text = f"E* {texts['E_star']}, H {texts['hardness']}"
             yield "uncorrected for creep", text
+        if not is_pyramid(self.profile):
+            yield OLIVER_PHARR["martens_hardness"].long_name, _NO_PYRAMID
         yield from (("remark", remark) for remark in self.remarks)
 
     def _texts(self):
         """Names of the quantities of one unloading, and their values with errors."""
         for name, error in self.standard_errors.items():
             yield name, with_error(getattr(self, name), error, OLIVER_PHARR[name].unit)
+        for name in ISO_14577:
+            value = getattr(self, name)
+            if value is not None:
+                text = engineering(*((100 * value, "%") if name in _RATIOS else (value, "Pa")))
+                yield name, text
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)

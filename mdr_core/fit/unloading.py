@@ -1,6 +1,7 @@
 """Unloadings of a curve, and the power law of one: force, stiffness and exponent at the largest depth."""
 
 from contextlib import suppress
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,6 +15,8 @@ from .least_squares import least_squares
 _LOWER, _UPPER = np.array([[0.1, 1e-3, 0.5]]), np.array([[10.0, 1e3, 50.0]])
 #: Shares of the largest force from and to which the unloading is fitted: those of the result, and others.
 _SHARES = (0.99, 0.5), (0.99, 0.4), (0.99, 0.3), (0.95, 0.5), (0.95, 0.4), (0.95, 0.3)
+#: Further ones, which count where m is above a number, and more than a share of the largest depth remains.
+_FURTHER, _BENT, _REMAINS = ((0.99, 0.2), (0.95, 0.2)), 1.5, 0.25
 #: Least fall and rise of the force, as shares of the peak before, that part one unloading from the next;
 #: least peak, as a share of the largest force; standard deviations of noise that they exceed.
 _FALL, _PEAK, _NOISE = 0.1, 0.01, 6.0
@@ -43,17 +46,54 @@ def last_at_top(depth):
     return int(np.flatnonzero(depth == depth.max())[-1])
 
 
-def laws_of(depth, force):
-    """Force, stiffness and exponent of an unloading, their deviations, and those of other parts of it.
+@dataclass(frozen=True)
+class Laws:
+    """Force (N), stiffness (N/m) and exponent of an unloading at its largest depth.
 
-    Deviations are the independent ones of the scatter about the power law, arrays (3, 3).
+    `deviations` are the independent ones of the scatter about the power law, arrays (3, 3); `others` and
+    `further` are force, stiffness and exponent of other parts of the unloading.
     """
+
+    solution: np.ndarray
+    deviations: np.ndarray
+    others: list
+    further: list
+
+    @property
+    def exponent(self):
+        """Exponent m."""
+        return float(self.solution[2])
+
+    @property
+    def scatter(self):
+        """Standard deviation of m by the scatter about the power law."""
+        return float(np.linalg.norm(self.deviations[2]))
+
+    @property
+    def exponents(self):
+        """Least and largest m of the parts."""
+        all_of = [self.exponent, *(float(m) for _, _, m in self.others)]
+        return min(all_of), max(all_of)
+
+    def remaining(self, depth):
+        """Share of the largest depth (m) that remains after the unloading, by the power law."""
+        force, stiffness, m = self.solution
+        return 1 - float(m * force / stiffness / depth) if depth > 0 else 0.0
+
+    def bends(self, depth):
+        """Whether m is larger than that of unloadings after which some of the largest depth (m) remains."""
+        return self.exponent > _BENT and self.remaining(depth) > _REMAINS
+
+
+def laws_of(depth, force):
+    """`Laws` of an unloading."""
     solution, deviations = _power_law(*_part(depth, force, *_SHARES[0]))
-    others = []
-    for shares in _SHARES[1:]:
-        with suppress(ValueError):
-            others.append(_power_law(*_part(depth, force, *shares))[0])
-    return solution, deviations, others
+    others, further = [], []
+    for laws, parts in ((others, _SHARES[1:]), (further, _FURTHER)):
+        for shares in parts:
+            with suppress(ValueError):
+                laws.append(_power_law(*_part(depth, force, *shares))[0])
+    return Laws(solution, deviations, others, further)
 
 
 def _part(depth, force, upper, lower):

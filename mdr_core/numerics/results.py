@@ -168,6 +168,7 @@ KINDS = {
     "left out": "columns, tables, unloadings or measurements that are left out",
     "several": "which one of several curves or unloadings was taken",
     "corrected": "what is subtracted from the depth",
+    "zero": "the depth is 0 where the force is not",
     "first contact": "from where depth and force of an unloading count",
     "hold": "the hold of the force before the unloading, which shows its creep",
     "area": "where a tip is another one than that of its area function",
@@ -311,7 +312,7 @@ class Record:
         )
 
     def to_dict(self) -> "dict[str, float | NDArray[np.float64]]":
-        """All quantities by name, in SI units: floats, or arrays of one shape.
+        """All quantities by name, in SI units: floats, or arrays of one shape. Those that are None are not.
 
         Examples
         --------
@@ -319,7 +320,8 @@ class Record:
         >>> indent(Cone(slope=1.0), Medium(E_star=1.0), [0.0, 1.0]).to_dict()["force"].round(4).tolist()
         [0.0, 0.6366]
         """
-        values = {name: np.asarray(getattr(self, name)) for name in self._quantities}
+        values = {name: getattr(self, name) for name in self._quantities}
+        values = {name: np.asarray(value) for name, value in values.items() if value is not None}
         return {name: value if value.ndim else float(value) for name, value in values.items()}
 
     def to_pandas(self) -> "pandas.DataFrame":

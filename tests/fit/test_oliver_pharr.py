@@ -286,7 +286,7 @@ class TestCycles:
         relaxed[698:897] = np.linspace(depth[547], depth[896], 199)
         result = mdr.oliver_pharr(BERKOVICH, relaxed, force, cycles=True)
         assert result.E_star == approx([self.MODULUS] * 2, rel=1e-11)
-        remark, _ = result.remarks
+        (remark,) = result.remarks
         assert remark.startswith("unloading 2 of 3 is left out:")
         assert "depth and force must decrease" in remark
 
