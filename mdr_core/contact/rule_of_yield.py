@@ -11,7 +11,7 @@ that has yielded throughout carries π a² σ_c(a), so that its elements are com
 
     u_c(a) = π a σ_c(a)/(2E*) = (π/2E*)(H a + q_c + f_c/a)
 
-at most, where a is the contact radius on loading: `radius_cap`, and `own_cap` for a law of one's own.
+at most, where a is the contact radius on loading: `radius_cap`, and `own.cap` for a law of one's own.
 `yielding` chooses among these.
 """
 

@@ -8,10 +8,10 @@ from functools import singledispatch
 
 import numpy as np
 
+from .._door import above
 from ..medium import Medium
 from ..profiles.profile import Profile
 from .integrals import integrals
-from .own_cap import OwnCap
 from .radius_cap import RadiusCap
 from .rule_of_yield import ConstantCap, YieldRule
 
@@ -31,7 +31,7 @@ def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
     if medium.inverse_to_radius:
         return ConstantCap.of(profile, medium.E_star, medium.q_c)
     if medium.has_own_law:
-        return OwnCap.of(profile, medium)
+        return above("own.cap").OwnCap.of(profile, medium)
     if np.any(medium.hardness) and not integrals(profile).convex:
         raise ValueError(
             "a hardness above 0 is not computed under a shape that is not convex: where g(x)/x falls, a "

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..contact.radius_cap import RadiusCap
 from ..numerics.blocks import broadcast_flat, chunks
-from .radius_cap import RadiusCap
 
 #: Halvings of a piece of the plastic work: to 10⁻⁹ of its length, as at a kink.
 _HALVINGS = 30
