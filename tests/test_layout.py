@@ -61,10 +61,8 @@ BEHIND = {
         "contact.loading": "indent",
         "contact.pressure": "a field of the result",
         "contact.quadrature": "integrals of a shape without closed forms",
-        "contact.radius_cap": "the rule of yield of any sum of classes",
-        "contact.rule_of_yield": "the rule of yield",
         "contact.stress": "a field of the result",
-        "contact.yielding": "the rule of yield of a shape on a medium",
+        "contact.yielding": "the rule of yield",
         "numerics.blocks": "arrays are treated in blocks",
         "numerics.stable": "differences of powers without loss of digits",
         "profiles.radius_table": "contact radii of shapes that have no formula for them",
@@ -87,7 +85,7 @@ BEHIND = {
 # What the chain bears witness of.
 CHECKED = {
     "contact.live_interval", "contact.quadrature", "contact.integrals", "contact.yielding",
-    "contact.rule_of_yield", "contact.radius_cap", "own.cap",
+    "own.cap",
     "contact.closed_forms", "contact.adhesion", "contact.pressure", "contact.indentation",
     "contact.loading", "contact.unloading", "contact.creep_loading", "contact.creep_retreat",
     "contact.creep_states", "contact.creep", "impacts.impact",

@@ -14,8 +14,7 @@ from . import adhesion
 from .indentation import Indentation
 from .integrals import integrals
 from .live_interval import LiveInterval
-from .rule_of_yield import ConstantCap
-from .yielding import yield_rule
+from .yielding import ConstantCap, yield_rule
 
 
 @_check.keywords_explained

@@ -26,8 +26,7 @@ from ..contact.adhesion import (
 from ..contact.indentation import Indentation
 from ..contact.integrals import tabulated_for
 from ..contact.live_interval import LiveInterval
-from ..contact.rule_of_yield import ConstantCap
-from ..contact.yielding import yield_rule
+from ..contact.yielding import ConstantCap, yield_rule
 from ..medium import Medium
 from ..numerics.blocks import LONG, chunks
 from ..numerics.gauss import gauss_legendre

@@ -10,8 +10,7 @@ import numpy as np
 
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
-from ..contact.rule_of_yield import YieldRule
-from ..contact.yielding import yield_rule
+from ..contact.yielding import YieldRule, yield_rule
 from ..numerics.gauss import gauss_legendre
 
 #: Gauss nodes of the work in each step.

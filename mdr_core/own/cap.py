@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..contact.radius_cap import RadiusCap
+from ..contact.yielding import RadiusCap
 from ..numerics.blocks import broadcast_flat, chunks
 
 #: Halvings of a piece of the plastic work: to 10⁻⁹ of its length, as at a kink.
