@@ -91,7 +91,7 @@ CHECKED = {
     "contact.creep_states", "contact.creep", "impacts.impact",
     "impacts.energy_balance", "impacts.adhesive", "impacts.contact_time", "impacts.time_quadrature",
     "impacts.result", "impacts.viscous", "impacts.equation_of_motion",
-    "impacts.collocation_steps", "impacts.motion_solver", "impacts.dense_motion", "impacts.motion",
+    "impacts.collocation_steps", "impacts.motion_solver", "impacts.motion",
     "impacts.scaling", "impacts.snap", "profiles.radius_table", "contact.stress",
 }  # fmt: skip
 

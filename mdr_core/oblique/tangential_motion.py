@@ -13,10 +13,9 @@ from .. import _check
 from .._check import Array
 from .._door import above
 from ..numerics.results import Entries
-from .depth_levels import MOST_LEVELS, levels
 from .dry_friction import solve_dry
 from .dry_levels import NormalMotions
-from .viscous_friction import SLOWEST, RunQuantities, bound_ratio, slide
+from .viscous_friction import MOST_LEVELS, SLOWEST, RunQuantities, bound_ratio, levels, slide
 
 #: Relative error of the normal motion, and of closed forms that follow from it.
 EXACT = 1e-9
