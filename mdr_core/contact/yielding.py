@@ -17,7 +17,7 @@ alone some profiles have closed forms. `yield_rule` chooses among these.
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from functools import singledispatch
+from functools import cached_property, singledispatch
 from typing import Any
 
 import numpy as np
@@ -32,6 +32,11 @@ from ..profiles.profile import Profile
 from .integrals import integrals
 from .live_interval import LiveInterval
 
+#: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
+#: transition depth. Contact times of five shapes over seven decades of speed then have errors of 5·10⁻¹¹
+#: at most, without them 3·10⁻⁶, with half of these depths 7·10⁻¹⁰, and with twice these depths 5·10⁻¹²:
+#: `python -m tests.benchmarks.constants`.
+TRANSITIONS = np.array([1.0, 6.0])
 #: Gauss nodes of the plastic work in each piece. Works of five shapes over seven decades of speed then have
 #: errors of 4·10⁻¹⁵ at most, with 16 nodes 7·10⁻¹³: measured by `python -m tests.benchmarks.constants`.
 _NODES = 24
@@ -128,12 +133,9 @@ class YieldRule(_check.Parameters, ABC):
         width, yields = self.profile.radius_at(interval.upper), increase > 0
         return np.where(yields, self.yielding_width(interval), width) if np.any(yields) else width
 
-    def breaks(self, imprint, increase, onset):
-        """Distances (m) past the penetration `onset` (m) at which a loading is cut into smooth pieces.
-
-        A row for each loading, which increases the plastic depth of an imprint by `increase` (m).
-        """
-        return self.scales * onset
+    def breaks(self, imprint, deepest):
+        """The `Breaks` of loadings over imprints down to the `deepest` depths (m), both of shape (N, 1)."""
+        return Breaks(self, imprint, deepest)
 
     def wall_integral(self):
         """∫ a ds (m²) of a contact that has yielded throughout behind a wall, infinite without a wall."""
@@ -150,6 +152,64 @@ class YieldRule(_check.Parameters, ABC):
         `energy` is the kinetic energy over 2E* (m³).
         """
         return None
+
+
+@dataclass(frozen=True, eq=False)
+class Breaks:
+    """Where a loading is not smooth, or goes over to another power of the depth: penetrations (m).
+
+    They count from the bottom of an imprint, with a row for each loading and a column for each place, and
+    may lie beyond its end. At the onset and at kinks the stiffness has a kink; elsewhere all is smooth.
+
+    Attributes
+    ----------
+    rule : YieldRule
+        The rule, of a profile or of N of shape (N, 1).
+    imprint, deepest : ndarray, shape (N, 1)
+        Plastic depth (m) of the imprint, and depth (m) of the end. Without kinks that no loading passes.
+    """
+
+    rule: YieldRule
+    imprint: np.ndarray
+    deepest: np.ndarray
+
+    @cached_property
+    def onset(self):
+        """Where yield begins, (N, 1); infinite where nothing yields."""
+        return self.rule.penetration(self.imprint, self.imprint)
+
+    @cached_property
+    def upper(self):
+        """Where the upper end of the live interval, the depth of the indenter, passes a kink of g."""
+        return self._kinks_above(self.deepest) - self.imprint
+
+    @cached_property
+    def lower(self):
+        """Where the lower end, the plastic depth, passes a kink of g."""
+        kinks = self._kinks_above(self.rule.plastic_depth(self.deepest))
+        return self.rule.penetration(kinks, self.imprint) if kinks.size else kinks - self.imprint
+
+    @property
+    def transitions(self):
+        """Where the upper end comes to where a(s) goes over to another power, if that is known."""
+        depth = self.rule.profile.transition_depth
+        depths = np.empty((1, 0)) if depth is None else np.reshape(depth, (-1, 1)) * TRANSITIONS
+        return depths - self.imprint
+
+    @property
+    def scales(self):
+        """Where the distance past the onset is one of the rule's `scales`."""
+        return self.onset * (1 + self.rule.scales)
+
+    @property
+    def halved(self):
+        """Where pieces of the plastic work had to be halved: nowhere under laws of the library."""
+        return np.empty((len(self.imprint), 0))
+
+    def _kinks_above(self, depth):
+        """Depths (m) of kinks from the undeformed surface, without those below all of these depths (m)."""
+        kinks = [np.reshape(kink, (-1, 1)) for kink in self.rule.profile.kinks if np.any(kink < depth)]
+        return np.hstack(kinks) if kinks else np.empty((1, 0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,13 +357,10 @@ class RadiusCap(YieldRule):
 
     def _cuts(self, imprint, increase):
         """Penetrations (m), ascending in each row, between which the plastic work is smooth."""
-        first = self._penetration(imprint, 0 * increase)
         last = np.minimum(self._penetration(imprint, increase), self.profile.known_depth - imprint)
-        # Those that neither end of the live interval reaches would cut nothing.
-        kinks = [kink - imprint for kink in self.profile.kinks if np.any(kink < imprint + last)]
-        passed_by_lower = [self._penetration(imprint, kink) for kink in kinks if np.any(kink < increase)]
-        cuts = np.hstack([first, *kinks, *passed_by_lower, first * (1 + self.scales), last])
-        return np.sort(np.clip(cuts, first, last), axis=1)
+        at = self.breaks(imprint, imprint + last)
+        cuts = np.hstack([at.onset, at.upper, at.lower, at.scales, last])
+        return np.sort(np.clip(cuts, at.onset, last), axis=1)
 
     def piece(self, start, stop, imprint, increase):
         """∫ u_c a(p) dp between two penetrations (m), one piece a row of (N, 1); 0 where stop is start."""

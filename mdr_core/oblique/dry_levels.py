@@ -90,10 +90,13 @@ class NormalMotions:
         """The `DryLevels` with so many steps of loading below the imprint, and so many above it.
 
         Loading stops at levels from 0 to d_max = d_p + ℓ, and unloading from there at the same ones down to
-        d_p. Some `depths` (m) of all impacts are levels as well; so are the onset of yield and the kinks.
+        d_p. Some `depths` (m) of all impacts are levels as well; so are the onset of yield, and the
+        depths at which either end of the live interval passes a kink.
         """
         imprint, live_depth = self.plastic_depth, self.live_depth
-        known = self.rule.onset(), *self.profile.kinks, *depths
+        column = self.rule.entries((slice(None), None), imprint.shape)
+        breaks = column.breaks(0 * imprint[:, None], (imprint + live_depth)[:, None])
+        known = [*breaks.onset.T, *breaks.upper.T, *breaks.lower.T, *depths]
         known = np.array([np.broadcast_to(depth, imprint.shape) for depth in known])
         deep = np.sort(np.vstack([self._even_below(below), np.minimum(known, imprint)]), axis=0)
         # From here on in live depths: those that are not between 0 and ℓ are moved to 0.

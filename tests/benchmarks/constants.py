@@ -2,7 +2,7 @@
 
 python -m tests.benchmarks.constants
 
-For `TRANSITIONS` and `NODES` (time_quadrature.py), `scales` and `_NODES` (yielding.py):
+For `NODES` (time_quadrature.py), `TRANSITIONS`, `scales` and `_NODES` (yielding.py):
 the largest relative error over impacts of five shapes with a transition depth, from far
 below it to far above, against much denser cuts, or more nodes; for `_NODES` (creep_loading.py) that of the
 work of the dashpots in creep. For the shares of steps in `motion_solver`: how many steps viscous impacts
@@ -154,7 +154,7 @@ def main():
     shares = [np.array(share) for share in shares]
     dense = np.geomspace(0.1, 100.0, 17)
     for what, medium in MEDIA.items():
-        table(f"TRANSITIONS, {what}", medium, time_quadrature, "TRANSITIONS", shares, dense)
+        table(f"TRANSITIONS, {what}", medium, yielding, "TRANSITIONS", shares, dense)
     creep_table((4, 6, 8, 12, 16), 40)
     for what, medium in MEDIA.items():
         rule = RadiusCap if medium.f_c else YieldRule
