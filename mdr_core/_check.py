@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, ParamSpec, Protocol, Self, TypeVar
 
 import numpy as np
 
+from ._door import above
 from ._errors import InvalidArgument, InvalidEntries, shown
-from ._hints import keyword_hint, model_hint, quantity_hint
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -245,7 +245,7 @@ def _refuse_keywords(name, keywords, parameters):
     """Refuses keywords that are no parameters, and names the parameters."""
     for keyword in keywords:
         if parameters is not None and keyword not in parameters:
-            hint = keyword_hint(name, keyword)
+            hint = above("show.hints").keyword_hint(name, keyword)
             said = f"{name} has no parameter {keyword!r}; it has {', '.join(parameters)}"
             raise TypeError(f"{said}. {hint}" if hint else said)
 
@@ -273,10 +273,10 @@ def no_attribute(owner, name, known):
     That is the name that is known for what the field calls so, else the nearest one.
     """
     if owner == "mdr_core":
-        hint = model_hint(name)
+        hint = above("show.hints").model_hint(name)
         suggestion = f": {hint}" if hint else ""
     else:
-        hint = quantity_hint(name, known)
+        hint = above("show.hints").quantity_hint(name, known)
         suggestion = f"; {hint}" if hint else ""
     nearest = difflib.get_close_matches(name, known, 1)
     if nearest and not hint:

@@ -4,10 +4,9 @@ import numpy as np
 
 from . import _check
 from ._check import shown
-from .hardness_check import check_law
+from ._door import above
 from .medium import Medium
-from .profiles.profile import Profile
-from .profiles.shape_check import check_shape, check_tips
+from .profiles.profile import Profile, is_own
 
 
 def check_pair(profile, medium, what=None):
@@ -17,7 +16,8 @@ def check_pair(profile, medium, what=None):
     if type(profile).__hash__ is None:
         name = type(profile).__name__
         raise TypeError(f"{name} must not change once it is made: declare it with @dataclass(frozen=True)")
-    check_tips(profile)
+    if is_own(profile):
+        above("own.shape").check_tips(profile)
     if not isinstance(medium, Medium):
         raise TypeError(f"medium must be a Medium, got {shown(medium)}")
     if what and (profile.shape or medium.shape):
@@ -46,10 +46,22 @@ def check_reached(profile, medium, depth):
     check_hardness(profile, medium, depth)
 
 
+def check_shape(profile, depth):
+    """Refuses a shape of a user's own that is none at the contact radii of depths (m)."""
+    if is_own(profile):
+        above("own.shape").check_shape(profile, depth)
+
+
+def check_slopes(profile, depth):
+    """Refuses a shape of a user's own whose g′ is not the slope of g up to depths (m)."""
+    if is_own(profile):
+        above("own.shape").check_slopes(profile, depth)
+
+
 def check_hardness(profile, medium, depth):
     """Refuses a medium whose law of hardness is none at the contact radii of depths (m)."""
     if medium.has_own_law:
-        check_law(medium.hardness, profile, depth)
+        above("own.law").check_law(medium.hardness, profile, depth)
 
 
 def paths_on(profile, medium, depth):

@@ -7,7 +7,8 @@ import numpy as np
 
 from . import _check
 from ._check import Array, ArrayLike, Parameter, shown
-from .hardness import HardnessLaw, SumOfClasses, law_numbers
+from ._door import above
+from .hardness import HardnessLaw, SumOfClasses
 from .transverse_isotropy import effective_modulus
 
 
@@ -423,7 +424,8 @@ class Medium(_check.Parameters):
         """
         a = _check.positive("radius", radius, unit="m")
         _check.common_shape("hardness_at", radius=a, medium=np.empty(self.shape))
-        hardness = law_numbers(self.law, "at", a)
+        own = self.has_own_law
+        hardness = above("own.law").law_numbers(self.law, "at", a) if own else self.law.at(a)
         bound = "is no hardness: it must be above 0"
         _check.refuse("hardness", hardness, ~(hardness > 0), bound, unit="Pa", advice="mend the law")
         return _check.frozen(hardness + np.zeros(np.shape(a)))

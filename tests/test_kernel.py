@@ -77,6 +77,42 @@ def test_what_is_above_it_is_missing_there(kernel):
     assert "No module named 'mdr_core.oblique'" in result.stderr
 
 
+OWN_SHAPE = """
+from dataclasses import dataclass
+import numpy as np
+import mdr_core as mdr
+
+@dataclass(frozen=True)
+class Own(mdr.Profile):
+    height_at = lambda self, r: 0.1 * r
+    reduced_at = lambda self, x: 0.05 * np.pi * x
+    reduced_slope_at = lambda self, x: 0.05 * np.pi + 0 * x
+"""
+OWN_LAW = """
+from dataclasses import dataclass
+import mdr_core as mdr
+
+@dataclass(frozen=True)
+class Own(mdr.HardnessLaw):
+    at = lambda self, a: 1e7 + 0 * a
+    rate = lambda self, a: 0 * a
+"""
+
+
+@pytest.mark.parametrize(
+    ("own", "call"),
+    [
+        (OWN_SHAPE, "mdr.indent(Own(), mdr.Medium(1e9), 1e-9)"),
+        (OWN_SHAPE, "mdr.chain_impact(Own(), mdr.Medium(1e9, 1.0), 1e-9, 0.1)"),
+        (OWN_LAW, "mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9, hardness=Own()), 1e-9)"),
+    ],
+)
+def test_what_a_user_wrote_needs_the_room_above_it(kernel, own, call):
+    """It is refused by the name of what is missing, and not solved without a check."""
+    result = run(kernel, "-c", own + call)
+    assert "No module named 'mdr_core.own'" in result.stderr
+
+
 @pytest.mark.slow
 def test_all_of_its_tests_are_collected_and_some_pass(kernel):
     pytest.importorskip("mpmath")

@@ -1,4 +1,4 @@
-"""How the package is laid out: what it shows, and that imports point down only."""
+"""How the package is laid out: what it shows, what stands behind a call, and that imports point down."""
 
 import ast
 import inspect
@@ -18,26 +18,80 @@ from .approx import approx
 PACKAGE = Path(mdr.__file__).parent
 #: From the bottom up; what is of one folder may import what stands below it, and others of the folder.
 KERNEL = (
-    "_errors", "_read_only", "_hints", "_check", "numerics", "abel", "profiles", "hardness",
-    "hardness_check", "transverse_isotropy", "medium", "structure", "applicability", "foundation",
-    "contact", "impacts",
+    "_errors", "_read_only", "_door", "_check", "numerics", "abel", "profiles", "hardness",
+    "transverse_isotropy", "medium", "structure", "applicability", "foundation", "contact", "impacts",
 )  # fmt: skip
 ORDER = (
-    *KERNEL, "show", "oblique", "measured_curve", "files", "reading", "fit", "sweep_arguments", "sweep",
-    "drives", "scene", "__init__",
+    *KERNEL, "own", "show", "oblique", "measured_curve", "files", "reading", "fit", "sweep_arguments",
+    "sweep", "drives", "scene", "__init__",
 )  # fmt: skip
-#: What the kernel asks for by `above` when a result is shown, or a tip is read from a file.
-DOORS = {"show.report", "show.limits", "show.plots", "files.tips"}
+#: What is asked for by `above`, the door, and why: a new name is a line here, with its reason.
+DOORS = {
+    "own.shape": "a user's shape is admitted, up to the contact radii that are reached",
+    "own.law": "a user's law of hardness is admitted, and asked in the units of a cap",
+    "own.cap": "the rule of yield of a law of which nothing is known beforehand",
+    "show.report": "a result as text, table or dataset",
+    "show.limits": "the limits of a result as data and in words",
+    "show.plots": "a result is drawn",
+    "show.hints": "an error says what is meant by a name that is not here",
+    "show.progress": "a long calculation says how far it is",
+    "files.tips": "a tip is read from a file",
+}
+#: Modules behind calls of the kernel, those of both first, and why.
+BEHIND_BOTH = {
+    "_check": "arguments are checked",
+    "_door": "what stands above is imported when it is asked for",
+    "_errors": "refusals name the quantity, its value and a remedy",
+    "_read_only": "functions of users get arrays that they cannot change",
+    "applicability": "what goes together, and what a user wrote is admitted",
+    "hardness": "laws of hardness, the paper's sum among them",
+    "medium": "Medium",
+    "numerics.gauss": "quadrature",
+    "numerics.results": "base classes of results",
+    "numerics.roots": "depths and radii are roots",
+    "profiles.profile": "Profile",
+    "transverse_isotropy": "the modulus of a Medium of another symmetry",
+}
+BEHIND = {
+    "contact.loading": BEHIND_BOTH | {
+        "contact.adhesion": "the rim of a contact with adhesion",
+        "contact.indentation": "the result",
+        "contact.integrals": "forces and energies, by the class of the shape",
+        "contact.live_interval": "the state of a contact",
+        "contact.loading": "indent",
+        "contact.pressure": "a field of the result",
+        "contact.quadrature": "integrals of a shape without closed forms",
+        "contact.stress": "a field of the result",
+        "contact.yielding": "the rule of yield",
+        "numerics.blocks": "arrays are treated in blocks",
+        "numerics.stable": "differences of powers without loss of digits",
+        "profiles.radius_table": "contact radii of shapes that have no formula for them",
+    },
+    "foundation.chain_impact": BEHIND_BOTH | {
+        "foundation.cap": "the caps of elements",
+        "foundation.chain_impact": "chain_impact",
+        "foundation.element": "a spring with its dashpot and its cap",
+        "foundation.foundation": "the row as users see it, in the result",
+        "foundation.free_body": "the motion of the body",
+        "foundation.fronts": "where elements come into contact and leave it",
+        "foundation.grid": "the places of elements",
+        "foundation.narrow": "a contact narrower than an element",
+        "foundation.refinement": "the limit for vanishing elements",
+        "foundation.row": "the row of elements in one state",
+        "numerics.motions": "the motion over time, and names of the impact",
+        "structure": "Structure",
+    },
+}  # fmt: skip
 # What the chain bears witness of.
 CHECKED = {
     "contact.live_interval", "contact.quadrature", "contact.integrals", "contact.yielding",
-    "contact.rule_of_yield", "contact.radius_cap", "contact.own_cap",
+    "own.cap",
     "contact.closed_forms", "contact.adhesion", "contact.pressure", "contact.indentation",
     "contact.loading", "contact.unloading", "contact.creep_loading", "contact.creep_retreat",
     "contact.creep_states", "contact.creep", "impacts.impact",
     "impacts.energy_balance", "impacts.adhesive", "impacts.contact_time", "impacts.time_quadrature",
     "impacts.result", "impacts.viscous", "impacts.equation_of_motion",
-    "impacts.collocation_steps", "impacts.motion_solver", "impacts.dense_motion", "impacts.motion",
+    "impacts.collocation_steps", "impacts.motion_solver", "impacts.motion",
     "impacts.scaling", "impacts.snap", "profiles.radius_table", "contact.stress",
 }  # fmt: skip
 
@@ -63,9 +117,9 @@ def imported(name, tree):
 
 
 def doors(tree):
-    """Arguments of calls of `above`, the door from the kernel upward."""
+    """Modules that are asked for by `above`, the door upward."""
     return {
-        ast.unparse(node.args[0])
+        ast.literal_eval(node.args[0])
         for node in ast.walk(tree)
         if isinstance(node, ast.Call) and ast.unparse(node.func) == "above"
     }
@@ -99,10 +153,40 @@ def test_modules_are_imported_at_the_top(name):
     """Not in functions, but for optional packages, and for what shows a result."""
     functions = (node for node in ast.walk(TREES[name]) if isinstance(node, ast.FunctionDef))
     assert not imported(name, (node for each in functions for node in ast.walk(each)))
-    assert {ast.literal_eval(door) for door in doors(TREES[name])} <= DOORS
+    assert doors(TREES[name]) <= {*DOORS}
     if "import_module" in (node.id for node in ast.walk(TREES[name]) if isinstance(node, ast.Name)):
         # `above`, optional packages and public names.
-        assert name in {"numerics.results", "show.report", "sweep", "__init__"}
+        assert name in {"_door", "show.report", "sweep", "__init__"}
+
+
+def behind(name):
+    """Modules that are imported with one, itself among them; not the empty first files of folders."""
+    reached, new = set(), {name}
+    while new:
+        reached |= new
+        new = set().union(*(IMPORTS[each] for each in new)) - reached
+    return {each for each in reached if not each.endswith("__init__")}
+
+
+def test_all_doors_lead_somewhere():
+    assert {*DOORS} == set().union(*map(doors, TREES.values())) <= KNOWN
+
+
+@pytest.mark.parametrize("name", BEHIND)
+def test_what_stands_behind_a_call_has_its_reason(name):
+    """One who reads the call reads these: a further name is added with the words why."""
+    assert behind(name) == {*BEHIND[name]}
+
+
+def test_shapes_and_laws_of_the_library_need_no_room_for_what_users_write():
+    """A sphere on the paper's medium imports nothing of the room for what users write."""
+    code = (
+        "import sys, mdr_core as mdr; medium = mdr.Medium(1e9, 1.0, hardness=1e6); "
+        "mdr.indent(mdr.Sphere(1e-6), medium, 1e-9).force; "
+        "mdr.chain_impact(mdr.Cone(0.3), mdr.Medium(1e9, 1.0), 1e-9, 0.1); "
+        "print(*(name for name in sys.modules if name.startswith('mdr_core.own')))"
+    )
+    assert not python(code).split()
 
 
 def private(name):
@@ -139,10 +223,9 @@ def test_a_private_name_of_another_object_is_used_in_its_own_file_only(name):
 
 
 def test_the_chain_imports_nothing_that_it_checks():
-    reached, new = set(), {name for name in KNOWN if name.startswith("foundation.")}
-    while new:
-        reached |= new
-        new = set().union(*(IMPORTS[name] for name in new)) - reached
+    # What a user wrote is admitted and asked through the door.
+    start = {name for name in KNOWN if name.startswith("foundation.")} | {"own.law", "own.shape"}
+    reached = set().union(*map(behind, start))
     # The search has gone down to the bottom.
     assert {"medium", "profiles.profile", "_check"} <= reached
     assert CHECKED <= KNOWN

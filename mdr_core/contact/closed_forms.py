@@ -23,8 +23,7 @@ from ..profiles.power import Cone, FlatPunch, Paraboloid, PowerLaw
 from ..profiles.sampled import Sampled, bent_vertices
 from .integrals import Integrals, QuadratureIntegrals, integrals
 from .live_interval import LiveInterval
-from .radius_cap import RadiusCap
-from .yielding import constant_hardness
+from .yielding import RadiusCap, constant_hardness
 
 _TINY = np.finfo(float).tiny
 

@@ -13,11 +13,11 @@ import scipy
 
 from .. import _check
 from .._check import ArrayLike
+from ..applicability import check_shape
 from ..foundation.depth_path import TimedIndentation, joined
 from ..foundation.force_path import chain_creep, check_creep
 from ..medium import Medium
 from ..profiles.profile import Profile
-from ..profiles.shape_check import check_shape
 from .creep_loading import Loading
 from .creep_retreat import Retreat
 from .creep_states import ScalarPath, pressed_states, retreating_states

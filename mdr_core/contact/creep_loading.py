@@ -21,7 +21,7 @@ from ..numerics.gauss import gauss_legendre
 from ..numerics.roots import increasing_root
 from .integrals import integrals
 from .live_interval import LiveInterval
-from .rule_of_yield import YieldRule
+from .yielding import YieldRule
 
 #: Share of the largest depth up to which the law of a sharp tip that yields from first touch is linear: the
 #: tip is a cone there, for which, under a constant hardness, A/y is the same at every depth.

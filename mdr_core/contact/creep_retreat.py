@@ -20,7 +20,7 @@ from .integrals import integrals
 from .live_interval import LiveInterval
 from .loading import live_length
 from .quadrature import nodes
-from .rule_of_yield import YieldRule
+from .yielding import YieldRule
 
 #: Ages (τ) between which the memory of a retreating edge is integrated; what is older counts e⁻⁶⁴.
 _AGES = np.array([0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0])

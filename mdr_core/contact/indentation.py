@@ -8,8 +8,9 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
+from .._door import above
 from ..medium import Medium
-from ..numerics.results import CLOSED_FORM, Limit, Result, above, check_single
+from ..numerics.results import CLOSED_FORM, Limit, Result, check_single
 from ..numerics.stable import root
 from ..profiles.profile import Profile
 from . import adhesion, stress

@@ -6,17 +6,15 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
-from ..applicability import check_hardness, check_pair, check_reached, paths_on
+from ..applicability import check_hardness, check_pair, check_reached, check_shape, paths_on
 from ..medium import Medium
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile, check_known
-from ..profiles.shape_check import check_shape
 from . import adhesion
 from .indentation import Indentation
 from .integrals import integrals
 from .live_interval import LiveInterval
-from .rule_of_yield import ConstantCap
-from .yielding import yield_rule
+from .yielding import ConstantCap, yield_rule
 
 
 @_check.keywords_explained

@@ -4,10 +4,9 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
-from ..applicability import check_hardness, check_pair, shape_with
+from ..applicability import check_hardness, check_pair, check_shape, shape_with
 from ..medium import Medium
 from ..profiles.profile import Profile
-from ..profiles.shape_check import check_shape
 from .integrals import integrals
 from .live_interval import LiveInterval
 from .yielding import yield_rule

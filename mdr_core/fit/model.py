@@ -19,8 +19,7 @@ import numpy as np
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
 from ..contact.quadrature import radius_rate
-from ..contact.radius_cap import RadiusCap
-from ..contact.rule_of_yield import ConstantCap, interval_at
+from ..contact.yielding import ConstantCap, RadiusCap, interval_at
 from ..hardness import SumOfClasses
 
 

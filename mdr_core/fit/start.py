@@ -9,7 +9,7 @@ import numpy as np
 
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
-from ..contact.rule_of_yield import interval_at
+from ..contact.yielding import interval_at
 from ..medium import critical_depth, yield_constant
 from .adhesion import in_contact
 from .parameters import BACKGROUND, MEDIUM, REACH

@@ -10,10 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import _check
+from .._door import above
 from ..applicability import check_pair, check_reached, refuse_adhesion
 from ..medium import Medium
 from ..numerics.motions import ImpactResult, Motion, instants
-from ..numerics.results import CHAIN, Limit, above
+from ..numerics.results import CHAIN, Limit
 from ..profiles.profile import Profile
 from ..structure import Structure, structure_of
 from .cap import plastic_depth

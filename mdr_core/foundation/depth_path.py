@@ -9,9 +9,10 @@ import numpy as np
 
 from .. import _check, abel
 from .._check import Array, ArrayLike
+from .._door import above
 from ..applicability import check_pair, check_reached, refuse_adhesion
 from ..medium import Medium
-from ..numerics.results import CHAIN, Limit, Model, Result, above, check_single
+from ..numerics.results import CHAIN, Limit, Model, Result, check_single
 from ..profiles.profile import Profile, check_known
 from . import element
 from .cap import elastic_limit, plastic_depth

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .. import _check
+from .._door import above
 from ..applicability import check_pair, refuse_adhesion
 from ..medium import Medium
-from ..numerics.results import above
 from ..profiles.profile import Profile
 from . import narrow
 from .row import Row

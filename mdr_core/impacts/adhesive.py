@@ -26,8 +26,7 @@ from ..contact.adhesion import (
 from ..contact.indentation import Indentation
 from ..contact.integrals import tabulated_for
 from ..contact.live_interval import LiveInterval
-from ..contact.rule_of_yield import ConstantCap
-from ..contact.yielding import yield_rule
+from ..contact.yielding import TRANSITIONS, ConstantCap, yield_rule
 from ..medium import Medium
 from ..numerics.blocks import LONG, chunks
 from ..numerics.gauss import gauss_legendre
@@ -35,7 +34,7 @@ from ..numerics.roots import crossing
 from ..profiles.profile import Profile
 from .energy_balance import turning_interval
 from .result import Impact
-from .time_quadrature import TRANSITIONS, places
+from .time_quadrature import places
 
 #: Gauss nodes of the contact time in each piece.
 _NODES = 32

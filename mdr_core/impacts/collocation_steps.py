@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..numerics.collocation import collocate, last_coefficient
 from ..numerics.gauss import gauss_integrals, gauss_legendre
 from ..numerics.results import Entries
 from ..numerics.roots import largest_value
@@ -17,6 +16,11 @@ from ..numerics.stable import cube_rise, cube_way
 from .equation_of_motion import Equation, MotionState
 
 _NODES, _WEIGHTS = gauss_legendre(24)
+#: Matrices from values at the nodes to the integrals up to them, and to the last three coefficients of the
+#: polynomial in Legendre's.
+_INTEGRATE, _ONE = gauss_integrals(24, _NODES), np.eye(24)
+_LAST = np.polynomial.legendre.legvander(2 * _NODES - 1, 23)[:, -3:] * _WEIGHTS[:, None]
+_LAST = _LAST * (2 * np.arange(21, 24) + 1)
 
 
 @dataclass(frozen=True)
@@ -78,14 +82,14 @@ class Steps(Entries):
             (slope, _, _), jacobian = slopes(unknown)
             return slope, jacobian
 
-        unknown, settled = collocate(slope_and_jacobian, self._first_unknown(), self.length)
+        unknown, settled = _collocate(slope_and_jacobian, self._first_unknown(), self.length)
         step = replace(self, slopes=np.stack(slopes(unknown)[0], axis=1))
         end, bodies = step.end(), self.equation.bodies
         # Near zero the work counts against a part of the kinetic energy.
         work = np.abs(end.work) + 1e-3 * bodies.inertia * bodies.speed**2
         size = np.hstack([self._size(end), np.abs(end.time), work])
         with np.errstate(all="ignore"):
-            error = np.max(last_coefficient(step.slopes) * np.abs(self.length) / size, axis=1)
+            error = np.max(_last_coefficient(step.slopes) * np.abs(self.length) / size, axis=1)
         return step, np.where(settled & (error < np.inf), error, np.inf)
 
     def largest_deceleration(self):
@@ -164,3 +168,45 @@ class VelocitySteps(Steps):
     def decelerations(self):
         """Decelerations (m/s²) at the nodes."""
         return -1 / self.slopes[:, 1]
+
+
+def _collocate(derivative, first, length):
+    """Solutions of u′ = f(u) over intervals as polynomials through 24 Gauss nodes, one interval a row.
+
+    `derivative` gives f and ∂f/∂u for values of u at the nodes; `first` and `length`, of shape (N, 1), are
+    u at the start and the length of each interval. Returns u at the nodes, of shape (N, 24) and of one sign
+    in each interval, and whether Newton's method has converged.
+    """
+    u, settled = np.repeat(first, len(_INTEGRATE), axis=1), np.zeros(len(first), bool)
+    for _ in range(8):
+        value, rate = derivative(u)
+        # An interval that is too long may leave double precision; it is not settled.
+        with np.errstate(all="ignore"):
+            change = _newton_step(u - first - length * (value @ _INTEGRATE.T), length * rate)
+            u = np.where(change / u < 0.75, u - change, u / 4)
+            settled = np.all(np.abs(change) <= 1e-9 * np.abs(u), axis=1)
+        if settled.all():
+            break
+    return u, settled
+
+
+def _newton_step(residual, rate):
+    """δ with δ − ∫ f′δ = r for the residual r and the rate f′, times the length, at the nodes.
+
+    It is δ = r + E ∫ f′r/E with E = exp ∫ f′. Up to E = e^20 its polynomial is accurate to 10⁻¹⁰, so that
+    Newton's method converges as fast.
+    """
+    exponent = rate @ _INTEGRATE.T
+    factor = np.exp(exponent)
+    change = residual + factor * ((rate * residual / factor) @ _INTEGRATE.T)
+    steep = np.flatnonzero(~(np.abs(exponent).max(axis=1) < 20.0))
+    if steep.size:
+        matrix = _ONE - rate[steep, None, :] * _INTEGRATE
+        matrix[~np.isfinite(matrix).all(axis=(1, 2))] = _ONE
+        change[steep] = np.linalg.solve(matrix, residual[steep, :, None])[..., 0]
+    return change
+
+
+def _last_coefficient(values):
+    """Largest of the last three Legendre coefficients of polynomials through 24 Gauss nodes."""
+    return np.abs(values @ _LAST).max(axis=-1)

@@ -37,8 +37,7 @@ import numpy as np
 from ..contact.integrals import integrals, tabulated
 from ..contact.live_interval import LiveInterval
 from ..contact.quadrature import growth_at, radius_rate
-from ..contact.rule_of_yield import YieldRule
-from ..contact.yielding import yield_rule
+from ..contact.yielding import YieldRule, yield_rule
 from ..numerics.results import Entries
 from ..profiles.profile import Profile
 from ..structure import RIGID

@@ -110,18 +110,17 @@ def solve(bodies, tolerance=1e-5, equations=ON_MEDIUM, to_rest=False):
 def _load(bodies, tolerance, equation_of):
     """State at the turning point (of infinite depth below the known depth), and the steps of loading."""
     profile, rule, imprint = bodies.profile, bodies.rule, bodies.imprint_depth
-    onset = rule.penetration(imprint, imprint)
+    breaks = rule.breaks(imprint, imprint + bodies.dry_penetration)
     equation, steps, zero = equation_of(bodies), [], np.zeros_like(bodies.speed)
     state = MotionState(zero, bodies.speed, zero, zero)
-    kinks = [kink - imprint for kink in profile.kinks]
     end = np.broadcast_to(profile.known_depth - imprint, zero.shape)
-    edges = np.array([onset, *kinks, *(rule.penetration(kink, imprint) for kink in profile.kinks)])
-    edges = np.sort(np.where((edges > 0) & (edges < end), edges, end), axis=0)
+    edges = np.hstack([breaks.onset, breaks.upper, breaks.lower])
+    edges = np.sort(np.where((edges > 0) & (edges < end), edges, end), axis=1)
     below = imprint - kink_above(profile, imprint)
     base, rows = zero, np.arange(zero.size)
-    for edge in [*edges, end]:
+    for edge in [*edges.T[:, :, None], end]:
         # Behind a kink the radius is a power of the distance from it, else of that from the kink above.
-        root = np.cbrt(np.where((base == 0) | (base == onset), below, 0.0))
+        root = np.cbrt(np.where((base == 0) | (base == breaks.onset), below, 0.0))
         coordinate = DepthCoordinate(base, root)
         leg = _LoadingLeg(equation, coordinate, edge, coordinate.delta(edge))
         first = np.minimum(cube_way(root, _FIRST * bodies.dry_penetration), leg.edge_delta)

@@ -8,12 +8,13 @@ import numpy as np
 
 from .. import _check
 from .._check import Array
+from .._door import above
 from ..contact.indentation import Indentation
 from ..contact.integrals import tabulated_for
 from ..contact.yielding import yield_rule
 from ..medium import Medium
 from ..numerics.motions import ImpactResult, Motion
-from ..numerics.results import CLOSED_FORM, Entries, Limit, Model, above
+from ..numerics.results import CLOSED_FORM, Entries, Limit, Model
 from ..profiles.profile import Profile
 from ..structure import RIGID, Structure
 from .motion import motion

@@ -11,11 +11,6 @@ from ..contact.quadrature import kink_above
 from ..numerics.gauss import gauss_integrals, gauss_legendre
 from ..numerics.stable import cube_rise, cube_way
 
-#: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
-#: transition depth. Contact times of five shapes over seven decades of speed then have errors of 5·10⁻¹¹
-#: at most, without them 3·10⁻⁶, with half of these depths 7·10⁻¹⁰, and with twice these depths 5·10⁻¹²:
-#: `python -m tests.benchmarks.constants`.
-TRANSITIONS = np.array([1.0, 6.0])
 #: Gauss nodes of pieces that are longer than their distance from the turning point, and of others. Times
 #: of the same impacts have errors of 5·10⁻¹¹ at most, with (20, 9) 4·10⁻⁹: measured by the same command.
 NODES = (28, 12)
@@ -50,50 +45,28 @@ def time_over_root(rule, interval, increase, give=None):
     give : ndarray, shape (N,), optional
         2E*/K (1/m) of a support.
     """
-    profile = rule.profile
     column = rule.entries((slice(None), None), increase.shape)
-    live_depth = interval.length[:, None]
-    increase = increase[:, None]
-    after = interval.lower[:, None]
+    live_depth, increase, after, deepest = (
+        each[:, None] for each in (interval.length, increase, interval.lower, interval.upper)
+    )
     before = after - increase
-    onset = np.where(increase > 0, column.penetration(before, before), live_depth)
-    kinks = _kinks_above(profile, interval.upper.max())
-    transitions = _transitions(profile)
-
-    unloading, _ = _elastic(profile, after, live_depth, kinks, transitions, give)
+    loading, unloading = column.breaks(before, deepest), column.breaks(after, deepest)
+    onset = np.where(increase > 0, loading.onset, live_depth)
     length = increase + (live_depth - onset)
-    past_yield, work = _past_yield(rule, before, onset, increase, length, kinks, transitions, give)
-    distance = _distance_to_rest(profile, before[:, 0], onset[:, 0], work, give)[:, None]
-    before_yield, _ = _elastic(profile, before, onset, kinks, transitions, give, distance, work)
-    return unloading + past_yield + before_yield
+
+    back, _ = _elastic(rule, unloading, live_depth, give)
+    past_yield, work = _past_yield(rule, loading, onset, length, give)
+    distance = _distance_to_rest(rule.profile, before[:, 0], onset[:, 0], work, give)[:, None]
+    before_yield, _ = _elastic(rule, loading, onset, give, distance, work)
+    return back + past_yield + before_yield
 
 
-def _kinks_above(profile, deepest):
-    """Kinks (m) that an impact down to the `deepest` depth (m) passes, from the undeformed surface.
-
-    A column for each kink; one row, or one for each of the profiles.
-    """
-    if not profile.kinks:
-        return np.empty((1, 0))
-    kinks = np.column_stack(profile.kinks)
-    return kinks[:, (kinks < deepest).any(axis=0)]
-
-
-def _transitions(profile):
-    """Depths (m) from the undeformed surface between which a(s) is about a power of the depth.
-
-    A column for each of `TRANSITIONS`, none for a profile without a transition; rows as of the kinks.
-    """
-    if profile.transition_depth is None:
-        return np.empty((1, 0))
-    return np.atleast_2d(np.multiply.outer(profile.transition_depth, TRANSITIONS))
-
-
-def _elastic(profile, bottom, length, kinks, transitions, give, distance=0.0, work=0.0):
+def _elastic(rule, breaks, length, give, distance=0.0, work=0.0):
     """`_stretch` of the live intervals [bottom, bottom + s], for s from 0 to a length (m).
 
-    Kinks and transitions are depths (m) from the undeformed surface, and so is the bottom, (N, 1).
+    The bottom is that of the imprint of the `breaks`, whose upper end alone moves.
     """
+    profile, bottom = rule.profile, breaks.imprint
 
     def interval_at(s, rows):
         return bottom[rows], s
@@ -102,19 +75,17 @@ def _elastic(profile, bottom, length, kinks, transitions, give, distance=0.0, wo
         own = profile.entries((rows[:, None],), (len(bottom),))
         return 1 + give[rows, None] * own.radius_at(bottom[rows] + s)
 
-    above = kink_above(profile, bottom[:, 0])[:, None]
-    cuts = _Cuts(above - bottom, kinks - bottom, transitions - bottom)
+    root = kink_above(profile, bottom[:, 0])[:, None] - bottom
+    cuts = _Cuts(root, kinks=breaks.upper, transitions=breaks.transitions)
     return _stretch(profile, interval_at, give is not None and way_at, cuts, length, distance, work)
 
 
-def _past_yield(rule, before, onset, increase, length, kinks, transitions, give):
-    """`_stretch` of loading past the penetration `onset` (m) into an imprint, down to the turning point.
+def _past_yield(rule, breaks, onset, length, give):
+    """`_stretch` of loading past the penetration `onset` (m) into an imprint, by a length (m).
 
-    `before` is the depth (m) of the bottom of the imprint, and it grows by `increase` (m) while the depth
-    grows by `length` (m): of shape (N, 1), like the onset. Kinks and transitions as in `_elastic`.
+    Both are of shape (N, 1), and so is the imprint of the `breaks`. Where nothing yields the length is 0.
     """
-    profile, size = rule.profile, (len(before),)
-    column = rule.entries((slice(None), None), size)
+    before, size = breaks.imprint, (len(onset),)
 
     def interval_at(s, rows):
         interval = rule.entries((rows[:, None],), size).past_onset(before[rows], onset[rows], s)
@@ -125,24 +96,15 @@ def _past_yield(rule, before, onset, increase, length, kinks, transitions, give)
         interval = own.past_onset(before[rows], onset[rows], s)
         return 1 + give[rows, None] * own.yielding_width(interval)
 
-    def passed_by_lower(depth):
-        """s (m) at which the lower end of the interval, the plastic depth, has reached a depth (m)."""
-        return column.penetration(depth, before) - onset
-
-    def passed_by_upper(depth):
-        """s (m) at which the upper end of the interval, the depth of the indenter, has reached it."""
-        return depth - before - onset
-
-    by_lower = passed_by_lower(kinks) if kinks.size else kinks - before
     cuts = _Cuts(
-        root=passed_by_lower(kink_above(profile, before[:, 0])[:, None]),
-        kinks=np.hstack([by_lower, passed_by_upper(kinks)]),
+        root=breaks.rule.penetration(kink_above(rule.profile, before[:, 0])[:, None], before) - onset,
+        kinks=np.hstack([breaks.lower, breaks.upper]) - onset,
         # a at the lower end goes over to another power where this end passes a transition. It is at
         # p₀ + s + (y₀ − u_c): the bracket is 0 for a constant cap, else small against s, and a cut of
         # twice the depth does as well.
-        transitions=np.hstack([transitions - before, column.breaks(before, increase, onset)]),
+        transitions=np.hstack([breaks.transitions, breaks.scales - onset, breaks.halved - onset]),
     )
-    return _stretch(profile, interval_at, give is not None and way_at, cuts, length)
+    return _stretch(rule.profile, interval_at, give is not None and way_at, cuts, length)
 
 
 def _distance_to_rest(profile, bottom, length, work, give):

@@ -6,12 +6,11 @@ import numpy as np
 
 from .. import _check
 from .._check import Array
-from ..applicability import check_reached
+from ..applicability import check_reached, check_slopes
 from ..contact.indentation import Indentation
 from ..contact.yielding import yield_rule
 from ..numerics.blocks import chunks
 from ..numerics.results import SCALAR_ODE
-from ..profiles.shape_check import check_slopes
 from ..structure import RIGID
 from .energy_balance import dry_impact, largest_force
 from .equation_of_motion import ON_MEDIUM, ON_STRUCTURE, Bodies

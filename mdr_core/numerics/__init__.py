@@ -1,1 +1,1 @@
-"""Numerical methods, independent of mechanics: quadrature, collocation, roots, stable functions."""
+"""Numerical methods, independent of mechanics: quadrature, roots, stable functions."""

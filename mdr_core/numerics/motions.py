@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 
 from .._check import Array, shown
-from .results import Limit, Result, above
+from .._door import above
+from .results import Limit, Result
 
 
 class ImpactResult(Result):

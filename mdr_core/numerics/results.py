@@ -6,26 +6,18 @@ when it is asked for.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
-from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
 
 import numpy as np
 
 from .._check import no_attribute
+from .._door import above
 from .._errors import Refusal
 
 if TYPE_CHECKING:
     import pandas
     import xarray
     from numpy.typing import NDArray
-
-
-def above(module):
-    """A module that stands above the physics, as "show.plots"; imported when something is to be shown.
-
-    This is the only door upward: what solves imports nothing else of what shows its results.
-    """
-    return import_module(f"mdr_core.{module}")
 
 
 class Model(str):

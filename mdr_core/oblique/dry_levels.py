@@ -10,8 +10,7 @@ import numpy as np
 
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
-from ..contact.rule_of_yield import YieldRule
-from ..contact.yielding import yield_rule
+from ..contact.yielding import YieldRule, yield_rule
 from ..numerics.gauss import gauss_legendre
 
 #: Gauss nodes of the work in each step.
@@ -90,24 +89,41 @@ class NormalMotions:
     def levels(self, below, above, depths=()):
         """The `DryLevels` with so many steps of loading below the imprint, and so many above it.
 
-        Some `depths` (m) of all impacts are levels as well; so are the onset of yield and the kinks.
+        Loading stops at levels from 0 to d_max = d_p + ℓ, and unloading from there at the same ones down to
+        d_p. Some `depths` (m) of all impacts are levels as well; so are the onset of yield, and the
+        depths at which either end of the live interval passes a kink.
         """
-        end, size = self.plastic_depth, self.live_depth
-        known = self.rule.onset(), *self.profile.kinks, *depths
-        extra = np.array([np.broadcast_to(depth, end.shape) for depth in known])
-        below, above = (np.linspace(0.0, 1.0, count + 1)[:, None] for count in (below, above))
-        # In equal parts of √(d_max − d) below, about equal times; above closer towards both ends.
-        root = np.sqrt(end + size)
-        below = below[:-1] * (root - np.sqrt(size))
-        below = np.vstack([below * (2 * root - below), np.minimum(extra, end), end])
-        extra = np.where(extra < end + size, np.maximum(extra - end, 0.0), 0.0)
-        above = np.vstack([size * np.sin(np.pi / 2 * above[1:]) ** 2, extra])
-        below, above = np.sort(below, axis=0), np.sort(above, axis=0)
-        depth = np.vstack([below, end + above])
-        loaded = self._loaded(depth)
-        lower = np.vstack([loaded.lower, np.broadcast_to(end, above.shape)])
-        length = np.vstack([loaded.length, above[-2::-1], 0 * size])
-        return self._moving(len(depth) - 1, np.vstack([depth, end + length[len(depth) :]]), lower, length)
+        imprint, live_depth = self.plastic_depth, self.live_depth
+        column = self.rule.entries((slice(None), None), imprint.shape)
+        breaks = column.breaks(0 * imprint[:, None], (imprint + live_depth)[:, None])
+        known = [*breaks.onset.T, *breaks.upper.T, *breaks.lower.T, *depths]
+        known = np.array([np.broadcast_to(depth, imprint.shape) for depth in known])
+        deep = np.sort(np.vstack([self._even_below(below), np.minimum(known, imprint)]), axis=0)
+        # From here on in live depths: those that are not between 0 and ℓ are moved to 0.
+        reached = np.where(known < imprint + live_depth, np.maximum(known - imprint, 0.0), 0.0)
+        live = np.sort(np.vstack([self._even_above(above), reached]), axis=0)
+
+        loading_depth = np.vstack([deep, imprint + live])
+        loading = self._loaded(loading_depth)
+        released = np.vstack([live[-2::-1], 0 * live_depth])
+        return self._moving(
+            turn=len(loading_depth) - 1,
+            depth=np.vstack([loading_depth, imprint + released]),
+            lower=np.vstack([loading.lower, np.broadcast_to(imprint, released.shape)]),
+            length=np.vstack([loading.length, released]),
+        )
+
+    def _even_below(self, count):
+        """Levels (m) from 0 to d_p, in equal parts of √(d_max − d): about equal times."""
+        root, last_root = np.sqrt(self.plastic_depth + self.live_depth), np.sqrt(self.live_depth)
+        # d = d_max − (√d_max − passed)².
+        passed = np.linspace(0.0, 1.0, count + 1)[:-1, None] * (root - last_root)
+        return np.vstack([passed * (2 * root - passed), self.plastic_depth])
+
+    def _even_above(self, count):
+        """Live depths (m) from above 0 to ℓ, closer towards both ends."""
+        share = np.linspace(0.0, 1.0, count + 1)[1:, None]
+        return self.live_depth * np.sin(np.pi / 2 * share) ** 2
 
     def _moving(self, turn, depth, lower, length):
         """`DryLevels` from depths and live intervals (m) at all instants."""

@@ -8,14 +8,14 @@ import numpy as np
 
 from .. import _check
 from .._check import Array, ArrayLike
+from .._door import above
 from ..applicability import check_pair, refuse_adhesion, shape_with
 from ..contact.yielding import yield_rule
 from ..impacts.impact import impact
 from ..impacts.result import Impact
 from ..medium import Medium, refuse_transversely_isotropic
-from ..numerics.results import Entries, Model, Result, check_single
+from ..numerics.results import Entries, Limit, Model, Result, check_single
 from ..profiles.profile import Profile
-from ..show.limits import Limit, friction_limits, stick_limits
 from .oblique_motion import ObliqueMotion, oblique_motion
 from .tangential_motion import EXACT, SurfaceSolution, solve_surface
 
@@ -219,7 +219,7 @@ class ObliqueImpact(Entries, Result):
         the tangential motion have been measured.
         """
         limits = (x for x in self.normal.limits if x.concerns == "result")
-        return (*limits, *friction_limits(self.medium), *self._stick_limits())
+        return (*limits, *above("show.limits").friction_limits(self.medium), *self._stick_limits())
 
     def _stick_limits(self):
         sticks, surface = ~np.asarray(self.slips_throughout), self._surface
@@ -229,7 +229,8 @@ class ObliqueImpact(Entries, Result):
         cap = yield_rule(self.profile, self.medium).cap(self.max_depth)
         values = error, surface.tolerance, self.max_depth / cap
         values = (*values, self.mass / self.tangential_mass)
-        return stick_limits(*(float(np.max(np.broadcast_to(x, self.shape)[sticks])) for x in values))
+        largest = (float(np.max(np.broadcast_to(x, self.shape)[sticks])) for x in values)
+        return above("show.limits").stick_limits(*largest)
 
     @property
     def slips_throughout(self) -> Any:

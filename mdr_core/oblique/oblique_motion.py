@@ -7,11 +7,10 @@ import numpy as np
 
 from .._check import Array
 from ..numerics.motions import Motion, MotionResult
-from .depth_levels import levels
 from .dry_friction import DryRun, first_counts
 from .dry_levels import NormalMotions
 from .tangential_motion import slip_throughout
-from .viscous_friction import bound_ratio, slide
+from .viscous_friction import bound_ratio, levels, slide
 
 
 @dataclass(frozen=True, eq=False, repr=False)

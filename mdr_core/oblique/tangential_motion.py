@@ -11,12 +11,11 @@ import numpy as np
 
 from .. import _check
 from .._check import Array
+from .._door import above
 from ..numerics.results import Entries
-from ..show.progress import tracked_chunks
-from .depth_levels import MOST_LEVELS, levels
 from .dry_friction import solve_dry
 from .dry_levels import NormalMotions
-from .viscous_friction import SLOWEST, RunQuantities, bound_ratio, slide
+from .viscous_friction import MOST_LEVELS, SLOWEST, RunQuantities, bound_ratio, levels, slide
 
 #: Relative error of the normal motion, and of closed forms that follow from it.
 EXACT = 1e-9
@@ -56,7 +55,7 @@ def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
     slips = columns["slips_throughout"]
     viscous = (eta > 0) & (~slips | ((plastic_work > 0) & (friction > 0)))
     rows = np.flatnonzero(viscous)
-    for place in tracked_chunks(rows.size, 1, "viscous impacts"):
+    for place in above("show.progress").tracked_chunks(rows.size, 1, "viscous impacts"):
         (row,) = rows[place]
         one = hit[np.unravel_index(row, shape)] if shape else hit
         values = _viscous(one, tolerance, speed[row], friction[row], tangential_mass[row])

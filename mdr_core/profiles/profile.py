@@ -8,9 +8,9 @@ import numpy as np
 
 from .. import _check, _read_only
 from .._check import Array, ArrayLike
+from .._door import above
 from ..numerics.results import Remark
 from ..numerics.roots import increasing_root
-from .shape_check import is_own, sound_range
 
 #: Names that functions of a shape had before, and those that they have now.
 _FORMER = {
@@ -19,6 +19,11 @@ _FORMER = {
     "_reduced_slope": "reduced_slope_at",
     "_radius": "radius_at",
 }
+
+
+def is_own(profile):
+    """Whether a user wrote the class of a profile."""
+    return not type(profile).__module__.startswith(f"{__package__}.")
 
 
 class Profile(_check.Parameters, ABC):
@@ -107,19 +112,19 @@ class Profile(_check.Parameters, ABC):
     @cached_property
     def known_depth(self):
         """Largest depth (m) for which the profile is known."""
-        return np.inf if self.shape or not is_own(self) else self.sound.depth
+        return np.inf if self.shape or not is_own(self) else self.sound.end.depth
 
     @cached_property
     def known_radius(self):
         """Largest radius (m) for which the profile is known."""
-        return np.inf if self.shape or not is_own(self) else self.sound.radius
+        return np.inf if self.shape or not is_own(self) else self.sound.end.radius
 
     @cached_property
     def sound(self):
         """The `SoundRange` of a profile of a user's own."""
         given = type(self).known_radius is not Profile.known_radius
         end = min(self.wall, self.known_radius if given else np.inf)
-        return sound_range(self, end, type(self).radius_at is not Profile.radius_at)
+        return above("own.shape").sound_range(self, end, type(self).radius_at is not Profile.radius_at)
 
     @abstractmethod
     def height_at(self, r: np.ndarray) -> np.ndarray:
@@ -198,11 +203,11 @@ class Profile(_check.Parameters, ABC):
 
     def too_deep(self):
         """Words for depths beyond `known_depth`, in messages of errors."""
-        if is_own(self) and not self.shape and self.sound.fault and self.known_depth == self.sound.depth:
+        end = self.sound.end if is_own(self) and not self.shape else None
+        if end and end.fault and self.known_depth == end.depth:
             return (
-                f"deeper than {type(self).__name__} is valid, {self.known_depth:g} m, since "
-                f"{self.sound.fault}: mend its functions, or give known_depth and known_radius, or wall, "
-                "where the shape ends"
+                f"deeper than {type(self).__name__} is valid, {end.depth:g} m, since {end.fault}: mend its "
+                "functions, or give known_depth and known_radius, or wall, where the shape ends"
             )
         deepest = np.min(self.known_depth)
         if deepest > _check.LONGEST:

@@ -9,8 +9,8 @@ import numpy as np
 
 from .. import _check
 from .._check import ArrayLike
+from .._door import above
 from ..numerics.blocks import chunks
-from ..numerics.results import above
 from ..numerics.stable import root
 from .profile import Profile
 from .samples import area_samples, axis_of_symmetry, convex_fit

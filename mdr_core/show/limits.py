@@ -3,9 +3,9 @@
 import numpy as np
 
 from .. import _check
-from ..hardness import law_numbers
 from ..impacts.scaling import MAX_ERROR, depth_in_fast_limit
 from ..numerics.results import Limit
+from ..own.law import law_numbers
 from ..profiles.power import Cone
 from ..profiles.sampled import Sampled, bent_vertices
 from .quantities import engineering

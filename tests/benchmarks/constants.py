@@ -2,8 +2,8 @@
 
 python -m tests.benchmarks.constants
 
-For `TRANSITIONS` and `NODES` (time_quadrature.py), `scales` (rule_of_yield.py, radius_cap.py) and `_NODES`
-(radius_cap.py): the largest relative error over impacts of five shapes with a transition depth, from far
+For `NODES` (time_quadrature.py), `TRANSITIONS`, `scales` and `_NODES` (yielding.py):
+the largest relative error over impacts of five shapes with a transition depth, from far
 below it to far above, against much denser cuts, or more nodes; for `_NODES` (creep_loading.py) that of the
 work of the dashpots in creep. For the shares of steps in `motion_solver`: how many steps viscous impacts
 take, and their largest errors against steps of a much lower tolerance.
@@ -15,9 +15,8 @@ from unittest.mock import patch
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.contact import creep_loading, radius_cap
-from mdr_core.contact.radius_cap import RadiusCap
-from mdr_core.contact.rule_of_yield import YieldRule
+from mdr_core.contact import creep_loading, yielding
+from mdr_core.contact.yielding import RadiusCap, YieldRule
 from mdr_core.impacts import collocation_steps, motion_solver, time_quadrature
 
 SHAPES = (
@@ -150,12 +149,12 @@ def main():
     for what, medium in MEDIA.items():
         counts = (14, 6), (20, 9), (28, 9), (28, 12), (28, 18), (40, 12)
         table(f"NODES, {what}", medium, time_quadrature, "NODES", counts, (56, 40))
-    table("_NODES of RadiusCap", MEDIA["H, q_c, f_c"], radius_cap, "_NODES", (8, 12, 16, 20, 24, 32), 64)
+    table("_NODES of RadiusCap", MEDIA["H, q_c, f_c"], yielding, "_NODES", (8, 12, 16, 20, 24, 32), 64)
     shares = ([], [1.0], [6.0], [0.5, 3.0], [1.0, 6.0], [2.0, 12.0], [1.0, 3.0, 9.0])
     shares = [np.array(share) for share in shares]
     dense = np.geomspace(0.1, 100.0, 17)
     for what, medium in MEDIA.items():
-        table(f"TRANSITIONS, {what}", medium, time_quadrature, "TRANSITIONS", shares, dense)
+        table(f"TRANSITIONS, {what}", medium, yielding, "TRANSITIONS", shares, dense)
     creep_table((4, 6, 8, 12, 16), 40)
     for what, medium in MEDIA.items():
         rule = RadiusCap if medium.f_c else YieldRule

@@ -18,7 +18,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core import _check, hardness
 from mdr_core.contact import adhesion, creep_retreat, indentation, integrals, quadrature
-from mdr_core.impacts import contact_time, dense_motion, energy_balance, time_quadrature
+from mdr_core.impacts import contact_time, energy_balance, motion, time_quadrature
 from mdr_core.numerics import collocation, gauss
 from mdr_core.profiles import radius_table
 from mdr_core.profiles.power import PowerLaw, kappa
@@ -218,7 +218,7 @@ PATHS = (
      lambda: mdr.indent(TIP, DRY, np.linspace(1e-8, 1e-6, 10**5)).force),
     ("Indentation._quick, 20,000 states, smooth", lambda: patch.object(indentation, "_MANY", np.inf),
      lambda: mdr.indent(SMOOTH, DRY, np.linspace(1e-8, 1e-6, 20_000)).force),
-    ("dense_motion kept, two motions", lambda: uncached_everywhere(dense_motion.dense_motion),
+    ("dense_motion kept, two motions", lambda: uncached_everywhere(motion.dense_motion),
      lambda: (lambda hit: (hit.motion(50), hit.motion(200)))(mdr.impact(ROUND, WET, 1e-9, 0.1))),
     ("arrays of samples kept, 20 states",
      lambda: recomputed(mdr.Sampled, "_r", "_z", "_slope", "_bend"), lambda: one_by_one(TIP)),

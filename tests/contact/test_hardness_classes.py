@@ -13,8 +13,7 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 import mdr_core as mdr
-from mdr_core.contact.radius_cap import RadiusCap
-from mdr_core.contact.rule_of_yield import ConstantCap
+from mdr_core.contact.yielding import ConstantCap, RadiusCap
 from mdr_core.hardness import SumOfClasses
 
 from ..approx import approx

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.impacts.dense_motion import dense_motion
+from mdr_core.impacts.motion import dense_motion
 
 from ..approx import approx
 from ..shapes import SHAPES, name

@@ -8,10 +8,9 @@ import pytest
 from scipy.optimize import brentq
 
 import mdr_core as mdr
-from mdr_core.oblique.depth_levels import levels
 from mdr_core.oblique.dry_friction import DryRun
 from mdr_core.oblique.dry_levels import NormalMotions
-from mdr_core.oblique.viscous_friction import slide
+from mdr_core.oblique.viscous_friction import levels, slide
 
 from ..approx import approx
 from ..benchmarks.oblique import Case, compression, limits

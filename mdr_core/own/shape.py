@@ -3,15 +3,21 @@
 Shapes of the library are trusted. `sound_range` finds, once for a profile, the radius up to which its
 functions are valid, which ends its known depth. `check_shape` checks them at the radii that a calculation
 reaches.
+
+Between two radii that are near each other, the slope of g lies between the values of g′ at both, unless g′
+turns in between. At a kink, at a jump of g and in the first cells of a table it may lie outside. So g′ is
+wrong only if it is too large, or too small, by more than 30 % at three quarters of the radii of a contact.
+A g′ that lacks a factor of 2 or π/2, or is z′, is wrong at all radii.
 """
 
+from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from .. import _check
 from .._check import shown
-from .slope_check import misfit, words, wrong_contacts
 
 #: Radii (m) between which a shape is looked at: 33 in each decade, no two 8 % apart.
 _RADII = np.concatenate([[0.0], np.geomspace(1e-18, 1e12, 1000)])
@@ -32,28 +38,62 @@ _RADIUS = "mend radius_at(depth), or leave it out"
 _FALLS = "g(x) has fallen to {value:g} m at x = {place:g} m, so that the contact would not be compact"
 _RISE = "mend reduced_at(x): g is 0 at the tip, and does not fall"
 _SLOPE = "mend reduced_slope_at(x): it is the derivative of reduced_at(x), not of the height z"
+#: Factor by which g′ may differ from the slope of g, and share of the radii at which it may differ by more.
+#: Tables of powers of x up to the fourth, whose g is interpolated in another way than g′, differ by more at
+#: half of the radii of a contact that is three cells wide, at a quarter of those of ten cells.
+_FACTOR, _SHARE = 1.3, 0.75
+#: Fewest pairs that are judged, and the heights g (m), and shares of g, below which they are rounding.
+_FEWEST, _LOWEST, _RISE_OF_ROUNDING = 4, 1e-12, 1e-6
+#: Over a contact that is less than a cell of a table wide, g′ may differ everywhere. It is wrong only if it
+#: is so up to this multiple of the contact radius, too, as far as the shape is known.
+_WIDER = 5.0
 
 
-def is_own(profile):
-    """Whether a user wrote the class of a profile."""
-    return not type(profile).__module__.startswith(f"{__package__}.")
+class _Looked(NamedTuple):
+    """g (m) and g′ of a shape at ascending radii x (m), from the tip outward."""
+
+    x: np.ndarray
+    reduced: np.ndarray
+    slope: np.ndarray
 
 
-class SoundRange(NamedTuple):
-    """Radius and depth (m) up to which a shape is valid, infinite without an end, and the fault there.
-
-    `levels` are the largest g (m) up to ascending radii, and `falls` the largest height (m) by which g has
-    fallen below such a level, up to there; `places` are the radii (m) of these. `slopes` are radii (m) at
-    which g′ is not the slope of g, for contacts up to ascending radii; NaN where it is.
-    """
+class _End(NamedTuple):
+    """Radius and depth (m) up to which a shape is valid, infinite without an end, and the fault there."""
 
     radius: float
     depth: float
     fault: str
-    levels: np.ndarray
-    falls: np.ndarray
-    places: np.ndarray
-    slopes: np.ndarray
+
+
+@dataclass(frozen=True)
+class SoundRange:
+    """Up to where a shape is valid, and what is wrong with contacts that end before."""
+
+    end: _End
+    looked: _Looked
+
+    @cached_property
+    def levels(self):
+        """The largest g (m) up to each of the radii."""
+        return np.maximum.accumulate(self.looked.reduced)
+
+    @cached_property
+    def lowest(self):
+        """Numbers of the radii at which, up to each of the radii, g has fallen most below its level."""
+        falls = self.levels - self.looked.reduced
+        most = np.maximum.accumulate(falls)
+        return np.maximum.accumulate(np.where(falls == most, np.arange(falls.size), 0))
+
+    @cached_property
+    def wrong_slopes(self):
+        """The last radius (m) at which g′ is wrong for contacts up to each radius, NaN if it is right."""
+        x, pairs = self.looked.x, _pairs_of(self.looked)
+        places = x[np.maximum.accumulate(np.where(pairs.off, np.arange(x.size), 0))]
+        return np.where(_wrong_contacts(x, pairs), places, np.nan)
+
+    def reached(self, depth):
+        """Number of the last radius that the edge of a contact passes up to a depth (m)."""
+        return np.searchsorted(self.levels, depth, side="right") - 1
 
 
 def sound_range(profile, end, own_radius):
@@ -69,53 +109,70 @@ def sound_range(profile, end, own_radius):
     if fault[0]:
         raise _refused(profile, _said(profile, x[0]), _ENDS)
     count = int(np.argmax(fault)) if fault.any() else x.size
-    x, reduced, slope, beyond = x[:count], reduced[:count], slope[:count], x[count:]
-    levels = np.maximum.accumulate(reduced)
-    falls = levels - reduced
-    worst = np.maximum.accumulate(falls)
-    places = x[np.maximum.accumulate(np.where(falls == worst, np.arange(count), 0))]
-    if falls[-1] > 0:
+    looked, beyond = _Looked(x[:count], reduced[:count], slope[:count]), x[count:]
+    if looked.reduced[-1] < np.max(looked.reduced):
         # The largest value of g that falls for good is the last one that the edge of a contact reaches.
-        top = int(np.argmax(reduced))
+        top = int(np.argmax(looked.reduced))
         radius, depth = float(x[top]), float(reduced[top])
-        fault = f"g(x) falls from {depth:g} m at x = {radius:g} m on"
+        last = _End(radius, depth, f"g(x) falls from {depth:g} m at x = {radius:g} m on")
     elif beyond.size:
-        radius, bad = _last_sound(profile, x[-1], beyond[0])
-        depth, fault = float(_values(profile, np.array([radius]))[0][0]), _said(profile, bad)
+        radius, bad = _last_sound(profile, looked.x[-1], beyond[0])
+        depth = float(_values(profile, np.array([radius]))[0][0])
+        last = _End(radius, depth, _said(profile, bad))
     else:
-        radius, depth, fault = np.inf, float(reduced[-1]) if end < _RADII[-1] else np.inf, ""
+        last = _End(np.inf, float(looked.reduced[-1]) if end < _RADII[-1] else np.inf, "")
+    sound = SoundRange(last, looked)
+    ends = [last, _end_of_slopes(profile, sound)]
     if own_radius:
-        radius, depth, fault = _up_to_wrong_radius(profile, x, reduced, (radius, depth, fault))
-    slopes = _wrong_slopes(profile, x, reduced, slope)
-    if np.isfinite(slopes[-1]):
-        # For a contact up to the next radius, and up to all larger ones, g′ is wrong.
-        last = np.flatnonzero(np.isnan(slopes))[-1]
-        if x[last] < radius:
-            radius, depth = float(x[last]), float(levels[last])
-            fault = _said_of_slope(profile, slopes[last + 1])
-    return SoundRange(radius, depth, fault, levels, worst, places, slopes)
+        ends.append(_end_of_own_radius(profile, looked, last.depth))
+    return SoundRange(min((each for each in ends if each), key=lambda each: each.radius), looked)
 
 
-def _wrong_slopes(profile, x, reduced, slope):
-    """The last radius (m) at which g′ is wrong for contacts up to each radius x (m), NaN if it is right.
+def _pairs_of(looked):
+    """The `_Misfit` of each radius that was looked at with the one before it, of the first with itself."""
+    before = np.maximum(np.arange(looked.x.size) - 1, 0)
+    return _misfit([values[before] for values in looked], looked)
 
-    From g (m) and g′ at the radii. Refused if g′ is wrong for all contacts.
+
+def _end_of_slopes(profile, sound):
+    """The `_End` from which on g′ is wrong for all contacts; None if there is none.
+
+    Refused if it is wrong for all of those that can be judged.
     """
-    before = np.maximum(np.arange(x.size) - 1, 0)
-    values = x, reduced, slope
-    pairs = misfit([value[before] for value in values], values)
-    wrong = wrong_contacts(x, pairs)
-    places = x[np.maximum.accumulate(np.where(pairs.off, np.arange(x.size), 0))]
-    if np.any(wrong) and np.all(wrong == pairs.enough):
-        raise _refused(profile, _said_of_slope(profile, places[np.argmax(wrong)]), _SLOPE)
-    return np.where(wrong, places, np.nan)
+    wrong, x = ~np.isnan(sound.wrong_slopes), sound.looked.x
+    if np.any(wrong) and np.all(wrong == _pairs_of(sound.looked).enough):
+        raise _refused(profile, _said_of_slope(profile, sound.wrong_slopes[np.argmax(wrong)]), _SLOPE)
+    if not wrong[-1]:
+        return None
+    last = np.flatnonzero(~wrong)[-1]
+    said = _said_of_slope(profile, sound.wrong_slopes[last + 1])
+    return _End(float(x[last]), float(sound.levels[last]), said)
+
+
+def _end_of_own_radius(profile, looked, known):
+    """The `_End` before the first depth (m), up to the one that is known, of a wrong contact radius."""
+    x, reduced, _ = looked
+    rises = np.diff(reduced) > 1e-6 * reduced[1:]
+    # Radii at which g rises on both sides; at a jump the same radius belongs to a range of depths.
+    inner = 1 + np.flatnonzero(rises[:-1] & rises[1:] & (x[1:-1] > 0) & (reduced[1:-1] <= known))
+    with np.errstate(all="ignore"):
+        radius = np.broadcast_to(profile.radius_at(reduced[inner]), inner.shape)
+    wrong = ~(np.abs(radius - x[inner]) <= _SAME * x[inner])
+    if not wrong.any():
+        return None
+    first = np.argmax(wrong)
+    depth = reduced[inner[first]]
+    said = f"the contact radius is {radius[first]:g} m at depth = {depth:g} m, where g is not that depth"
+    if not first:
+        raise _refused(profile, said, _RADIUS)
+    return _End(float(x[inner[first] - 1]), float(reduced[inner[first] - 1]), said)
 
 
 def _said_of_slope(profile, x):
     """Words for a g′ that is not the slope of g at a radius (m)."""
     x = np.array([(1 - _STEP) * x, x])
-    g, slope, _ = functions_at(profile, x)
-    return words(x, g, slope)
+    g, slope, _ = _functions_at(profile, x)
+    return _words(x, g, slope)
 
 
 def _last_sound(profile, low, high):
@@ -127,28 +184,10 @@ def _last_sound(profile, low, high):
     return float(low), float(high)
 
 
-def _up_to_wrong_radius(profile, x, reduced, known):
-    """The radius and depth (m) and fault that are `known`, or those of a contact radius that is wrong."""
-    rises = np.diff(reduced) > 1e-6 * reduced[1:]
-    # Radii at which g rises on both sides; at a jump the same radius belongs to a range of depths.
-    inner = 1 + np.flatnonzero(rises[:-1] & rises[1:] & (x[1:-1] > 0) & (reduced[1:-1] <= known[1]))
-    with np.errstate(all="ignore"):
-        radius = np.broadcast_to(profile.radius_at(reduced[inner]), inner.shape)
-    wrong = ~(np.abs(radius - x[inner]) <= _SAME * x[inner])
-    if not wrong.any():
-        return known
-    first = np.argmax(wrong)
-    depth = reduced[inner[first]]
-    said = f"the contact radius is {radius[first]:g} m at depth = {depth:g} m, where g is not that depth"
-    if not first:
-        raise _refused(profile, said, _RADIUS)
-    return float(x[inner[first] - 1]), float(reduced[inner[first] - 1]), said
-
-
 def _values(profile, x):
     """g (m) and g′ at radii (m), and whether g or z is not finite, or g′ not a number, there."""
     try:
-        reduced, slope, height = functions_at(profile, x)
+        reduced, slope, height = _functions_at(profile, x)
     except _check.InvalidArgument:
         raise
     except (ValueError, ArithmeticError):
@@ -160,7 +199,7 @@ def _values(profile, x):
     return reduced, slope, ~np.isfinite(reduced) | np.isnan(slope) | ~np.isfinite(height)
 
 
-def functions_at(profile, x):
+def _functions_at(profile, x):
     """g (m), g′ and z (m) at radii (m), without warnings: also at radii that no solver reaches."""
     with np.errstate(all="ignore"):
         values = profile.reduced_at(x), profile.reduced_slope_at(x), profile.height_at(x)
@@ -170,7 +209,7 @@ def functions_at(profile, x):
 def _said(profile, x):
     """Words for what is wrong with a shape at a radius (m)."""
     try:
-        reduced, slope, height = (float(value[0]) for value in functions_at(profile, np.array([x])))
+        reduced, slope, height = (float(value[0]) for value in _functions_at(profile, np.array([x])))
     except (ValueError, ArithmeticError) as error:
         return f"it fails at x = {x:g} m ({type(error).__name__}: {error})"
     if x == 0 or not np.isfinite(reduced):
@@ -198,10 +237,10 @@ def check_shape(profile, depth):
 
 def check_tips(profile):
     """Refuses an ensemble with an indenter whose g is not 0 at the tip; that of one profile is known."""
-    if profile.shape and is_own(profile):
+    if profile.shape:
         every = profile.flat_entries(slice(None), profile.shape)
         x = np.zeros(every.shape)
-        reduced, *_ = functions_at(every, x)
+        reduced, *_ = _functions_at(every, x)
         bad = ~(np.abs(reduced) <= _TIP)
         _refuse(every, x, reduced, bad, "g(x) is {value:g} m at x = {place:g} m, the tip", _RISE)
 
@@ -221,8 +260,6 @@ def _in_blocks(profile, depth):
 
     One profile comes at once with all depths. Those that are infinite or not positive are left out.
     """
-    if not is_own(profile):
-        return
     depth = np.asarray(depth, dtype=float)
     shape = np.broadcast_shapes(depth.shape, profile.shape)
     depth = np.minimum(np.broadcast_to(depth, shape), profile.known_depth).ravel()
@@ -236,16 +273,16 @@ def _in_blocks(profile, depth):
 def _check_falls(profile, depth):
     """Refuses one profile whose g falls, and rises again, by more than rounding above a depth (m)."""
     sound = profile.sound
-    number = np.searchsorted(sound.levels, depth, side="right") - 1
-    if sound.falls[number] > _ROUNDING * depth:
-        x = sound.places[number]
-        raise _refused(profile, _FALLS.format(place=x, value=profile.reduced_at(np.array([x]))[0]), _RISE)
+    lowest = sound.lowest[sound.reached(depth)]
+    x, value = sound.looked.x[lowest], sound.looked.reduced[lowest]
+    if sound.levels[lowest] - value > _ROUNDING * depth:
+        raise _refused(profile, _FALLS.format(place=x, value=value), _RISE)
 
 
 def _check_slope(profile, depth):
     """Refuses one profile whose g′ is not the slope of g over the contact at a depth (m)."""
     sound = profile.sound
-    place = sound.slopes[np.searchsorted(sound.levels, depth, side="right") - 1]
+    place = sound.wrong_slopes[sound.reached(depth)]
     if np.isfinite(place):
         raise _refused(profile, _said_of_slope(profile, place), _SLOPE)
 
@@ -256,8 +293,8 @@ def _check_slopes(profile, depth):
     face = np.broadcast_to(profile.face_radius, radius.shape)
     x = face + (radius - face) * ((np.arange(_PAIRS)[:, None] + 0.5) / _PAIRS)
     x = np.stack([(1 - _STEP) * x, x])
-    g, slope, _ = functions_at(profile, x)
-    pairs = misfit((x[0], g[0], slope[0]), (x[1], g[1], slope[1]))
+    g, slope, _ = _functions_at(profile, x)
+    pairs = _misfit((x[0], g[0], slope[0]), (x[1], g[1], slope[1]))
     wrong = pairs.wrong(1.0)[-1]
     if np.any(wrong):
         i = int(np.argmax(wrong))
@@ -274,7 +311,7 @@ def _check_each(profile, depth):
     # The last one is just outside, where g is larger than the depth, but at a wall.
     outside = np.where(radius < profile.wall, (1 + _SAME) * radius, radius)
     x = np.vstack([share[:, None] * radius, radius, outside])
-    reduced, slope, height = functions_at(profile, np.minimum(x, profile.known_radius))
+    reduced, slope, height = _functions_at(profile, np.minimum(x, profile.known_radius))
     _refuse(profile, x, reduced, ~np.isfinite(reduced), "g(x) is {value:g} m at x = {place:g} m", _ENDS)
     _refuse(profile, x, height, ~np.isfinite(height), "z(r) is {value:g} m at r = {place:g} m", _ENDS)
     bad = np.isnan(slope) | (slope == -np.inf)
@@ -300,3 +337,55 @@ def _refused(profile, what, advice):
     """The error of a shape that is not valid: what is wrong with it, and what to do."""
     text = f"profile {shown(profile)}: {what}; {advice}"
     return _check.InvalidArgument(text, "profile", profile, what, "", advice)
+
+
+class _Misfit(NamedTuple):
+    """Pairs of radii, one an entry: which can be judged, and at which g′ is too large or too small."""
+
+    judged: np.ndarray
+    large: np.ndarray
+    small: np.ndarray
+
+    @property
+    def off(self):
+        """At which pairs g′ is wrong."""
+        return self.large | self.small
+
+    @property
+    def enough(self):
+        """Whether enough pairs can be judged up to each of them."""
+        return np.cumsum(self.judged, axis=0) >= _FEWEST
+
+    def wrong(self, width):
+        """Whether g′ is wrong for contacts up to each pair along the first axis.
+
+        A pair stands for a width (m) of the contact.
+        """
+        judged, large, small = (np.cumsum(width * pairs, axis=0) for pairs in self)
+        return self.enough & (np.maximum(large, small) > _SHARE * judged)
+
+
+def _misfit(below, above):
+    """The `_Misfit` of pairs of radii, from x (m), g (m) and g′ at the smaller and at the larger ones."""
+    step, rise = above[0] - below[0], above[1] - below[1]
+    # At the tip g′ may be infinite.
+    with np.errstate(invalid="ignore"):
+        low, high = (step * extreme(below[2], above[2]) for extreme in (np.minimum, np.maximum))
+    judged = (above[1] > _LOWEST) & (np.maximum(rise, low) > _RISE_OF_ROUNDING * above[1])
+    return _Misfit(judged, judged & (low > _FACTOR * rise), judged & (rise > _FACTOR * high))
+
+
+def _wrong_contacts(x, pairs):
+    """Whether g′ of one profile is wrong for contacts with each of the radii x (m), from the tip outward.
+
+    `pairs` is the `_Misfit` of each of these radii with the one before it, and of the first with itself.
+    """
+    wrong = pairs.wrong(np.diff(x, prepend=0.0))
+    wider = np.minimum(np.searchsorted(x, _WIDER * x), x.size - 1)
+    return wrong & wrong[wider]
+
+
+def _words(x, g, slope):
+    """Words for a wrong g′ at the larger one of two radii x (m), from g (m) and g′ at both."""
+    own = (g[1] - g[0]) / (x[1] - x[0])
+    return f"g′(x) is {slope[1]:g} at x = {x[1]:g} m, but g(x) rises with the slope {own:g} there"

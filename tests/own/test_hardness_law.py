@@ -9,8 +9,8 @@ import pytest
 import mdr_core as mdr
 from mdr_core.hardness import HardnessLaw, SumOfClasses
 
-from .approx import approx
-from .laws import FAULTS, Decaying, Kinked, Layered, NixGao, Written, Wrong
+from ..approx import approx
+from ..laws import FAULTS, Decaying, Kinked, Layered, NixGao, Written, Wrong
 
 E, H, L = 70e9, 2e9, 1e-6
 MIXTURES = {

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..contact.yielding import Breaks, RadiusCap
 from ..numerics.blocks import broadcast_flat, chunks
-from .radius_cap import RadiusCap
 
 #: Halvings of a piece of the plastic work: to 10⁻⁹ of its length, as at a kink.
 _HALVINGS = 30
@@ -53,24 +53,14 @@ class OwnCap(RadiusCap):
         """Whether the cap falls at any of the depths (m)."""
         return bool(np.any(self.cap_rate_at(self.profile.radius_at(depth)) < 0))
 
-    def _cuts(self, imprint, increase):
-        cuts = super()._cuts(imprint, increase)
-        # Where the law itself changes fast.
-        sharp = np.minimum(self.law.sharp, self.profile.known_radius)
-        penetration = self.profile.reduced_at(sharp) - imprint
-        first, last = cuts[:, :1], cuts[:, -1:]
-        return np.sort(np.hstack([cuts, np.clip(penetration, first, last)]), axis=1)
+    def breaks(self, imprint, deepest):
+        return OwnBreaks(self, imprint, deepest)
 
     def _plastic_sums(self, imprint, increase):
-        work, *_ = self._refined(imprint, increase)
+        work, *_ = self.refined(imprint, increase)
         return work
 
-    def breaks(self, imprint, increase, onset):
-        cuts = self._cuts(imprint, increase)
-        _, row, halved_at = self._refined(imprint, increase)
-        return np.hstack([cuts, _padded(row, halved_at, len(cuts))]) - onset
-
-    def _refined(self, imprint, increase):
+    def refined(self, imprint, increase):
         """The plastic work in pieces, halved until each is the sum of its halves; one loading a row.
 
         Returns
@@ -121,6 +111,23 @@ class OwnCap(RadiusCap):
         wall = np.asarray(self.profile.wall)
         load = self.law.wall_load(np.where(wall < np.inf, wall, 1.0))
         return np.where(wall < np.inf, load, np.inf)[()]
+
+
+@dataclass(frozen=True, eq=False)
+class OwnBreaks(Breaks):
+    """`Breaks` under a law that a user wrote."""
+
+    @property
+    def scales(self):
+        """Those of the rule, and where the law itself changes fast at the upper end."""
+        sharp = np.minimum(self.rule.law.sharp, self.rule.profile.known_radius)
+        return np.hstack([super().scales, self.rule.profile.reduced_at(sharp) - self.imprint])
+
+    @property
+    def halved(self):
+        increase = self.rule.increase(self.deepest - self.imprint, self.imprint)
+        _, row, halved_at = self.rule.refined(self.imprint, increase)
+        return _padded(row, halved_at, len(self.imprint))
 
 
 def _padded(row, values, count):
