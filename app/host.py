@@ -28,6 +28,9 @@ def last(steps: Steps, wanted: Callable[[], bool] = lambda: True) -> Any:
 class Host:
     """No server and no browser, as in a test or for a file: what is asked for is done at once."""
 
+    #: Whether a file of somebody is read in a process, which can be stopped.
+    processes = False
+
     def shows(self) -> bool:
         """Whether a browser shows the page, so that slow updates wait until the input rests."""
         return False
@@ -36,6 +39,9 @@ class Host:
         """Do something later, and return what prevents it."""
         act()
         return lambda: None
+
+    def at_end(self, act: Callable[[], None]) -> None:
+        """Do something when the page is closed, if that is known."""
 
     def soon(self, act: Callable[[], None]) -> None:
         """Do something where the page may be changed, from whichever thread."""

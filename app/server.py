@@ -17,6 +17,8 @@ _THREADS = ThreadPoolExecutor()
 class Server(Sliced):
     """A session of a server."""
 
+    processes = True
+
     def __init__(self, document: Document):
         self._document = document
 
@@ -26,6 +28,9 @@ class Server(Sliced):
     def later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
         waiting = self._document.add_timeout_callback(act, milliseconds)
         return partial(self._document.remove_timeout_callback, waiting)
+
+    def at_end(self, act: Callable[[], None]) -> None:
+        self._document.on_session_destroyed(lambda context: act())
 
     def soon(self, act: Callable[[], None]) -> None:
         self._document.add_next_tick_callback(act)

@@ -15,6 +15,7 @@ from markupsafe import Markup
 
 from mdr_core.fit.indentation import IndentationFit
 
+from ..server import host_of
 from ..tip import in_line
 from ..ui import JS, WIDE, html, landmarks
 from . import words
@@ -56,7 +57,7 @@ class Measurement(Source):
         self._job = 0
         # What is said below the file of the tip.
         self.of_tip = ""
-        self._tips = Tips(self.document)
+        self._tips = Tips(host_of(self.document))
         self.form, self.results = Form(self), Results(self)
         self._address = pn.widgets.TextInput(visible=False)
         self._address.jscallback(value="history.replaceState(null, '', source.value)")
