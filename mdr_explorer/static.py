@@ -79,26 +79,28 @@ def used(lock: dict[str, Any]) -> dict[str, dict[str, Any]]:
     return {name: entries[name] for name in names}
 
 
-def copy_pyodide(folder: Path, to: Path) -> dict[str, Any]:
-    """Copy what is loaded of a Pyodide, and return its lock. Raises ValueError if it is not whole."""
+def whole(folder: Path) -> tuple[dict[str, bytes], list[licenses.Licensed]]:
+    """Files of a Pyodide that are loaded, and their licences. Raises ValueError if it is not whole."""
     path = folder / "pyodide-lock.json"
     if not path.is_file():
         raise ValueError(f"{folder} is no folder of Pyodide: it has no pyodide-lock.json")
     lock: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
     if (found := lock["info"]["version"]) != PYODIDE:
-        raise ValueError(
-            f"{folder} has Pyodide {found}; the explorer was tested with {PYODIDE}: give that one"
-        )
-    files = dict.fromkeys(RUNTIME, "") | {each["file_name"]: each["sha256"] for each in used(lock).values()}
-    if missing := [name for name in files if not (folder / name).is_file()]:
+        raise ValueError(f"{folder} has Pyodide {found}; tested is {PYODIDE}: give that one")
+    entries = used(lock)
+    digests = dict.fromkeys(RUNTIME, "") | {each["file_name"]: each["sha256"] for each in entries.values()}
+    if missing := [name for name in digests if not (folder / name).is_file()]:
         raise ValueError(f"{folder} lacks {', '.join(missing)}: give a whole Pyodide {PYODIDE}")
-    to.mkdir(parents=True)
-    for name, expected in files.items():
-        data = (folder / name).read_bytes()
-        if expected and hashlib.sha256(data).hexdigest() != expected:
+    files = {name: (folder / name).read_bytes() for name in digests}
+    for name, expected in digests.items():
+        if expected and hashlib.sha256(files[name]).hexdigest() != expected:
             raise ValueError(f"{name} in {folder} is not the file that its lock names: its SHA-256 differs")
-        (to / name).write_bytes(data)
-    return lock
+    parts = list(licenses.of_runtime(lock))
+    for name, entry in entries.items():
+        file, version = folder / entry["file_name"], entry["version"]
+        wheel = file.suffix == ".whl"
+        parts.append(licenses.of_wheel(file) if wheel else licenses.of_library(name, version))
+    return files, parts
 
 
 def write(folder: Path, pyodide: str = "") -> None:
@@ -117,24 +119,21 @@ def write(folder: Path, pyodide: str = "") -> None:
     ValueError
         If the folder has other files, or the Pyodide is not whole or not of the tested version.
     """
-    if folder.exists() and any(folder.iterdir()):
-        if not (folder / "explorer.zip").is_file():
-            raise ValueError(
-                f"{folder} has other files in it: name a new folder, or one of an earlier explorer"
-            )
-        for name in WRITTEN:
-            shutil.rmtree(folder / name, ignore_errors=True)
-    folder.mkdir(parents=True, exist_ok=True)
+    if folder.exists() and any(folder.iterdir()) and not (folder / "explorer.zip").is_file():
+        raise ValueError(f"{folder} has other files in it: name a new one, or that of an earlier explorer")
     parts = [licenses.of_package(name) for name in ("mdr-core", *PACKAGES)]
-    address = pyodide or PUBLISHED
+    address, files = pyodide or PUBLISHED, {}
     if urlsplit(address).scheme not in ("http", "https"):
-        lock = copy_pyodide(Path(address), folder / "pyodide")
-        parts += licenses.of_runtime(lock)
-        for name, entry in used(lock).items():
-            file = folder / "pyodide" / entry["file_name"]
-            wheel = file.suffix == ".whl"
-            parts.append(licenses.of_wheel(file) if wheel else licenses.of_library(name, entry["version"]))
-        address = "pyodide/"
+        files, more = whole(Path(address))
+        parts, address = parts + more, "pyodide/"
+    # Nothing is written before all is known to be there.
+    for name in WRITTEN:
+        shutil.rmtree(folder / name, ignore_errors=True)
+    for name, data in files.items():
+        path = folder / "pyodide" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(data)
+    folder.mkdir(parents=True, exist_ok=True)
     write_archive(folder / "explorer.zip")
     parts += pages.write(folder, address.rstrip("/") + "/")
     (folder / "LICENSES.txt").write_text(licenses.written(parts), encoding="utf-8")
