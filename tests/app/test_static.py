@@ -381,7 +381,8 @@ def test_the_page_in_a_browser_by_pyodide(hosted, browser, tmp_path):
         explorer.press("Share")
         with page.expect_download() as download:
             explorer.press("Curves (CSV)")
-        assert "striker" in download.value.path().read_text(encoding="utf-8")
+        assert download.value.suggested_filename == f"{DROP}_curves.csv"
+        assert "Paraboloid" in download.value.path().read_text(encoding="utf-8")
         link = page.get_by_label("Link to this page").input_value()
         assert link.startswith(hosted + "?")
         explorer.press("Share")
