@@ -202,7 +202,7 @@ class Form:
         except ValueError as error:
             self._have_tip("refused", Message(*refusal(error)))
             return
-        self._tips = self._tips or Tips(self._page.document)
+        self._tips = self._tips or Tips(self._page.host)
         self._tips.read(in_line(file.name), data, self._have_tip)
 
     def _have_tip(self, kind: str, answer: Any) -> None:

@@ -4,7 +4,6 @@ import logging
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from time import perf_counter
 from typing import Any
 
 import panel as pn
@@ -19,11 +18,13 @@ from .drives import follow
 from .extra import EXTRAS
 from .fields import Field
 from .frame import LANDMARKS, Frame
+from .host import Host
 from .parts import Part, choice
 from .player import frames_in_steps
 from .plot import View
 from .quantities import in_words
 from .scales import Scales
+from .server import host_of
 from .state import VIEW, State, as_shown, preset_state
 from .ui import JS, Messages, landmarks, notice
 
@@ -32,8 +33,6 @@ Change = Callable[[State], State]
 Tell = Callable[[str], None]
 #: Milliseconds of rest before slow updates.
 SETTLED = 300
-#: Seconds after which other sessions are served while frames are made.
-_SLICE = 0.02
 _FAULT = "This cannot be shown, because of a fault of the explorer. Nothing was changed."
 _UNDO_STEPS = 100
 
@@ -64,14 +63,16 @@ class History:
 
 
 class Page:
-    """The page of one session."""
+    """The page of one session; where it runs is asked of its document, if no host is given."""
 
-    def __init__(self, query: str = "", dark: bool = False):
+    def __init__(self, query: str = "", dark: bool = False, host: Host | None = None):
         self.document = pn.state.curdoc or Document()
+        self.host = host or host_of(self.document)
         self.state = preset_state(dark=dark)
         self.history = History((self.state,))
         self.shown: View | None = None
-        self._waiting = None
+        # What prevents the updates that wait until the input rests, None if none wait.
+        self._waiting: Callable[[], None] | None = None
         # Whether the player moves, which needs frames of each scene that is shown.
         self._moving = False
         # The frames that are being made, None when there are none or all are sent.
@@ -239,20 +240,13 @@ class Page:
         """Send all states of the course if the player moves and has none."""
         if self._moving and not self.messages.frames and not self._making:
             pictures = [card.picture for card in self.board.seen()]
-            self._making = frames_in_steps(self.shown, pictures)
-            self._make_frames(self._making)
+            making = self._making = frames_in_steps(self.shown, pictures)
+            # Others are served meanwhile; another scene has frames of its own.
+            self.host.make(making, lambda: making is self._making, self._have_frames)
 
-    def _make_frames(self, making):
-        """Go on with the frames that are made, unless the scene is another; others are served meanwhile."""
-        served = self.document.session_context is not None
-        begun = perf_counter()
-        while making is self._making:
-            if made := next(making):
-                self.messages.frames = made
-                self._making = None
-            elif served and perf_counter() > begun + _SLICE:
-                self.document.add_next_tick_callback(partial(self._make_frames, making))
-                return
+    def _have_frames(self, frames: list[Any]) -> None:
+        self.messages.frames = frames
+        self._making = None
 
     def move(self, message: int | None) -> None:
         """Send frames when the player begins to move (None); accept the state in which it ends.
@@ -270,12 +264,12 @@ class Page:
 
     def _schedule(self):
         """Schedule the slow updates; before a browser shows the page, notes need not wait."""
-        if self.document.session_context is None or not pn.state.loaded:
+        if not self.host.shows():
             self.frame.rest(self.shown)
             return
         if self._waiting is not None:
-            self.document.remove_timeout_callback(self._waiting)
-        self._waiting = self.document.add_timeout_callback(self._input_rests, SETTLED)
+            self._waiting()
+        self._waiting = self.host.later(self._input_rests, SETTLED)
 
     def _input_rests(self):
         self._waiting = None

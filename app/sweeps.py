@@ -95,14 +95,19 @@ class Sweep:
 
     def classes(self):
         """Sweeps of the other classes of hardness, through the present value, by their rows."""
+        return dict(self.each_class())
+
+    def each_class(self):
+        """Rows of the other classes of hardness, and their sweeps through the present value, one by one."""
         own = yield_constant(self.state)
         others = {row: pair for row, pair in CLASSES.items() if pair[1] not in own}
         constant = self.swept in used_by(self.state, "plasticity")
         # Under a given force each constant is a search of its own.
         if constant or not self.dry or not self.yields or self.solver == "indent_to_force":
-            return {}
-        found = {row: self._through(*pair) for row, pair in others.items()}
-        return {row: each for row, each in found.items() if each}
+            return
+        for row, pair in others.items():
+            if each := self._through(*pair):
+                yield row, each
 
     def _through(self, option, constant):
         """The sweep of another class, with the constant that gives the present result; None without one.

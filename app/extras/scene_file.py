@@ -52,8 +52,11 @@ def address(state: State) -> str:
     return pn.state.location.href.split("?")[0] + f"?{query}" * bool(query)
 
 
-def scene_file(view: View) -> str:
-    """A view as one HTML: the three plots, a slider along the path, readouts, and notes."""
+def scene_file(view: View, bokeh: str = "") -> str:
+    """A view as one HTML: the three plots, a slider along the path, readouts, and notes.
+
+    `bokeh` is the address of Bokeh's script, which is in the file by default.
+    """
     state, course = view.state, view.course
     title = PRESETS[state.preset].label + ", altered" * bool(altered(state))
     numbers = readouts.line(course)
@@ -68,7 +71,8 @@ def scene_file(view: View) -> str:
         "style": CSS,
         "private": JS["private"],
         # Of Bokeh alone what draws; file_html adds a script of Panel's server.
-        "bokeh": Resources(mode="inline", components=["bokeh"]).js_raw[0],
+        "bokeh": "" if bokeh else Resources(mode="inline", components=["bokeh"]).js_raw[0],
+        "bokeh_at": bokeh,
         "dark": str(state.dark).lower(),
         "heading": title,
         "scene": marked(summary(state)),

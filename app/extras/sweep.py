@@ -1,5 +1,6 @@
 """The plot *Sweep*: results over a range of one number, with the limit of fast impacts."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from mdr_core.show.units import KINDS, digits
 from ..changes import option
 from ..extra import Extra
 from ..fields import slider_range
+from ..host import last
 from ..parts import Part, button
 from ..plot import OF_AXIS, Plot, View, axis
 from ..quantities import CHOICES, QUANTITIES, Option, in_words, lowered, quantity, read_data
@@ -82,23 +84,33 @@ def quick(sweep: Sweep) -> bool:
     return not (one_by_one or sweep.in_time) and sweep.state.shape in _SHAPES
 
 
-def found(course, sweep: Sweep):
+def found(course, sweep: Sweep) -> Found:
     """Curve of the sweep with the present value and limits."""
+    return last(in_steps(course, sweep))
+
+
+def in_steps(course, sweep: Sweep) -> Iterator[Found | None]:
+    """`found`, after a step for each of its lines."""
     if not sweep.solver:
-        return Found({}, [], "This drive has no sweep: press to a depth or a force, or let a body hit.")
+        yield Found({}, [], "This drive has no sweep: press to a depth or a force, or let a body hit.")
+        return
     result = course.turning_point if course.hit is None else course.hit
     numbers, present = sweep.numbers, getattr(result, sweep.against)
     values = sweep.column(numbers, sweep.against)
+    yield None
     inside = sweep.low <= sweep.present <= sweep.high
-    classes = sweep.classes() if inside else {}
-    rows = sweep.fast(numbers) | {row: each.column(numbers, each.against) for row, each in classes.items()}
-    rows = {name: (numbers, row) for name, row in ({"this scene": values} | rows).items()}
+    columns, classes = {"this scene": values} | sweep.fast(numbers), {}
+    for row, each in sweep.each_class() if inside else ():
+        yield None
+        classes[row], columns[row] = each, each.column(numbers, each.against)
+        yield None
+    rows = {name: (numbers, column) for name, column in columns.items()}
     x, y = _axes(sweep, values, float(present))
     if y.log:
         rows = {name: (numbers, np.where(row > 0, row, np.nan)) for name, (_, row) in rows.items()}
     visible = inside and (present > 0 or not y.log)
     rows["present value"] = (np.array([sweep.present]), np.array([present])) if visible else NOTHING
-    return Found(rows, [x, y], Markup(" ").join(_notes(sweep, numbers, values, classes, inside)))
+    yield Found(rows, [x, y], Markup(" ").join(_notes(sweep, numbers, values, classes, inside)))
 
 
 def _axes(sweep, values, present):
@@ -177,7 +189,7 @@ SWEEP = SweepPlot(
         line("this scene", "elastic", 2.4, symbol=OF_AXIS),
         mark("present value"),
     ),
-    find=found, asks=asked, quick=quick, tab="Sweep", order=90, picture=Logarithmic,
+    find=in_steps, asks=asked, quick=quick, tab="Sweep", order=90, picture=Logarithmic,
     controls=("sweep.swept", "sweep.against", "sweep.scale"),
 )  # fmt: skip
 

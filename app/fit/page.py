@@ -13,6 +13,7 @@ from markupsafe import Markup
 
 from mdr_core.numerics.results import Remark
 
+from ..server import host_of
 from ..tip import in_line
 from ..ui import JS, WIDE, html, landmarks
 from . import words
@@ -45,7 +46,7 @@ class Measurement(Fits):
         super().__init__(Setting.read(query), Worker() if worker is None else worker)
         # What is said below the file of the tip, and why it is refused.
         self.of_tip, self.tip_refused = "", NOTHING
-        self._tips = Tips(self.document)
+        self._tips = Tips(host_of(self.document))
         self.form, self.results = Form(self), Results(self)
         self._address = pn.widgets.TextInput(visible=False)
         self._address.jscallback(value="history.replaceState(null, '', source.value)")

@@ -1,25 +1,22 @@
-"""Files of tips, for both pages: each is read in a process, which ends with the answer."""
+"""Files of tips, for both pages: on a server each is read in a process, which ends with the answer."""
 
 from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from bokeh.document import Document
-
+from ..host import Host
 from .folders import NOT_KEPT, Files
 from .refusals import Message
-from .worker import Here, Worker, in_session, waiting
+from .worker import Here, Worker, waiting
 
 
 class Tips:
     """Reads the tips of a session, the last one that was asked for."""
 
-    def __init__(self, document: Document):
-        served = document.session_context is not None
-        self._document, self._worker, self._files = document, Worker() if served else Here(), Files()
+    def __init__(self, host: Host):
+        self._host, self._worker, self._files = host, Worker() if host.processes else Here(), Files()
         self._job = 0
-        if served:
-            document.on_session_destroyed(lambda context: self.close())
+        host.at_end(self.close)
 
     def read(self, name: str, data: bytes, heard: Callable[[str, Any], None]) -> None:
         """Read a file, and call `heard` where the page may be changed.
@@ -33,8 +30,8 @@ class Tips:
         except OSError:
             heard("refused", Message(NOT_KEPT))
             return
-        tell = in_session(self._document, partial(self._told, self._job, name, heard))
-        self._worker.ask("tip", path, name, tell=tell)
+        told = partial(self._told, self._job, name, heard)
+        self._worker.ask("tip", path, name, tell=lambda *answer: self._host.soon(partial(told, *answer)))
 
     def _told(self, job: int, name: str, heard: Callable[[str, Any], None], kind: str, answer: Any) -> None:
         if job != self._job:

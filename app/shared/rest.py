@@ -1,8 +1,7 @@
-"""Slow searches of a session, made in threads while the input rests: rows of plots, and exact courses."""
+"""Slow searches of a session, made while the input rests: rows of plots, and exact courses."""
 
 import logging
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -14,13 +13,12 @@ from mdr_core.show.figures import Axis
 from ..courses import Course, nearest
 from ..drives import DRIVES, EXACT
 from ..extra import Service
+from ..host import Steps, last
 from ..plot import Plot, View
 from ..plots import PLOTS, visible
 from ..state import State
 
 _LOG = logging.getLogger(__name__)
-#: Threads for the searches of all sessions.
-_THREADS = ThreadPoolExecutor()
 #: How many exact courses are kept, the last ones that were found in any session.
 _KEPT = 64
 
@@ -43,11 +41,12 @@ FAULT = Found({}, [], "This could not be found, because of a fault of the explor
 class Searched(Plot):
     """A plot whose rows and axes are found by a search.
 
-    `find` gets the course and the result of `asks` (default: the `controls`), and returns what is found,
-    of a scene or a state (`of_state`); `quick` ones run at every move. `image`: rows and columns of pixels.
+    `find` gets the course and the result of `asks` (default: the `controls`), and returns what is found of
+    a scene or a state (`of_state`), or steps of which the last gives it; `quick` ones run at every move.
+    `image`: rows and columns of pixels.
     """
 
-    find: Callable[..., Found] = lambda course, asked: COMPUTING
+    find: Callable[..., Found | Iterator[Found | None]] = lambda course, asked: COMPUTING
     asks: Callable[[State], Any] | None = None
     quick: Callable[[Any], bool] = lambda asked: False
     of_state: bool = False
@@ -77,6 +76,11 @@ class Searched(Plot):
         return self.found(view).note
 
 
+def as_steps(found: Any) -> Steps:
+    """What a search returns as steps, one if it is a result."""
+    return found if isinstance(found, Iterator) else iter([found])
+
+
 class Searching(Service):
     """Searches of a session: the last one of each name."""
 
@@ -94,21 +98,19 @@ class Searching(Service):
         """Search unless the last search of this name has the same key."""
         if self._keys.get(name) == key:
             return
-        self._keys[name], document = key, self.page.document
+        self._keys[name] = key
 
-        def run():
-            if self._keys.get(name) != key:
-                return
+        def steps():
             try:
-                result = search(*arguments)
+                yield from as_steps(search(*arguments))
             except Exception:
                 _LOG.exception("%s could not be found, scene %s", name, arguments[0].scene.to_json())
-                result = FAULT
-            done = partial(self._done, name, key, result)
-            document.add_next_tick_callback(done) if served else done()
+                yield FAULT
 
-        served = document.session_context is not None
-        _THREADS.submit(run) if served else run()
+        def wanted():
+            return self._keys.get(name) == key
+
+        self.page.host.search(steps(), wanted, partial(self._done, name, key))
 
     def _done(self, name, key, result):
         """Draw a result if it is that of the last search; on failure go on without it."""
@@ -145,7 +147,7 @@ class Resting(Searching):
             asked = plot.asked(state)
             key, result = self._results.get(plot.name, (None, COMPUTING))
             if plot.quick(asked):
-                result = plot.find(course, asked)
+                result = last(as_steps(plot.find(course, asked)))
             elif key != plot.key(course, asked):
                 result = replace(COMPUTING, axes=result.axes)
             results[plot.name] = result

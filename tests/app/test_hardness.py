@@ -12,10 +12,11 @@ from app.drives import follow
 from app.extras import share, sweep
 from app.extras.hardness import found
 from app.extras.scene_file import scene_file
+from app.host import last
 from app.page import Page
 from app.plots import PLOTS
 from app.quantities import ASSETS
-from app.shared.rest import Searched
+from app.shared.rest import Searched, as_steps
 from app.state import PRESETS, altered, medium, preset_state, profile
 from mdr_core.show.units import written
 
@@ -258,7 +259,7 @@ def test_every_plot_and_export_has_the_class(key, choices):
         if not isinstance(plot, Searched):
             assert view.places(plot, view.course.now), plot.name
             continue
-        found = plot.find(view.course, plot.asked(state))
+        found = last(as_steps(plot.find(view.course, plot.asked(state))))
         assert plot.name != "sweep" or sweep.FAST not in found.rows
         assert found.rows or "has no sweep" in found.note, plot.name
     constant, symbol = ("f_c", "f_c") if state.plasticity == "line" else ("hardness", "H")
@@ -275,7 +276,7 @@ def test_every_plot_and_export_has_the_class(key, choices):
 def test_the_constant_of_a_class_is_swept():
     """Under a cone of constant hardness the force is H (1 − κ/2) times the area of the contact."""
     state = preset_state(SILICA).replace(**{"sweep.swept": "volume_hardness"})
-    found = PLOTS["sweep"].find(follow(state), sweep.asked(state))
+    found = sweep.found(follow(state), sweep.asked(state))
     hardness, force = found.rows["this scene"]
     kappa = hardness / (state.E_star * state.cone_slope)
     a = 2 * state.max_depth / (pi * state.cone_slope)

@@ -1,0 +1,77 @@
+"""Where a page runs, and when what takes time is done there.
+
+At once here; in a server by server.py; in a browser, without threads and processes, by browser.py.
+"""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from time import perf_counter
+from typing import Any
+
+#: Something that takes time, in steps: the last one gives what is found, those before it nothing.
+Steps = Iterator[Any]
+#: Seconds after which others are served while steps are taken.
+_SLICE = 0.02
+
+
+def last(steps: Steps, wanted: Callable[[], bool] = lambda: True) -> Any:
+    """What the last step gives, None once it is not wanted any more."""
+    found = None
+    while wanted():
+        try:
+            found = next(steps)
+        except StopIteration:
+            return found
+    return None
+
+
+class Host:
+    """No server and no browser, as in a test or for a file: what is asked for is done at once."""
+
+    #: Whether a file of somebody is read in a process, which can be stopped.
+    processes = False
+
+    def shows(self) -> bool:
+        """Whether a browser shows the page, so that slow updates wait until the input rests."""
+        return False
+
+    def later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
+        """Do something later, and return what prevents it."""
+        act()
+        return lambda: None
+
+    def at_end(self, act: Callable[[], None]) -> None:
+        """Do something when the page is closed, if that is known."""
+
+    def soon(self, act: Callable[[], None]) -> None:
+        """Do something where the page may be changed, from whichever thread."""
+        act()
+
+    def search(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
+        """Take the steps of a search beside the page, and give what is found to `done` if it is wanted."""
+        found = last(steps, wanted)
+        if wanted():
+            self.soon(partial(done, found))
+
+    def make(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
+        """Take steps that read the page, and give what they make to `done` if it is wanted."""
+        self.search(steps, wanted, done)
+
+
+class Sliced(Host):
+    """Others are served between slices of what is made."""
+
+    def make(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
+        self._go_on(steps, wanted, done, None)
+
+    def _go_on(self, steps, wanted, done, made):
+        begun = perf_counter()
+        while wanted():
+            try:
+                made = next(steps)
+            except StopIteration:
+                done(made)
+                return
+            if perf_counter() > begun + _SLICE:
+                self.soon(partial(self._go_on, steps, wanted, done, made))
+                return

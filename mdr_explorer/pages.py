@@ -1,0 +1,85 @@
+"""Pages of a static explorer, and the scripts and style sheets that they ask for."""
+
+import json
+import re
+import shutil
+import sys
+from pathlib import Path
+from string import Template
+
+from . import APP, licenses
+
+_HERE = Path(__file__).parent
+#: Compiled packages that are loaded from Pyodide, with what its lock names for them.
+COMPILED = ("numpy", "scipy")
+#: What is imported one after the other: share of the bar then, module, what is told, and about its seconds.
+IMPORTS = (
+    (0.46, "numpy", "Starting NumPy", 0.5), (0.5, "scipy.special", "Starting SciPy", 0.7),
+    (0.54, "scipy.optimize", "Starting SciPy", 1), (0.58, "scipy.integrate", "Starting SciPy", 0.5),
+    (0.62, "mdr_core.contact", "Starting the solver", 0.5),
+    (0.68, "bokeh.models", "Starting Bokeh", 1.2), (0.72, "bokeh.plotting", "Starting Bokeh", 0.7),
+    (0.9, "panel", "Starting Panel", 3), (0.96, "app.browser", "Starting the explorer", 1),
+)  # fmt: skip
+#: Scripts of the served page in their order, below the folder of Bokeh or Panel; a test compares them.
+_OF_BOKEH = ("js/bokeh.min.js", "js/bokeh-widgets.min.js", "js/bokeh-tables.min.js")
+_SHIMS = "bundled/reactiveesm/es-module-shims@^1.10.0/dist/es-module-shims.min.js"
+_NOTICES = "bundled/notificationarea/notyf@3"
+_KATEX = "bundled/katex/katex@0.16.22/dist"
+#: What its components ask for when they are drawn, 200 kB of the 107 MB of Panel.
+_ASKED = ("css", "bundled/theme", "bundled/font-awesome/css")
+
+
+def write(folder: Path, pyodide: str) -> list[licenses.Licensed]:
+    """Write the pages and what they ask for, and return whose scripts these are."""
+    if str(APP.parent) not in sys.path:
+        # As a server has it.
+        sys.path.insert(0, str(APP.parent))
+    import bokeh
+    import panel
+
+    from app import theory, ui
+    from app.extras.scene_file import scene_file
+    from app.page import Page
+
+    dist = Path(panel.__file__).parent / "dist"
+    own = f"static/panel/{panel.__version__}/dist"
+    scripts = [own + "/" + _SHIMS, *(f"static/{name}" for name in _OF_BOKEH)]
+    scripts += [f"{own}/{_NOTICES}/notyf.min.js", f"{own}/panel.min.js"]
+    sheets = [f"{own}/{_NOTICES}/notyf.min.css", f"{own}/css/notifications.css"]
+    for name in (*_ASKED, _SHIMS, _NOTICES + "/notyf.min.js", _NOTICES + "/notyf.min.css", "panel.min.js"):
+        _copy(dist / name, folder / own / name)
+    # By this address Panel asks for it when a notice is first shown.
+    _copy(dist / _NOTICES / "notyf.min.css", folder / "static/npm/notyf@3/notyf.min.css")
+    for name in ("katex.min.js", "contrib/auto-render.min.js"):
+        _copy(dist / _KATEX / name, folder / "static/npm/katex" / Path(name).name)
+    for name in _OF_BOKEH:
+        _copy(Path(bokeh.__file__).parent / "server/static" / name, folder / "static" / name)
+    _copy(APP / "static", folder / "app/static")
+
+    words = {"theme": ui.JS["theme"], "private": ui.JS["private"], "style": ui.LAYOUT[0] + ui.CSS}
+    words["sheets"] = "\n".join(f'<link rel="stylesheet" href="{name}">' for name in sheets)
+    words["scripts"] = "\n".join(f'<script src="{name}"></script>' for name in scripts)
+    words["settings"] = json.dumps({"pyodide": pyodide, "compiled": COMPILED, "imports": IMPORTS})
+    words["start"] = (_HERE / "static.js").read_text(encoding="utf-8")
+    words["body"] = theory.html()
+    for name in ("static", "theory", "measurement"):
+        page = Template((_HERE / f"{name}.html").read_text(encoding="utf-8")).substitute(words)
+        _write(folder / f"{'index' if name == 'static' else name}.html", page)
+    _write(folder / "first.html", scene_file(Page().shown, "static/js/bokeh.min.js"))
+    found = {"es-module-shims": _SHIMS, "notyf": _NOTICES, "katex": _KATEX}
+    versions = {name: re.search(r"@\^?([\d.]+)", path) for name, path in found.items()}
+    parts = [licenses.of_script(name, match[1] if match else "") for name, match in versions.items()]
+    font = (dist / "bundled/font-awesome/LICENSE.txt").read_text(encoding="utf-8")
+    return [*parts, licenses.Licensed("Font Awesome Free", "5.15.4", "CC-BY-4.0, OFL-1.1, MIT", font)]
+
+
+def _copy(path: Path, to: Path) -> None:
+    to.parent.mkdir(parents=True, exist_ok=True)
+    if path.is_dir():
+        shutil.copytree(path, to)
+    else:
+        shutil.copy(path, to)
+
+
+def _write(path: Path, text: str) -> None:
+    path.write_text(text, encoding="utf-8")
