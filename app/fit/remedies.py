@@ -5,6 +5,7 @@ from typing import Any
 from mdr_core.numerics.results import Remedy
 from mdr_core.show.units import written
 
+from . import words
 from .setting import CLASS_NAMES, CORRECTIONS, MEDIA, NUMBERS, OF_CLASS, parameter
 
 #: Names of columns, and what else is chosen of a table.
@@ -106,7 +107,10 @@ def _class(remedy: Remedy, page: Any) -> str:
         kind = MEDIA[name].label.partition(":")[0]
         return f"Take {kind[:1].lower()}{kind[1:]}"
     misfits = {letter: each.misfit for letter, each in page.fit.classes.items()} if page.fit else {}
-    better = not misfits or misfits[remedy.what] < misfits[page.setting.kind.letter]
+    own = page.setting.kind.letter
+    # What is clearly better has a button beside the classes.
+    beside = words.better(misfits, own) == remedy.what
+    better = not misfits or (misfits[remedy.what] < misfits[own] and not beside)
     return f"Take class ({remedy.what}), {CLASS_NAMES[remedy.what]}" if better else ""
 
 
