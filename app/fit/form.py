@@ -103,7 +103,7 @@ class Form:
 
     def _tip(self) -> None:
         options = {"choose the tip": ""} | {tip.label: name for name, tip in TIPS.items()}
-        self.tip = field(pn.widgets.Select, label="Tip", options=options)
+        self.tip = field(pn.widgets.Select, "to-profile", label="Tip", options=options)
         self.tip.param.watch(lambda event: self._change(lambda s: s.replace(tip=event.new)), "value")
         label = "Drop the file of the tip, radii and heights, here"
         self.tip_file = Dropper(self._page.take_tip, lambda: None, TIP_BYTES, label=label, visible=False)

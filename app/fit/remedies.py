@@ -5,11 +5,14 @@ from typing import Any
 from mdr_core.numerics.results import Remedy
 from mdr_core.show.units import written
 
+from . import words
 from .setting import CLASS_NAMES, CORRECTIONS, MEDIA, NUMBERS, OF_CLASS, parameter
 
 #: Names of columns, and what else is chosen of a table.
 _COLUMNS = {"depth": "depth", "piezo": "depth", "force": "force", "time": "time", "stiffness": "stiffness"}
 _CHOOSE = {"columns": "Choose the columns"}
+#: Kinds of samples by classes of hardness.
+_MEDIA = OF_CLASS | {"elastic": "gel"}
 #: What parts the curves of a table.
 _BY = {
     None: "Choose what parts the curves",
@@ -32,14 +35,10 @@ def do(remedy: Remedy, page: Any) -> None:
     elif remedy.action == "part":
         page.choose_part(what)
     elif remedy.action == "class":
-        page.choose_medium(OF_CLASS[what])
+        page.choose_medium(_MEDIA[what])
     elif remedy.action == "free":
         page.free(what, True)
-    elif (
-        remedy.action in ("hold", "give")
-        and value is not None
-        and (_is_free(what, page) or what in CORRECTIONS)
-    ):
+    elif remedy.action in ("hold", "give") and value is not None:
         page.hold(what, value)
     elif remedy.action == "hold":
         # Where it was found; a person knows another value, perhaps.
@@ -76,6 +75,8 @@ def _hold(remedy: Remedy, page: Any) -> str:
 
 def _give(remedy: Remedy, page: Any) -> str:
     what = remedy.what
+    if what == "profile":
+        return "Choose another tip"
     if what in CORRECTIONS:
         return f"Give the {CORRECTIONS[what].label}"
     if what in NUMBERS:
@@ -99,13 +100,18 @@ def _part(remedy: Remedy, page: Any) -> str:
 
 
 def _class(remedy: Remedy, page: Any) -> str:
-    name = OF_CLASS.get(remedy.what, "")
+    name = _MEDIA.get(remedy.what, "")
     if not name or name == page.setting.medium:
         return ""
-    if not page.setting.kind.letter:
+    if not (page.setting.kind.letter and MEDIA[name].letter):
         kind = MEDIA[name].label.partition(":")[0]
         return f"Take {kind[:1].lower()}{kind[1:]}"
-    return f"Take class ({remedy.what}), {CLASS_NAMES[remedy.what]}"
+    misfits = {letter: each.misfit for letter, each in page.fit.classes.items()} if page.fit else {}
+    own = page.setting.kind.letter
+    # What is clearly better has a button beside the classes.
+    beside = words.better(misfits, own) == remedy.what
+    better = not misfits or (misfits[remedy.what] < misfits[own] and not beside)
+    return f"Take class ({remedy.what}), {CLASS_NAMES[remedy.what]}" if better else ""
 
 
 def _name(name: str) -> str:

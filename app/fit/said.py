@@ -51,9 +51,8 @@ class Said:
         return tuple(each for each in labels if each[0])
 
     def _parts(self, text: Markup, offers: tuple[tuple[str, Remedy], ...]) -> list[Any]:
-        made = html(
-            (_REFUSED if self._alert else _TEXT).format(text), "note", "remark", *("refusal",) * self._alert
-        )
+        kind, form = ("refusal", _REFUSED) if self._alert else ("remark", _TEXT)
+        made = html(form.format(text), "note", kind)
         if not offers:
             return [made]
         buttons = []

@@ -34,6 +34,9 @@ class Typed:
     def __init__(self, name: str, known: Number, take: Callable[[float], None]):
         self._known, self._take, self._name = known, take, name
         self._value: float | None = None
+        # The value that was typed last, and its unit, in which it stays: a browser may tell a number without a
+        # unit twice, which has to be the same.
+        self._typed_as: tuple[float, Unit] | None = None
         self._text = ""
         self._empty = f"… {self._unit().name}" if self._unit().name else "type a value"
         self.field = field(pn.widgets.TextInput, "typed", label="", placeholder=self._empty)
@@ -57,6 +60,8 @@ class Typed:
 
     def _unit(self, value: float = 0.0) -> Unit:
         """The unit of a value, and of the first one that is typed."""
+        if self._typed_as is not None and value == self._typed_as[0]:
+            return self._typed_as[1]
         units = {unit.name: unit.factor for unit in UNITS[self._known.kind]}
         return fitting(value, self._known.kind, units.get(_FIRST.get(self._name, ""), 0.0))
 
@@ -64,11 +69,12 @@ class Typed:
         if event.new == self._text:
             return
         try:
-            value, _ = read(event.new, self._known.kind, self._unit(self._value or 0.0))
+            value, unit = read(event.new, self._known.kind, self._unit(self._value or 0.0))
             value = self._known.checked(value)
         except ValueError as error:
             show(self.said, object=_REFUSED.format(words.sentence(str(error))))
             return
+        self._typed_as = value, unit
         self._take(value)
 
 

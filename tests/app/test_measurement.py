@@ -706,4 +706,4 @@ def test_remarks_have_words_in_the_place_of_names_of_python():
     page.hold("depth_noise", 0.0)
     text = said(page) + page.results._report.value
     assert re.findall(r"[A-Za-z]{2,}_[a-z]+|E_star|\w=\w", text) == []
-    assert page.results.folded.visible
+    assert "goes back and forth" in text
