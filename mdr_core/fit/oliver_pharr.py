@@ -11,7 +11,6 @@ from ..applicability import check_pair
 from ..measured_curve import MeasuredCurve
 from ..medium import Medium
 from ..numerics.results import Remark, Remedy
-from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..show.quantities import engineering
 from . import creep as creeping
@@ -20,6 +19,7 @@ from .errors import roughness
 from .exponent import doubt
 from .iso_14577 import iso_numbers
 from .materials import doubts
+from .moduli import moduli, remaining
 from .oliver_pharr_result import ISO_14577, OliverPharr, OverDepth
 from .tip import of_ideal_tip
 from .unloading import last_at_top, laws_of, parts_of
@@ -154,11 +154,12 @@ def oliver_pharr(
     numbers, triples = zip(*parts.items(), strict=True)
     corrected, uncorrected, iso = zip(*triples, strict=True)
     numbers = _check.frozen(numbers if cycles else numbers[0])
-    result = _collected(profile, corrected, iso, contact, numbers, (*remarks, *begins))
+    result = _collected(profile, corrected, iso, contact, constants[0], numbers, (*remarks, *begins))
     result = _with_other_readings(result, read, in_contact, constants)
     if time is None:
         return result
-    return replace(result, uncorrected=_collected(profile, uncorrected, iso, contact, numbers, ()))
+    before = _collected(profile, uncorrected, iso, contact, constants[0], numbers, ())
+    return replace(result, uncorrected=before)
 
 
 def _one(remarks):
@@ -281,7 +282,7 @@ def _values_and_errors(profile, depth, laws, constants, contact):
 
     def results(F, S, m, shift=0.0):
         contact_depth = depth.max() + shift - epsilon * F / S
-        return np.stack([S, contact_depth, *_moduli(profile, contact_depth, F, S, beta), m]).T
+        return np.stack([S, contact_depth, *moduli(profile, contact_depth, F, S, beta), m]).T
 
     solution = laws.solution
     values, *noisy = results(*np.column_stack([solution, solution[:, None] + laws.deviations]))
@@ -311,13 +312,6 @@ def _not_from_contact(text):
     return Refusal(Remark(sentence, "no unloading", words))
 
 
-def _moduli(profile, contact_depth, force, stiffness, beta):
-    """E* and H (Pa) at contact depths (m)."""
-    a = _radius_at_height(profile, contact_depth)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return stiffness / (2 * beta * a), force / (np.pi * a**2)
-
-
 def _over_depth(profile, depth, force, stiffness, constants, contact):
     """Values and errors by name at each sample with a measured stiffness, and remarks."""
     epsilon, beta = constants
@@ -333,7 +327,7 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     def at(shift):
         h = np.where(used, np.maximum(contact_depth + shift, 0.0), np.nan)
         E, H = np.full((2, depth.size), np.nan)
-        E[used], H[used] = _moduli(profile, h[used], force[used], stiffness[used], beta)
+        E[used], H[used] = moduli(profile, h[used], force[used], stiffness[used], beta)
         return {"contact_depth": h, "E_star": E, "hardness": H}
 
     values, shifted = at(0.0), at(-contact.depth_error)
@@ -358,7 +352,7 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     return frozen, {name: _check.frozen(error) for name, error in errors.items()}, remarks
 
 
-def _collected(profile, results, iso, contact, numbers, remarks):
+def _collected(profile, results, iso, contact, epsilon, numbers, remarks):
     """An `OliverPharr` of the values and errors of unloadings by number, or of one where that is one."""
     columns = np.array(results) if numbers.ndim else np.array(results[0])
     names = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
@@ -372,7 +366,9 @@ def _collected(profile, results, iso, contact, numbers, remarks):
         errors["contact_point"] = _check.frozen(np.full(shape, contact.depth_error))
     columns = zip(ISO_14577, np.array(iso if numbers.ndim else iso[0]).T, strict=True)
     values |= {name: _check.frozen(each) for name, each in columns if not np.all(np.isnan(each))}
-    remarks = [*remarks, *doubts(values["E_star"], values["hardness"]), *profile.remarks]
+    S, h_c, E, H, m = (values[name] for name in names)
+    remains = remaining(profile, h_c, S, H, m, epsilon)
+    remarks = [*remarks, *doubts(E, H, remains), *profile.remarks]
     remarks += of_ideal_tip(profile, values["contact_depth"])
     return OliverPharr(profile=profile, **values, standard_errors=errors, remarks=tuple(remarks))
 
@@ -387,17 +383,9 @@ def _with_other_readings(result, read, in_contact, constants):
     shifted = F - in_contact.force
     pairs = (
         (result.E_star, result.hardness),
-        _moduli(result.profile, h_c - in_contact.depth, F, S, beta),
-        _moduli(result.profile, h_c + epsilon * in_contact.force / S, shifted, S, beta),
+        moduli(result.profile, h_c - in_contact.depth, F, S, beta),
+        moduli(result.profile, h_c + epsilon * in_contact.force / S, shifted, S, beta),
     )
     # One number of several unloadings or samples.
     remark = in_contact.remark(*(tuple(float(np.nanmedian(each)) for each in pair) for pair in pairs))
     return replace(result, remarks=(*read, remark, *result.remarks))
-
-
-def _radius_at_height(profile, height):
-    """Radius (m) of the profile at heights (m): 0 below its tip, infinite where it is not known."""
-    known = np.minimum(profile.wall, profile.known_radius)
-    # Without a slope the search is by bisection.
-    radius = increasing_root(lambda r: (profile.height_at(r), np.inf), height, np.abs(height), known)
-    return np.maximum(np.minimum(radius, profile.wall), profile.face_radius)
