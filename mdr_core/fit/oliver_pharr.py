@@ -87,11 +87,13 @@ def oliver_pharr(
     For an elastic contact and the ε of its shape E* is exact. A yielded cone in a medium of this package
     has z(a) = 2d/π, and here z(a) → d: E* is up to π/2 times smaller than the medium's, H (π/2)² times.
 
-    **First contact.** A record begins in the air where the force of its first 20 samples and more is noise
+    **First contact.** A record begins in the air where the force of its first 5 samples and more is noise
     about a constant, over 2 % of the largest depth or more. A power law of the depth from first contact on
     is then fitted to the beginning of the loading. Its z₀ is `contact_point`, whose error is included in
-    the errors of the results. Otherwise depths are taken as given and `contact_point` is 0. A remark names
-    the case.
+    the errors of the results, with a remark. So it is in the air after a preload, from which the indenter
+    is lifted off. Otherwise depths are taken as given and `contact_point` is 0. If the first depth is 0
+    where the force is 1 % of the largest one or more, a remark has E* and H of both readings: of a depth
+    that was set to 0 in contact, and of a force with an offset.
 
     **Creep** at the start of an unloading makes S too large. With `time`, and a hold of the force before
     the unloading, the depth of the unloading is reduced by creep at the rate ḣ of the end of the hold: at
@@ -100,7 +102,18 @@ def oliver_pharr(
     −ḣ/Ṗ of 20 % of 1/S, E* is then within 1 % instead of 14 or 15 % too large, where the unloading takes
     no longer than the hold; where it takes four times as long, and the rate falls meanwhile, E* is up to
     3 % too small. A remark gives the length of the hold. It is the time between straight lines through the
-    force before and after, at the force that is held, so that the tip of a triangle is no hold.
+    force before and after, at the force that is held, so that the tip of a triangle is no hold. Without
+    `time` creep shows in m: a remark says where it is larger than that of the tip's elastic contact, or
+    than 1.7 where more than half of the depth remains, or different by 0.2 and more in parts of the
+    unloading, each beyond the scatter. Where m is above 1.5 and a fourth of the depth remains, the errors
+    are as large as the results of parts down to 20 % of the force deviate.
+
+    **ISO 14577.** `elastic_work_ratio` is n_IT = W_elast/W_total, of the work of the unloading, and of the
+    loading and the hold before it. Below the last sample the unloading is continued by its power law, not
+    from above 20 % of the largest force; a hold after the unloading is no part of it. `indentation_creep`
+    is C_IT = (h₂ − h₁)/h₁ of the depths at both ends of a hold, `martens_hardness` HM = F/(26.43 h²) at
+    the end of the loading, for cones of 70.2° to 70.4°, which stand for Berkovich and Vickers pyramids.
+    Those that a record lacks are None, and NaN for such an unloading of several.
 
     Examples
     --------

@@ -38,7 +38,9 @@ class OliverPharr(Record):
 
     The standard errors, by name, are those of the scatter about the power law, and not less than half the
     range of the results for six parts of the unloading: from 99 or 95 % of the largest force down to 50, 40
-    or 30 %; with those of first contact and of the rate of creep where these were found. With
+    or 30 %; with those of first contact and of the rate of creep where these were found. Where m is above
+    1.5 and a fourth of the depth remains, they are not less than the largest deviation of the results for
+    these parts and for those down to 20 %. With
     ``cycles=True`` all are arrays (U,), and `result[i]` is one unloading, i from 0 on. Its number in the
     record, from 1 on, is `unloading`; remarks, print and tables have the same number.
     """
