@@ -10,6 +10,7 @@ from mdr_core.show.units import UNITS, Unit, fitting, written
 
 from . import changes
 from .extra import EXTRAS
+from .fit.refusals import Message, refusal
 from .fit.tips import Tips
 from .parts import Part, Parts, button, text, upload
 from .plot import View
@@ -199,13 +200,13 @@ class Form:
         try:
             data = file.read()
         except ValueError as error:
-            self._have_tip("refused", str(error))
+            self._have_tip("refused", Message(*refusal(error)))
             return
         self._tips = self._tips or Tips(self._page.document)
         self._tips.read(in_line(file.name), data, self._have_tip)
 
     def _have_tip(self, kind: str, answer: Any) -> None:
-        self._tip_refused = answer if kind == "refused" else ""
+        self._tip_refused = answer.text if kind == "refused" else ""
         self._tip_busy = answer if kind == "busy" else ""
         if kind == "done":
             self._page.apply(lambda state: changes.take_tip(state, *answer), self._refuse_tip)

@@ -149,10 +149,10 @@ def lowered(text):
 def in_words(error: ValueError) -> str:
     """Message of an error of the core: of a refused number its symbol, value with unit, bound and advice.
 
-    All other messages are as they stand.
+    All other messages are as they stand, without names of Python where they have a text.
     """
     if not isinstance(error, InvalidArgument) or not isinstance(error.value, int | float):
-        return str(error)
+        return getattr(error, "text", str(error))
     known = QUANTITIES.get(error.argument)
     name = f"{lowered(known.symbol)}, {known.label}," if known else error.quantity
     value = written(float(error.value), KINDS.get(error.unit, "number"))

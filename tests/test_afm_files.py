@@ -82,6 +82,13 @@ def test_a_height_without_a_stiffness_has_a_remark(tmp_path):
     )
     np.testing.assert_allclose(read.depth, -HEIGHT, atol=1e-7 * np.ptp(HEIGHT))
     np.testing.assert_allclose(read.minus_frame(1 / STIFFNESS).depth, DEPTH, atol=2e-7 * np.ptp(HEIGHT))
+    # It is subtracted where it is given.
+    told = mdr.read_curve(tmp_path / "run.tab", spring_constant=STIFFNESS)
+    assert (told.remarks, told.spring_constant) == ((), STIFFNESS)
+    np.testing.assert_allclose(told.depth, DEPTH, atol=2e-7 * np.ptp(HEIGHT))
+    # Of forces in N nothing uses a sensitivity.
+    with pytest.raises(ValueError, match="give neither"):
+        mdr.read_curve(tmp_path / "run.tab", spring_constant=STIFFNESS, sensitivity=SENSITIVITY)
 
 
 def test_what_an_instrument_does_not_know_is_given(tmp_path):

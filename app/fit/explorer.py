@@ -1,4 +1,4 @@
-"""The way from a fit to the explorer: its tip and its medium, in the digits that are shown."""
+"""The way from a fit to the explorer: its tip, medium and depth, in the digits that are shown."""
 
 from math import floor, log10
 
@@ -38,10 +38,12 @@ def rounded(value: float, error: float | None) -> float:
 
 
 def explorer_query(setting: Setting, fit: IndentationFit) -> str:
-    """Tip and medium of a fit as the query of a scene. Raises ValueError if the explorer has none."""
+    """Tip, medium and depth of a fit as the query of a scene. Raises ValueError if there is none."""
     values, errors = fit.to_dict(), fit.standard_errors
     options, number, name = _OPTIONS[setting.medium]
     numbers = {"E_star": rounded(values["E_star"], errors.get("E_star"))}
+    # As deep as the curve, so that its force is seen.
+    numbers["max_depth"] = rounded(float(np.max(fit.path.depth)), None)
     if name and np.isfinite(fit.medium.q_c) | (number in ("eta", "work_of_adhesion")):
         numbers[number] = rounded(values[name], errors.get(name))
     elif setting.kind.letter:

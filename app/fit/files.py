@@ -1,6 +1,7 @@
 """A fit as a file: JSON with the samples, and CSV of its numbers, in SI."""
 
 import json
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,6 @@ from mdr_core.fit.parameters import PARAMETERS
 
 from .. import tables
 from .setting import CORRECTIONS, Setting
-from .words import in_page_words
 
 #: Units of corrections in SI.
 _UNITS = {"drift": "m/s", "frame": "m/N", "depth_noise": "m"}
@@ -20,10 +20,10 @@ _UNITS = {"drift": "m/s", "frame": "m/N", "depth_noise": "m"}
 def contents(setting: Setting, fit: IndentationFit, told: dict[str, Any]) -> dict[str, Any]:
     """Numbers of a fit with units and standard errors, misfits, remarks, and what was fitted.
 
-    `told` has the remarks on the file, the numbers of the first and last sample, how many there are, and
-    Young's modulus of the sample with its error, or None.
+    `told` has what is told of the fit, all remarks, the numbers of the first and last sample, how many
+    there are, and Young's modulus of the sample with its error, or None.
     """
-    quoted = fit.quoted
+    quoted = told["told"].quoted
     numbers = {
         "quoted": {
             "units": "Pa", "long_name": f"effective modulus to quote, {quoted.source or 'none'}",
@@ -57,9 +57,14 @@ def contents(setting: Setting, fit: IndentationFit, told: dict[str, Any]) -> dic
         "file": setting.file,
         "curve": setting.curve,
         "samples": {"first": first, "last": last, "of": told["count"], "fitted": int(fit.depth.size)},
-        "quoted": {"source": quoted.source, "reason": in_page_words(quoted.reason)},
+        "quoted": {
+            "source": quoted.source,
+            "reason": quoted.reason,
+            "kind": quoted.kind,
+            "remedy": [asdict(each) for each in quoted.remedy],
+        },
         "numbers": numbers,
-        "remarks": [in_page_words(text) for text in told["remarks"]],
+        "remarks": [each.to_dict() for each in told["remarks"]],
         "limits": [each.sentence for each in fit.path.limits if each.exceeded],
     }
 
@@ -91,7 +96,11 @@ def as_csv(setting: Setting, fit: IndentationFit, told: dict[str, Any]) -> str:
     """The numbers of the fit as a table; a number without a standard error was held or measured."""
     found = contents(setting, fit, told)
     samples = "samples {first} to {last} of {of}, {fitted} fitted".format(**found["samples"])
-    lines = [f"{found['version']}: fit to {found['file']}, {samples}", *found["remarks"], *found["limits"]]
+    lines = [
+        f"{found['version']}: fit to {found['file']}, {samples}",
+        *(each["text"] for each in found["remarks"]),
+        *found["limits"],
+    ]
     rows = [["name", "quantity", "symbol", "value", "standard error", "unit"]]
     for name, each in found["numbers"].items():
         shown = map(_float, (each["value"], each.get("standard_error")))
@@ -107,5 +116,12 @@ def map_csv(file: str, rows: list[tuple[Any, ...]]) -> str:
     """E* and its error of each curve of a map as a table."""
     written = [["curve", "E* (Pa)", "standard error (Pa)", "source, or why there is no number"]]
     for number, value, error, reason in rows:
-        written.append([number + 1, _float(value), _float(error), in_page_words(reason)])
+        written.append(
+            [
+                number + 1,
+                _float(value),
+                _float(error),
+                reason,
+            ]
+        )
     return tables.as_csv([f"mdr_core {mdr.__version__}: curves of {file}"], written)

@@ -1,80 +1,30 @@
 """The left column: the file and how it is read, the tip, the sample, and the parameters of the fit."""
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import panel as pn
-from markupsafe import Markup
 
 from mdr_core.reading import SIZES
-from mdr_core.show.units import UNITS, fitting
 
 from ..tip import MAX_BYTES as TIP_BYTES
-from ..ui import WIDE, html, show
-from ..units import entry, read
-from . import words
+from ..ui import WIDE, html, own_html, show
 from .dropper import MAX_BYTES, Dropper
 from .preview import drawing
-from .setting import CORRECTIONS, IN_TIME, MEDIA, NUMBERS, TIPS, Number, Setting, parameter
+from .refusals import NOTHING, Message
+from .said import Said
+from .setting import CORRECTIONS, IN_TIME, MEDIA, NUMBERS, TIPS, Setting, parameter
 from .told import heads_of, of_parts
+from .typed import GROUP, Typed, field, heading
 
+_FOCUS = Path(__file__).with_name("focus.js").read_text(encoding="utf-8")
+#: What holds for every number, which no remark repeats.
+_HELP = own_html(Path(__file__).with_name("help.html"))
 #: The option for no column, and for one that is still to be chosen.
 _NONE, _ASK = "none", "choose"
 #: The options for one curve of a table, and for curves or parts of one side by side.
 _ONE, _PAIRS, _SEGMENTS = "whole", "pairs", "segments"
-#: Units of numbers that have no value yet.
-_FIRST = {
-    "radius": "µm", "half_angle": "°", "tip_modulus": "GPa", "spring_constant": "N/m", "sensitivity": "nm",
-    "drift": "nm/s", "frame": "nm/mN", "depth_noise": "nm",
-}  # fmt: skip
-
-
-def field(kind: Any, *classes: str, **options: Any) -> Any:
-    """A widget of Panel that looks like those of the explorer."""
-    return kind(css_classes=["choice", *classes], **WIDE | options)
-
-
-class Typed:
-    """A number that is typed with its unit; a refusal stands below it."""
-
-    def __init__(self, name: str, known: Number, take: Callable[[float], None]):
-        self._known, self._take, self._name = known, take, name
-        self._value: float | None = None
-        self._text = ""
-        self.field = field(pn.widgets.TextInput, "typed", label="", placeholder="type a value")
-        self.said = html("", "note")
-        self.label = html(Markup("<label>{}</label>").format(words.name_html(known)), "name")
-        self.row = pn.Row(self.label, self.field, css_classes=["fields"], **WIDE)
-        self.view = pn.Column(self.row, self.said, css_classes=["typed-number"], **WIDE)
-        self.field.param.watch(self._typed, "value")
-
-    def show(self, value: float | None, **options: Any) -> None:
-        """Show a value (SI), or an empty field."""
-        self._value = value
-        self._text = "" if value is None else entry(value, fitting(value, self._known.kind, self._like()))
-        show(self.said, object="")
-        show(self.field, value=self._text, **options)
-
-    def _like(self) -> float:
-        units = {unit.name: unit.factor for unit in UNITS[self._known.kind]}
-        return units.get(_FIRST.get(self._name, ""), 0.0)
-
-    def _typed(self, event: Any) -> None:
-        if event.new == self._text:
-            return
-        unit = fitting(self._value or 0.0, self._known.kind, self._like())
-        try:
-            value, _ = read(event.new, self._known.kind, unit)
-            value = self._known.checked(value)
-        except ValueError as error:
-            show(self.said, object=words.refused(str(error)))
-            return
-        self._take(value)
-
-
-def heading(text: str) -> Any:
-    """A heading of a part of the column."""
-    return html(Markup("<h2>{}</h2>").format(text), "title")
 
 
 class Form:
@@ -92,10 +42,10 @@ class Form:
         self._medium()
         self._moduli()
         parts = [
-            heading("1 · Curve"), self.drop, self.samples, self.about, self.refused, self.reader,
-            heading("2 · Tip"), self.tip, self.tip_file, self.of_tip, self.numbers["radius"].view,
-            self.numbers["half_angle"].view,
-            heading("3 · Sample"), self.medium, self.parameters, self.more,
+            heading("1 · Curve"), self.drop, self.samples, self.about, self.refused.view, self.reader,
+            heading("2 · Tip"), self.tip, self.tip_file, self.of_tip, self.tip_refused.view,
+            self.numbers["radius"].view, self.numbers["half_angle"].view,
+            heading("3 · Sample"), self.medium, self.more, self.parameters, self.help, self._to,
         ]  # fmt: skip
         self.view = pn.Column(*parts, css_classes=["asked"], width=360, margin=0)
 
@@ -109,7 +59,11 @@ class Form:
             button = pn.widgets.Button(label=label, css_classes=["button"], margin=0)
             button.on_click(lambda event, name=name: self._page.take_sample(name))
             self.samples.append(button)
-        self.about, self.refused = html("", "note"), html("", "note", "refusal")
+        self.about, self.refused = html("", "note"), Said(self._page, alert=True)
+        # The name of the field to be led to, and how often one was.
+        self._to = pn.widgets.TextInput(visible=False)
+        self._to.jscallback(value=_FOCUS)
+        self._led = 0
 
     def _reader(self) -> None:
         """What a file lacks: spring constant, sensitivity, columns and their units."""
@@ -118,9 +72,9 @@ class Form:
             for name, known in NUMBERS.items()
         }
         select = pn.widgets.Select
-        self.columns = {role: field(select, label=f"Column of {role}") for role in SIZES}
+        self.columns = {role: field(select, f"to-{role}", label=f"Column of {role}") for role in SIZES}
         self.units = {
-            role: field(select, label=f"Unit of {role}", options=[_ASK, *sizes])
+            role: field(select, f"to-unit-{role}", label=f"Unit of {role}", options=[_ASK, *sizes])
             for role, sizes in SIZES.items()
         }
         for role in SIZES:
@@ -128,7 +82,7 @@ class Form:
                 widget.param.watch(self._told, "value")
         meanings = {"the depth of the tip": "depth", "the position of a piezo": "piezo"}
         self.meaning = field(select, label="The depth is", options=meanings)
-        self.parts = field(select, label="The table has", options={"one curve": _ONE})
+        self.parts = field(select, "to-by", label="The table has", options={"one curve": _ONE})
         for widget in (self.meaning, self.parts):
             widget.param.watch(self._told, "value")
         self.preview = html("", "note", visible=False)
@@ -149,11 +103,11 @@ class Form:
 
     def _tip(self) -> None:
         options = {"choose the tip": ""} | {tip.label: name for name, tip in TIPS.items()}
-        self.tip = field(pn.widgets.Select, label="Tip", options=options)
+        self.tip = field(pn.widgets.Select, "to-profile", label="Tip", options=options)
         self.tip.param.watch(lambda event: self._change(lambda s: s.replace(tip=event.new)), "value")
         label = "Drop the file of the tip, radii and heights, here"
         self.tip_file = Dropper(self._page.take_tip, lambda: None, TIP_BYTES, label=label, visible=False)
-        self.of_tip = html("", "note")
+        self.of_tip, self.tip_refused = html("", "note"), Said(self._page, alert=True)
 
     def _medium(self) -> None:
         options = {"choose the kind of sample": ""} | {kind.label: name for name, kind in MEDIA.items()}
@@ -172,17 +126,22 @@ class Form:
                 self.free[name] = free
                 typed.row.insert(1, free)
             self._rows[name] = typed.view
-        self.parameters = pn.Column(*self._rows.values(), css_classes=["parameters"], visible=False, **WIDE)
+        rows = heading("Model", GROUP), *self._rows.values()
+        self.parameters = pn.Column(*rows, css_classes=["parameters"], visible=False, **WIDE)
 
     def _moduli(self) -> None:
         names = ("poisson", "tip_modulus", "tip_poisson")
         note = html(
             "With ν the page gives Young’s modulus E of the sample; a tip without a modulus is rigid."
         )
+        look = {"collapsed": True, "css_classes": ["fold"], **WIDE}
         self.more = pn.Card(
-            note, *(self.numbers[name].view for name in names), title="Young’s modulus of the sample",
-            collapsed=True, css_classes=["fold"], **WIDE,
-        )  # fmt: skip
+            note,
+            *(self.numbers[name].view for name in names),
+            title="Young’s modulus of the sample",
+            **look,
+        )
+        self.help = pn.Card(html(_HELP), title="What the number assumes", **look)
 
     # What is set.
 
@@ -217,8 +176,7 @@ class Form:
             elif column not in (_NONE, _ASK) and unit != _ASK:
                 given[key] = (column, unit)
         if not ({"depth", "piezo"} & given.keys() and "force" in given):
-            text = "Choose the columns of depth and force, and their units."
-            show(self.refused, object=words.refused(text))
+            self.refused.show(Message("Choose the columns of depth and force, and their units"))
             return
         by = self._several.get(self.parts.value, self.parts.value)
         layouts = self._layouts
@@ -226,6 +184,12 @@ class Form:
             self._page.reread(columns=of_parts(layouts, given), by=by)
         else:
             self._page.reread(columns=given, by=by)
+
+    def focus(self, name: str) -> None:
+        """Lead to a field by its name, as "drag", or "unit-depth" for the unit of depth."""
+        show(self.reader, collapsed=False)
+        self._led += 1
+        show(self._to, value=f"to-{name} {self._led}")
 
     # What is shown.
 
@@ -240,10 +204,11 @@ class Form:
     def _show(self, setting: Setting) -> None:
         page = self._page
         show(self.about, object=page.about)
-        show(self.refused, object=page.refused)
+        self.refused.show(page.refused)
         show(self.tip, value=setting.tip)
         show(self.tip_file, visible=setting.tip == "measured")
         show(self.of_tip, object=page.of_tip, visible=setting.tip == "measured")
+        self.tip_refused.show(page.tip_refused if setting.tip == "measured" else NOTHING)
         show(self.medium, value=setting.medium)
         asked = TIPS[setting.tip].numbers if setting.tip else ()
         for name, typed in self.numbers.items():
@@ -262,7 +227,7 @@ class Form:
         show(
             self._of_cantilever,
             visible=page.is_afm
-            or bool(page.wants & {"spring constant", "sensitivity"})
+            or bool(page.wants & {"spring_constant", "sensitivity"})
             or table is not None,
         )
         if table is None:
@@ -345,4 +310,4 @@ class Form:
                 None if free else setting.held[name], disabled=free, placeholder=found or "free"
             )
         for name in corrections:
-            self.held[name].show(page.correction(name), placeholder="0")
+            self.held[name].show(page.correction(name), placeholder=self.held[name].zero)

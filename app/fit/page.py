@@ -6,27 +6,25 @@ from io import StringIO
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import panel as pn
-from bokeh.document import Document
 from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS
 from markupsafe import Markup
 
-from mdr_core.fit.indentation import IndentationFit
+from mdr_core.numerics.results import Remark
 
 from ..tip import in_line
 from ..ui import JS, WIDE, html, landmarks
 from . import words
 from .files import as_csv, as_json
+from .fits import Fits
 from .form import Form
-from .measurement import Told, first_and_last, modulus_of_sample
+from .refusals import NOTHING
 from .results import Results
 from .samples import EXAMPLES, example_named
 from .setting import MEDIA, Setting
-from .source import Source
 from .tips import Tips
-from .worker import Here, Worker, in_session, waiting
+from .worker import Here, Worker
 
 #: Roles and names of the parts of the page, by their classes.
 _LANDMARKS = {
@@ -40,22 +38,13 @@ _OVER = "addEventListener('dragenter', () => { over.tags = ['file'] }, { once: t
 _NAMES = Path(__file__).with_name("names.js").read_text(encoding="utf-8")
 
 
-class Measurement(Source):
+class Measurement(Fits):
     """The page: a setting, the curve that is read, its samples and its fit, and what is shown of them."""
 
     def __init__(self, query: str = "", worker: Worker | Here | None = None):
         super().__init__(Setting.read(query), Worker() if worker is None else worker)
-        self.document = pn.state.curdoc or Document()
-        self.fit: IndentationFit | None = None
-        self.told = Told((), None, "")
-        self.E: tuple[float, float] | None = None
-        # What is said of the fit, and what is being done.
-        self.not_fitted, self.busy = "", ""
-        #: Of each curve of a map its number, E*, error and reason, once all are asked for.
-        self.rows: list[tuple[Any, ...]] = []
-        self._job = 0
-        # What is said below the file of the tip.
-        self.of_tip = ""
+        # What is said below the file of the tip, and why it is refused.
+        self.of_tip, self.tip_refused = "", NOTHING
         self._tips = Tips(self.document)
         self.form, self.results = Form(self), Results(self)
         self._address = pn.widgets.TextInput(visible=False)
@@ -141,7 +130,7 @@ class Measurement(Source):
         self._tips.read(in_line(name), data, partial(self._have_tip, in_line(name)))
 
     def _have_tip(self, name: str, kind: str, answer: Any) -> None:
-        self.of_tip = words.refused(answer.rstrip(".") + ".") if kind == "refused" else answer
+        self.of_tip, self.tip_refused = ("", answer) if kind == "refused" else (answer, NOTHING)
         if kind == "done":
             columns, self.of_tip = answer
             samples = tuple(map(tuple, columns))
@@ -184,23 +173,6 @@ class Measurement(Source):
         if self.taken is not None:
             self.choose_samples(self._ends_of(part))
 
-    def _ends_of(self, part: str) -> tuple[int, int]:
-        return first_and_last(self.taken, len(self.curve), part)
-
-    @property
-    def ends(self) -> tuple[int, ...]:
-        """Numbers of the first and the last sample that are fitted."""
-        count = len(self.curve)
-        chosen = self.setting.samples
-        if chosen and chosen[0] < min(chosen[1], count):
-            return chosen[0], min(chosen[1], count)
-        return self._ends_of(self.setting.kind.part if self.setting.medium else "all")
-
-    @property
-    def part(self) -> str:
-        """Which part the samples are: "all", "loading", "unloading", or none of them."""
-        return next((p for p in ("all", "loading", "unloading") if self._ends_of(p) == self.ends), "")
-
     def correction(self, name: str) -> float | None:
         """What the depth is corrected by: as typed, or the noise that is estimated."""
         value = self.setting.corrections.get(name)
@@ -212,102 +184,6 @@ class Measurement(Source):
         """A parameter as it was found, in words."""
         return words.value_of(self.fit, name) if self.fit is not None else ""
 
-    # Fits.
-
-    def fit_again(self) -> None:
-        """Fit, if everything is told."""
-        self.fit, self.E, self.not_fitted, self.rows = None, None, "", []
-        if self.curve is None or self.setting.missing:
-            self.show()
-            return
-        try:
-            profile, arguments = self.setting.profile, self._arguments()
-        except ValueError as error:
-            self.not_fitted = words.refused(f"{error}.")
-            self.show()
-            return
-        taken = self.taken
-        sent = {"depth": taken.depth, "force": taken.force, "time": taken.time}
-        self.busy = "Fitting"
-        self.show()
-        sent["used"] = taken.within(self.ends)
-        self.worker.ask("fit", profile, sent, arguments, tell=self._tell(self._have_fitted))
-
-    def _arguments(self) -> dict[str, Any]:
-        arguments = self.setting.arguments(self.curve.time is not None)
-        if self.setting.kind.letter and (noise := self.correction("depth_noise")):
-            arguments["depth_noise"] = noise
-        return arguments
-
-    def _have_fitted(self, kind: str, answer: Any) -> None:
-        self.busy = ""
-        if kind == "done":
-            self.fit, self.told = answer[0], Told(**answer[1])
-            self._find_modulus()
-        else:
-            self.not_fitted = words.refused(answer.rstrip(".") + ".")
-        self.show()
-
-    def _find_modulus(self) -> None:
-        """Young's modulus of the sample, where Poisson's ratio is told."""
-        asked, quoted = self.setting, self.fit.quoted
-        if asked.poisson is None or quoted.value is None:
-            return
-        given = quoted.value, quoted.standard_error, asked.poisson, asked.tip_modulus, asked.tip_poisson
-        try:
-            self.E = modulus_of_sample(*given)
-        except ValueError as error:
-            self.not_fitted = words.refused(f"{error}.")
-
-    def fit_all(self) -> None:
-        """Fit each curve of the file as the one that is shown, and say which could not be."""
-        asked = self.setting
-        told = {name: asked.corrections[name] for name in ("drift", "frame") if name in asked.corrections}
-        part = {
-            "corrections": told, "noise": bool(asked.kind.letter), "samples": asked.samples,
-            "part": asked.kind.part,
-        }  # fmt: skip
-        self.rows, self.busy = [], f"Fitting curve 1 of {self.count}"
-        self.show()
-        arguments = asked.arguments(True)
-        jobs = self._path, self._given, part, asked.profile, arguments
-        self.worker.ask("fit_all", *jobs, tell=self._tell(self._have_one))
-
-    def _have_one(self, kind: str, answer: Any) -> None:
-        if kind == "part":
-            self.rows.append(answer)
-            self.busy = f"Fitting curve {min(len(self.rows) + 1, self.count)} of {self.count}"
-            self.results.show_progress()
-            return
-        self.busy = ""
-        if kind != "done":
-            self.not_fitted = words.refused(answer + ".")
-        self.show()
-
-    def cancel(self) -> None:
-        """Stop what is being done."""
-        self.worker.stop()
-        self._job += 1
-        self.busy = ""
-        if self.fit is None:
-            self.not_fitted = words.refused("Cancelled. Change something, or drop the file again.")
-        self.show()
-
-    def _tell(self, heard: Callable[[str, Any], None]) -> Callable[[str, Any], None]:
-        """What a worker calls in its thread: `heard` is called where the page may be changed."""
-        self._job += 1
-        job, doing = self._job, self.busy
-
-        def told(kind: str, answer: Any) -> None:
-            # An answer that was on its way when something else was asked is nobody's.
-            if job == self._job and kind == "waiting":
-                self.busy = doing if answer is None else waiting(answer)
-                self.results.show_busy()
-            elif job == self._job:
-                heard(kind, answer)
-
-        return in_session(self.document, told)
-
     # What is shown and saved.
 
     @pn.io.hold()
@@ -318,19 +194,17 @@ class Measurement(Source):
         query = self.setting.query()
         self._address.value = "?fit" + f"&{query}" * bool(query)
 
-    @property
-    def used(self) -> np.ndarray:
-        """Which of the samples that are taken are fitted."""
-        return self.taken.within(self.ends)
-
     def written(self, name: str) -> StringIO:
         """The fit as a file: "json" or "csv"."""
         write = {"json": as_json, "csv": as_csv}[name]
-        told = {
-            "remarks": (*self.curve.remarks, *self.told.remarks), "samples": self.ends,
-            "count": len(self.curve), "E": self.E,
-        }  # fmt: skip
-        return StringIO(write(self.setting, self.fit, told))
+        told = {"told": self.told, "remarks": self.remarks, "samples": self.ends, "count": len(self.curve)}
+        return StringIO(write(self.setting, self.fit, told | {"E": self.E}))
+
+    @property
+    def remarks(self) -> tuple[Remark, ...]:
+        """All remarks on the number, the fit, and the reading of the file."""
+        told = self.told
+        return tuple(dict.fromkeys((*told.above, *told.below, *told.remarks, *self.curve.remarks)))
 
 
 def served(query: str) -> Any:

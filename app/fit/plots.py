@@ -12,7 +12,7 @@ from mdr_core.show.units import fitting
 
 from ..tools import add_zoom
 from ..ui import JS
-from .measurement import Samples
+from .asked import Samples
 
 #: Colours by their roles, light and dark: measured, model, not in use.
 _MEASURED, _MODEL, _OTHER, _INK, _PAPER = (

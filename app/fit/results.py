@@ -11,14 +11,16 @@ from bokeh.events import DocumentReady
 from bokeh.models import CustomJS
 from markupsafe import Markup
 
-from mdr_core.show.units import written
+from mdr_core.fit.indentation import IndentationFit
 
-from ..ui import JS, WIDE, html, marked, own_html, show
+from ..ui import JS, WIDE, html, own_html, show
 from . import words
+from .answer import answer_of
 from .explorer import explorer_query
 from .files import map_csv
 from .form import field
 from .plots import Plots
+from .said import Said
 from .setting import OF_CLASS
 
 _SLIDER = Path(__file__).with_name("slider.css").read_text(encoding="utf-8")
@@ -28,23 +30,12 @@ _LISTED = 300
 _PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
 #: What a person sees before there is a curve: what the page does, and in grey what will come.
 _WELCOME = own_html(Path(__file__).with_name("welcome.html"))
-_HEAD = Markup('<p class="big none">{}</p><p class="of">{}</p>')
-_OF_POISSON = Markup('<p class="of">Give ν on the left for Young’s modulus E of the sample.</p>')
-_WAITING = Markup('<p class="waiting" role="status">{} …</p>')
+_EXPLORER = Markup('<a href="?{}">Model of this curve in the explorer</a>')
 _CURVES = Markup(
     "<table><tr><th>curve</th><td>E*</td><td class='reason'>source, or why there is no number</td></tr>{}"
     "</table>{}"
 )
 _CURVE = Markup("<tr><th>{}</th><td>{}</td><td class='reason'>{}</td></tr>")
-
-
-def _folded(items: list[Markup]) -> Markup:
-    """Remarks as a list that is folded, with their number (HTML)."""
-    if not items:
-        return Markup("")
-    name = f"{len(items)} remark{'s' * (len(items) > 1)} on this fit"
-    listed = Markup("").join(Markup("<li>{}</li>").format(each) for each in items)
-    return Markup("<details><summary>{}</summary><ul>{}</ul></details>").format(name, listed)
 
 
 class Results:
@@ -53,7 +44,8 @@ class Results:
     def __init__(self, page: Any):
         self._page, self._quiet = page, False
         self.headline = html(_WELCOME, "headline")
-        self.not_fitted = html("", "note", "refusal")
+        self.above, self.below = Said(page, "above"), Said(page, "below")
+        self.not_fitted = Said(page, alert=True)
         self._tools()
         self._classes()
         self._range()
@@ -66,13 +58,17 @@ class Results:
             pn.pane.Bokeh(self.plots.residual, **_BOTH),
             css_classes=["plots-of-fit"], visible=False, **_BOTH,
         )  # fmt: skip
-        self.why, self.remarks = html("", "note", "why"), html("", "note", "remarks")
-        left = pn.Column(self.headline, self.not_fitted, self.tools, **WIDE)
+        self.why, self.remarks = html("", "note", "why"), Said(page, "remarks")
+        look = {"collapsed": True, "visible": False, "css_classes": ["fold", "remarks-fold"]}
+        self.folded = pn.Card(self.remarks.view, title="Remarks", **look, **WIDE)
+        left = pn.Column(
+            self.above.view, self.headline, self.below.view, self.not_fitted.view, self.tools, **WIDE
+        )
         right = pn.Column(self.classes, self.verdict, self.take, width=370, margin=0)
         self._right = right
         self.view = pn.Column(
             pn.Row(left, right, css_classes=["top-of-found"], **WIDE),
-            self.why, self.remarks, self.several, self.range, self.curve,
+            self.why, self.folded, self.several, self.range, self.curve,
             css_classes=["found"], **_BOTH,
         )  # fmt: skip
 
@@ -175,41 +171,35 @@ class Results:
 
     def _show_number(self) -> None:
         page, fit = self._page, self._page.fit
-        text = _WELCOME
-        if fit is not None:
-            text = words.headline(fit, page.told, page.E)
-            if page.setting.poisson is None and fit.quoted.value is not None:
-                text += _OF_POISSON
-        elif page.busy:
-            text = _WAITING.format(page.busy)
-        elif page.curve is not None and page.setting.missing:
-            text = _HEAD.format(f"Give {page.setting.missing}", "Then the fit runs at once.")
-        elif page.refused and page.wants:
-            text = _HEAD.format("The curve is not read yet", "Give the missing information on the left.")
-        elif page.refused:
-            text = _HEAD.format(
-                "This file cannot be read",
-                "The reason is on the left. Drop another file, or mend this one.",
-            )
-        elif page.not_fitted:
-            text = Markup('<p class="big none">No fit</p>')
-        show(self.headline, object=text)
-        show(self.not_fitted, object=page.not_fitted)
+        answer = answer_of(page)
+        show(self.headline, object=answer.large or _WELCOME)
+        self.above.show(*answer.above)
+        self.below.show(*answer.below)
+        self.not_fitted.show(page.not_fitted)
         show(self.cancel, visible=bool(page.busy))
         show(self.saved, visible=fit is not None)
-        show(self.why, object=words.why(fit) if fit is not None else "")
-        remarks = words.remarks(fit, (*page.told.remarks, *page.curve.remarks)) if fit is not None else []
-        show(self.remarks, object=_folded(remarks))
+        show(self.why, object=words.why(fit, page.told) if fit is not None else "")
+        seen = {*answer.above, *answer.below}
+        every = () if fit is None else (*page.remarks, *words.limits(page.setting, fit))
+        # The doubt that withholds the number is the reason that is given.
+        reason = "" if fit is None or page.told.quoted.value is not None else page.told.quoted.reason
+        remarks = [each for each in every if each not in seen and not reason.endswith(each.text)]
+        self.remarks.show(*remarks)
+        name = f"{len(remarks)} remark{'s' * (len(remarks) > 1)} on this fit"
+        show(self.folded, visible=bool(remarks), title=name)
         if fit is not None:
-            for name, download in zip(("json", "csv"), self.files, strict=True):
-                show(download, filename=f"{Path(page.setting.file).stem}_fit.{name}")
-            show(self._report, value=words.report(page.setting, fit, page.told, page.E))
-            try:
-                query = explorer_query(page.setting, fit)
-                text = Markup('<a href="?{}">Tip and medium in the explorer</a>').format(query)
-            except ValueError:
-                text = ""
-            show(self.explorer, object=text)
+            self._show_files(fit)
+
+    def _show_files(self, fit: IndentationFit) -> None:
+        page = self._page
+        for name, download in zip(("json", "csv"), self.files, strict=True):
+            show(download, filename=f"{Path(page.setting.file).stem}_fit.{name}")
+        show(self._report, value=words.report(page.setting, fit, page.told, page.E))
+        try:
+            link = _EXPLORER.format(explorer_query(page.setting, fit))
+        except ValueError:
+            link = ""
+        show(self.explorer, object=link)
 
     def _show_classes(self) -> None:
         page, fit = self._page, self._page.fit
@@ -240,9 +230,10 @@ class Results:
     def _range_words(self, ends: tuple[int, ...], count: int) -> str:
         """The samples that are fitted, with depth and force of the first and the last one."""
         curve = self._page.curve
+        deepest, largest = (float(np.max(np.abs(each))) for each in (curve.depth, curve.force))
         places = [
-            f"{k} ({written(float(curve.depth[k - 1]), 'length')}, "
-            f"{written(float(curve.force[k - 1]), 'force')})"
+            f"{k} ({words.quantity(float(curve.depth[k - 1]), 'length', deepest)}, "
+            f"{words.quantity(float(curve.force[k - 1]), 'force', largest)})"
             for k in ends
         ]
         return f"Fitted: samples {' to '.join(places)} of {count}"
@@ -263,7 +254,7 @@ class Results:
 
     def show_busy(self) -> None:
         """Show what is being done."""
-        show(self.headline, object=_WAITING.format(self._page.busy))
+        show(self.headline, object=answer_of(self._page).large)
 
     def show_progress(self) -> None:
         """Show how many curves of a file are fitted."""
@@ -288,7 +279,7 @@ class Results:
             _CURVE.format(
                 number + 1,
                 "–" if v is None else words.amount(v, error, "Pa"),
-                marked(words.in_page_words(reason)),
+                words.sentence(reason, self._page.setting.file),
             )
             for number, v, error, reason in rows[:_LISTED]
         ]

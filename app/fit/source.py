@@ -2,17 +2,20 @@
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from markupsafe import Markup
 
 from mdr_core.measured_curve import MeasuredCurve
+from mdr_core.numerics.results import Remark
 
 from ..tip import in_line
-from . import words
+from .asked import Samples, samples
 from .folders import NOT_KEPT, Files
-from .measurement import Question, Samples, samples
+from .measurement import Question
+from .refusals import NOTHING, Message, changed
 from .samples import EXAMPLES
 from .setting import Setting
 from .worker import Here, Worker
@@ -34,9 +37,9 @@ class Source:
         self.count = 0
         self.table: Any = None
         self.taken: Samples | None = None
-        # What is said below the file; what a refused file needs.
-        self.about, self.refused = "", ""
-        self.wants: set[str] = set()
+        # What is said below the file.
+        self.about = ""
+        self.refused = NOTHING
         #: The question about the file, until it is answered.
         self.question: Question | None = None
         # What was told of tables by their heads, so that a folder of files is asked about once.
@@ -65,15 +68,14 @@ class Source:
     def _take(self, name: str, data: bytes, setting: Setting, example: str = "") -> None:
         self.curve = self.taken = self.fit = self.table = self.E = None
         self.count, self.rows, self._example = 0, [], example
-        self.about = self.refused = self.not_fitted = ""
+        self.about, self.refused, self.not_fitted = "", NOTHING, NOTHING
         self._heads = None
         self.setting = setting.replace(file=name)
         suffix = re.sub(r"[^\w.-]", "", Path(name).suffix)[:20] if "\0" not in name else ""
         try:
             self._path = self._files.keep(data, suffix)
         except OSError:
-            self._path = ""
-            self._refuse(NOT_KEPT)
+            self._path, self.refused = "", Message(NOT_KEPT)
             self.show()
             return
         self._read()
@@ -103,9 +105,22 @@ class Source:
         given |= {"columns": asked.columns} if asked.columns else {}
         return given | ({"by": asked.by} if asked.by is not None else {})
 
+    @property
+    def lacks(self) -> Remark | Message:
+        """The remark that the depth of the curve lacks the stiffness of the cantilever, or nothing."""
+        remarks = () if self.curve is None else self.curve.remarks
+        return next((each for each in remarks if each.kind == "deflection"), NOTHING)
+
+    @property
+    def wants(self) -> set[str]:
+        """Names of what the reader of the file asks for."""
+        asked = (*self.refused.remedy, *self.lacks.remedy)
+        columns = {"columns"} if self.question is not None else set()
+        return columns | {each.what for each in asked if each.action == "give"}
+
     def _read(self) -> None:
         self.busy = f"Reading {self.setting.file}"
-        self.wants, self.refused, self.fit, self.question = set(), "", None, None
+        self.refused, self.fit, self.question = NOTHING, None, None
         self.show()
         self.worker.ask(
             "read", self._path, self._given, self.setting.curve, tell=self._tell(self._have_read)
@@ -114,7 +129,9 @@ class Source:
     def _have_read(self, kind: str, answer: Any) -> None:
         self.busy = ""
         if kind == "done" and answer[0] is not None:
-            self.curve, self.count, _ = answer
+            curve, self.count, _ = answer
+            remarks = tuple(changed(each, self._with_name) for each in curve.remarks)
+            self.curve = replace(curve, remarks=remarks)
             self.table = self.curve.table
             if self._heads is not None:
                 self._told[self._heads] = self._given
@@ -126,8 +143,7 @@ class Source:
         if kind == "done":
             self._ask(Question(**answer[2]), answer[1])
         else:
-            self._want(answer)
-            self._refuse(answer.replace(self._file, self.setting.file))
+            self.refused = answer.changed(self._with_name)
         self.show()
 
     def _ask(self, question: Question, count: int) -> None:
@@ -138,22 +154,17 @@ class Source:
             self.setting = self.setting.replace(samples=(), **known)
             self._read()
             return
-        self.question, self.wants = question, {"columns"}
-        self._want(question.why)
-        self._refuse(f"{self.setting.file}: {question.why}", " Check what is chosen below, and press Read.")
+        self.question = question
+        self.refused = Message(*question.why).changed(self._asked)
 
-    @property
-    def _file(self) -> str:
-        return Path(self._path).name
+    def _asked(self, text: str) -> str:
+        why = text if text.endswith("?") else f"{text.rstrip('.')}."
+        return f"{self.setting.file}: {why} Check what is chosen below, and press Read"
 
-    def _want(self, text: str) -> None:
-        """Remember which constants of a cantilever a refusal asks for."""
-        names = ("spring constant", "sensitivity")
-        self.wants |= {name for name in names if re.search(f"{name.replace(' ', '.')}", text)}
-
-    def _refuse(self, text: str, more: str = "") -> None:
-        text = text if text.endswith("?") else text.rstrip(".") + "."
-        self.refused = words.refused(text + more, self.setting.file)
+    def _with_name(self, text: str) -> str:
+        """A text with the name of the file that was dropped, in the place of that of the kept one."""
+        kept = Path(self._path).name
+        return text.replace(kept, self.setting.file) if kept else text
 
     def _of_file(self) -> str:
         curve = self.curve

@@ -7,6 +7,7 @@ from typing import Any
 from bokeh.document import Document
 
 from .folders import NOT_KEPT, Files
+from .refusals import Message
 from .worker import Here, Worker, in_session, waiting
 
 
@@ -30,7 +31,7 @@ class Tips:
         try:
             path = self._files.keep(data)
         except OSError:
-            heard("refused", NOT_KEPT)
+            heard("refused", Message(NOT_KEPT))
             return
         tell = in_session(self._document, partial(self._told, self._job, name, heard))
         self._worker.ask("tip", path, name, tell=tell)

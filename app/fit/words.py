@@ -8,49 +8,43 @@ from markupsafe import Markup, escape
 from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.parameters import PARAMETERS
 from mdr_core.fit.report import with_error
-from mdr_core.show.units import KINDS, written
+from mdr_core.show.units import KINDS, fitting, with_unit, written
 
 from ..ui import marked
 from .measurement import Told
+from .refusals import Message
 from .setting import CLASS_NAMES, CORRECTIONS, Number, Setting, parameter
 
 #: Ratio of misfits from which another class is taken to fit clearly better.
 CLEARLY = 5.0
-#: Most characters of a message that is shown; those of packages may quote a file.
-_MOST = 2000
-#: Words for what is code in messages of the reader and of the fit.
-_WORDS = {
-    r"give columns=\{.*?\}, numbers and units": "choose its columns and their units below",
-    r"spring_constant=": "the spring constant",
-    r"sensitivity=": "the sensitivity",
-    r"give cycles=True for each of them": "choose another one by the range",
-    r"\bspring_constant\b": "spring constant",
-    r"\bcontact_point\b": "contact point",
-    r"\bdepth_noise\b": "noise of the depth",
-    r"\bforce_noise\b": "noise of the force",
-    r"\bwork_of_adhesion\b": "work of adhesion",
-    r"or free baseline": "or free the baseline",
-    r"\bE_star\b": "E*",
-    r"\beta\b": "η",
-    r"\bq_c=np\.inf\b|q_c = inf": "an elastic sample",
-    r"give time=": "give a column of times",
-}
 
 
-def in_page_words(text: str) -> str:
-    """A report, remark or refusal of the core with symbols and words for its names of parameters."""
-    for code, words in _WORDS.items():
-        text = re.sub(code, words, text)
-    return _true_minus(text)
+def sentence(text: str, name: str = "") -> Markup:
+    """A text, of a remark without names of Python, as a sentence (HTML).
+
+    It begins with a capital and has symbols with their indices and true minus signs; the name of a file in
+    it, which may look like a symbol, stays as it is.
+    """
+    first = text.partition(" ")[0]
+    if first == "a" or (first[1:].isalpha() and not (name and text.startswith(name))):
+        text = text[:1].upper() + text[1:]
+    text = text if text.endswith("?") else text.rstrip(".") + "."
+    parts = text.split(name) if name else [text]
+    return escape(name).join(marked(_true_minus(part)) for part in parts)
 
 
 def _true_minus(text: str) -> str:
     return re.sub(r"(?<![\w/])-(?=[\d.])", "−", text)
 
 
+def quantity(value: float, kind: str, like: float = 0.0) -> str:
+    """A value (SI) with its unit, as in `written`; 0 has that of the value `like`."""
+    return written(value, kind) if value else with_unit("0", fitting(0.0, kind, like).name)
+
+
 def amount(value: float, error: float | None, unit: str) -> str:
     """A number with its error, one unit and a true minus."""
-    text = written(value, KINDS.get(unit, "number")) if error is None else with_error(value, error, unit)
+    text = quantity(value, KINDS.get(unit, "number")) if error is None else with_error(value, error, unit)
     return _true_minus(text)
 
 
@@ -63,21 +57,20 @@ def value_of(fit: IndentationFit, name: str) -> str:
     return amount(float(values[name]), fit.standard_errors.get(name), unit)
 
 
-_LARGE = Markup('<p class="big">E* = <output>{}</output></p><p class="of">Effective modulus, {}.</p>')
-_NONE = Markup('<p class="big none">No E* to quote</p><p class="of">{}.</p>')
+_LARGE = Markup('<p class="big">E* = <output>{}</output></p><p class="of">Effective modulus, {}.{}</p>')
+_NONE = Markup('<p class="big none">No E* to quote</p>')
 _YOUNG = Markup('<p class="second">E = <output>{}</output>, Young’s modulus of the sample</p>')
 _HARDNESS = Markup('<p class="second">H = <output>{}</output>, hardness by Oliver and Pharr</p>')
+_SOURCES = {"unloading": "from the unloading, by Oliver and Pharr", "fit": "from the fit"}
 
 
-def headline(fit: IndentationFit, told: Told, E: tuple[float, float] | None) -> Markup:
-    """The number to quote, large, and of what it is (HTML)."""
-    quoted = fit.quoted
+def headline(told: Told, E: tuple[float, float] | None, assumed: str) -> Markup:
+    """The number to quote, large, and of what it is (HTML); `assumed` is what its error leaves out."""
+    quoted = told.quoted
     if quoted.source is None:
-        reason = in_page_words(quoted.reason)
-        return _NONE.format(marked(reason[:1].upper() + reason[1:]))
+        return _NONE
     number = amount(quoted.value, quoted.standard_error, "Pa")
-    source = {"unloading": "from the unloading, by Oliver and Pharr", "fit": "from the fit"}[quoted.source]
-    found = _LARGE.format(number, source)
+    found = _LARGE.format(number, _SOURCES[quoted.source], f" {assumed}" if "±" in number else "")
     if E is not None:
         found += _YOUNG.format(amount(*E, "Pa"))
     if (result := told.unloading) is not None:
@@ -86,9 +79,18 @@ def headline(fit: IndentationFit, told: Told, E: tuple[float, float] | None) -> 
     return found
 
 
-def why(fit: IndentationFit) -> Markup:
+def assumed(setting: Setting) -> str:
+    """What the error of a number does not have in it."""
+    tip = "" if setting.tip == "measured" else "an ideal tip"
+    frame = "" if setting.corrections.get("frame") else "a rigid frame"
+    parts = [each for each in (tip, frame) if each]
+    verb = "are" if len(parts) > 1 else "is"
+    return f"± of the noise; {' and '.join(parts)} {verb} assumed." if parts else "± of the noise."
+
+
+def why(fit: IndentationFit, told: Told) -> Markup:
     """One sentence on the E* of the model where another one is quoted (HTML)."""
-    if fit.quoted.source != "unloading":
+    if told.quoted.source != "unloading":
         return Markup("")
     numbers = f"E*, {value_of(fit, 'E_star')}, is"
     if "hardness" in fit.standard_errors:
@@ -135,16 +137,25 @@ def classes_table(misfits: dict[str, float], own: str) -> Markup:
     return _CLASSES.format(Markup("").join(rows))
 
 
-def remarks(fit: IndentationFit, remarked: tuple[str, ...]) -> list[Markup]:
-    """Remarks on the fit and on the reading of the file, and assumptions that are exceeded (HTML)."""
-    texts = [*remarked, *(each.sentence for each in fit.path.limits if each.exceeded)]
-    told = [in_page_words(text) for text in texts]
-    return [marked(text[:1].upper() + text[1:]) for text in told]
+def limits(setting: Setting, fit: IndentationFit) -> list[Message]:
+    """Assumptions of the model that are exceeded, but for those of every such measurement."""
+    known = _in_help(setting)
+    exceeded = [each for each in fit.path.limits if each.exceeded and each.what not in known]
+    return [Message(each.sentence) for each in exceeded]
+
+
+def _in_help(setting: Setting) -> set[str]:
+    """Limits that are exceeded whatever was measured: with a tip of one angle, with constant hardness."""
+    slopes = {"slope"} if setting.tip in ("berkovich", "cube_corner", "cone") else set()
+    return slopes | ({"flow"} if setting.kind.letter == "a" else set())
 
 
 def report(setting: Setting, fit: IndentationFit, told: Told, E: tuple[float, float] | None) -> str:
     """A fit as lines of text, to be pasted into a report."""
-    lines = [f"{setting.file}: {_plain(headline(fit, told, E))}"]
+    quoted = told.quoted
+    number = _plain(headline(told, E, assumed(setting)))
+    lines = [f"{setting.file}: {number if quoted.source else f'{number}: {quoted.reason}'}"]
+    lines += [each.text for each in (*told.above, *told.below)]
     for name in setting.parameters(fit.time is not None):
         known = parameter(name)
         state = "" if name in fit.standard_errors else " (held)"
@@ -156,19 +167,12 @@ def report(setting: Setting, fit: IndentationFit, told: Told, E: tuple[float, fl
     if misfits:
         each = ", ".join(f"({letter}) {100 * misfit:.2g} %" for letter, misfit in misfits.items())
         lines.append(f"{text} Misfits: {each} of the largest force.")
-    lines += [in_page_words(remark) for remark in told.remarks]
+    lines += [each.text for each in told.remarks if each not in told.below]
     return "\n".join(lines)
 
 
 def _plain(html: Markup) -> str:
     return html.replace(Markup("</p>"), "; ").striptags().strip("; ")
-
-
-def refused(text: str, name: str = "") -> Markup:
-    """A refusal (HTML); the name of a file in it stays as it is."""
-    parts = text[:_MOST].split(name) if name else [text[:_MOST]]
-    said = escape(name).join(marked(in_page_words(part)) for part in parts)
-    return Markup('<p class="refused" role="alert">{}</p>').format(said) if text else said
 
 
 def name_html(known: Number) -> Markup:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import folders
+from .refusals import Message, refusal
 
 if TYPE_CHECKING:
     from bokeh.document import Document
@@ -37,8 +38,6 @@ _MEMORY = _given("MDR_EXPLORER_GIGABYTES", 4) * 10**9
 _SECONDS = _given("MDR_EXPLORER_SECONDS", 120)
 #: Seconds without a job after which a process ends; its niceness.
 _REST, _NICE = 300.0, 5
-#: Most characters of a message, which may quote a file.
-_MESSAGE = 2000
 _APP = Path(__file__).parents[1]
 #: The program of a process. The package is made bare, of this folder: its own file loads the explorer, with
 #: which a start takes 2.5 s of computing and 125 MB instead of 1.1 s and 83 MB.
@@ -49,15 +48,15 @@ from app.fit.worker import main
 main()
 """
 #: What is said when a process has gone.
-ENDED = (
+ENDED = Message(
     "The process that reads and fits has ended, because of a damaged file or too little memory; "
     "nothing else is lost. Try another file, or fewer samples"
 )
-LATE = (
+LATE = Message(
     f"This takes more than {_SECONDS} s of computing, and was stopped; nothing else is lost. "
     "Try fewer samples, or hold more parameters"
 )
-NONE = "The server has no room for a process that reads and fits. Try again later"
+NONE = Message("The server has no room for a process that reads and fits. Try again later")
 #: Called with the kind of an answer, "waiting", "part", "done", "refused" or "ended", and the answer.
 Tell = Callable[[str, Any], None]
 
@@ -212,7 +211,7 @@ class Worker:
         try:
             while True:
                 job, kind, answer = pickle.load(process.stdout)
-                self._heard(job, kind, answer)
+                self._heard(job, kind, received(kind, answer))
         except (EOFError, pickle.UnpicklingError, OSError, ValueError):
             pass
         code = process.wait()
@@ -252,6 +251,11 @@ def _send(process: subprocess.Popen[bytes], data: bytes) -> None:
         process.stdin.flush()
 
 
+def received(kind: str, answer: Any) -> Any:
+    """An answer of the process, which has no class of the page: it has another name there."""
+    return Message(*answer) if kind == "refused" else answer
+
+
 def _call(told: list[Callable[[], None]]) -> None:
     for each in told:
         each()
@@ -282,13 +286,12 @@ class Here:
     def ask(self, name: str, *arguments: Any, tell: Tell) -> None:
         """Do a job."""
         for kind, answer in answers(name, arguments):
-            tell(kind, answer)
+            tell(kind, received(kind, answer))
 
 
 def answers(name: str, arguments: tuple[Any, ...]) -> Iterator[tuple[str, Any]]:
     """Kinds and answers of a job, one after the other."""
-    from ..quantities import in_words
-    from .measurement import JOBS, without_folders
+    from .measurement import JOBS
 
     try:
         found = JOBS[name](*arguments)
@@ -296,12 +299,10 @@ def answers(name: str, arguments: tuple[Any, ...]) -> Iterator[tuple[str, Any]]:
             yield from (("part", each) for each in found)
             found = None
         yield "done", found
-    except ValueError as error:
-        yield "refused", without_folders(in_words(error)[:_MESSAGE])
-    except ImportError as error:
-        yield "refused", without_folders(str(error)[:_MESSAGE])
+    except (ValueError, ImportError) as error:
+        yield "refused", refusal(error)
     except MemoryError:
-        yield "refused", "this needs more memory than a measurement may have"
+        yield "refused", ("this needs more memory than a measurement may have",)
 
 
 def _limit_time() -> None:

@@ -114,11 +114,29 @@ def from_afm(path, given):
     refuse_large(path)
     afmformats = imported("afmformats", f"reading {path.name}", '"mdr-core[afm]"')
     with _refused(afmformats.errors, path):
-        curves = sorted(afmformats.load_data(path, meta_override=given), key=lambda data: data.enum)
+        loaded, stiffness = _loaded(afmformats, path, given)
+        curves = sorted(loaded, key=lambda data: data.enum)
         position = [[data.metadata.get(f"position {axis}", np.nan) for axis in "xy"] for data in curves]
     position = None if np.isnan(position).any() else _check.frozen(position)
-    makers = [partial(_afm_curve, afmformats.errors, data) for data in curves]
+    makers = [partial(_afm_curve, afmformats.errors, data, stiffness) for data in curves]
     return MeasuredCurves(path.name, position, makers)
+
+
+def _loaded(afmformats, path, given):
+    """Curves of a file, and the stiffness (N/m) that is used here, None where `afmformats` uses it.
+
+    Formats with forces in N take no constants. A height in them has the deflection in it, which a stiffness
+    subtracts, unless the file knows its own.
+    """
+    try:
+        return afmformats.load_data(path, meta_override=given), None
+    except NotImplementedError:
+        if list(given) != ["spring constant"]:
+            raise
+        loaded = afmformats.load_data(path)
+        if any("spring constant" in data.metadata or "tip position" in data for data in loaded):
+            raise
+        return loaded, given["spring constant"]
 
 
 def _deflection(head):
@@ -132,7 +150,7 @@ def _deflection(head):
     )
 
 
-def _afm_curve(errors, data):
+def _afm_curve(errors, data, stiffness):
     """`MeasuredCurve` of a curve in `afmformats`, approach and retract in the order of time."""
     with _refused(errors, data.path):
         heights = [head for head in ("tip position", "height (measured)", "height (piezo)") if head in data]
@@ -141,7 +159,7 @@ def _afm_curve(errors, data):
         number = np.asarray(data["segment"], dtype=int)
         # Where all have one number the file does not know the segments.
         segment = np.array(MODALITIES[data.modality])[number] if number.any() else None
-        stiffness = data.metadata.get("spring constant")
+        stiffness = data.metadata.get("spring constant", stiffness)
     table = Table(dict(enumerate(heads)), values, np.arange(1, number.size + 1), {}, {})
     columns = {"depth": (0, "−m"), "force": (1, "N")} | ({"time": (2, "s")} if 2 in values else {})
     # A height includes the deflection: without a stiffness it stays in it.

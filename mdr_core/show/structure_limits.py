@@ -33,7 +33,7 @@ def _edge_limit(structure, hit, plate):
     if endless.any():
         text = (
             "The body never leaves a plate without edges. A plate has edges, from which waves come back "
-            "and lift it. Take a support, Structure(stiffness=K), for a body as heavy as the plate or more."
+            "and lift it. For a body as heavy as the plate or more, take a support with its stiffness."
         )
         yield Limit("edges", np.inf, _EDGES, True, text)
         return
@@ -53,8 +53,8 @@ def _edge_limit(structure, hit, plate):
     text += f", {engineering(back, 's')}"
     exceeded = value > _EDGES
     text += (
-        ": the restitution of a plate without edges is good up to a third. Take a support, "
-        "Structure(stiffness=K), for a body at least as heavy as the plate; for lighter ones neither holds."
+        ": the restitution of a plate without edges is good up to a third. For a body at least as heavy as "
+        "the plate take a support with its stiffness; for lighter ones neither holds."
         if exceeded
         else "."
     )

@@ -40,6 +40,8 @@ def page_of(query="", worker=None):
 
 
 def plain(html):
+    """What is read of HTML, or of what the page says."""
+    html = getattr(html, "text", html)
     return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
 
 
@@ -62,6 +64,15 @@ def opened(data, medium="constant", tip="berkovich", name="run.csv", **numbers):
 
 def headline(page):
     return plain(page.results.headline.object)
+
+
+def said(page):
+    """All that is said on the right."""
+    results = page.results
+    return " ".join(
+        [plain(results.above), headline(page)]
+        + [plain(each) for each in (results.below, results.not_fitted, results.remarks, results.why.object)]
+    )
 
 
 def test_fused_silica_is_one_click_and_its_number_is_that_of_the_unloading():
@@ -282,7 +293,7 @@ def test_a_table_without_a_header_asks_for_its_columns_and_units():
     form.units["force"].value = "mN"
     press(form.confirm)
     np.testing.assert_allclose(page.curve.depth, DEPTH, rtol=1e-8, atol=1e-16)
-    assert page.refused == ""
+    assert not page.refused
     # The link has the columns, and asks for the same file.
     again = page_of(page.setting.query())
     assert "drop that file here" in again.about
@@ -309,7 +320,7 @@ def test_a_question_is_one_click_and_a_folder_of_files_is_asked_about_once():
     page.take_file("eine_datei_1.csv", german())
     form = page.form
     assert "eine_datei_1.csv: which column is the depth" in plain(page.refused)
-    assert "<sub>" not in page.refused.partition(":")[0]
+    assert "<sub>" not in form.refused.text.partition(":")[0]
     assert (form.columns["depth"].value, form.units["force"].value) == (0, "mN")
     assert (form.meaning.value, form.parts.value, form.confirm.visible) == ("depth", "whole", True)
     assert form.preview.object.count(",") > DEPTH.size
@@ -318,11 +329,11 @@ def test_a_question_is_one_click_and_a_folder_of_files_is_asked_about_once():
     assert page.curve is None
     press(form.confirm)
     np.testing.assert_allclose(page.curve.depth, DEPTH, rtol=1e-7, atol=1e-15)
-    assert (page.refused, form.confirm.visible) == ("", False)
+    assert (bool(page.refused), form.confirm.visible) == (False, False)
     again = Setting.read(page.setting.query())
     assert (again.columns["depth"], again.by) == ((0, "nm"), None)
     page.take_file("eine_datei_2.csv", german(2.0))
-    assert page.refused == ""
+    assert not page.refused
     F = 2 * mdr.indent(TIP, GLASS, DEPTH).force
     np.testing.assert_allclose(page.curve.force, F, atol=1e-9)
     # Other heads are another question.
@@ -339,7 +350,7 @@ def test_a_piezo_is_asked_for_its_spring_constant():
     assert form.meaning.value == "piezo"
     press(form.confirm)
     assert "give the spring constant" in plain(page.refused)
-    assert "spring constant" in page.wants
+    assert "spring_constant" in page.wants
     page.reread(spring_constant=0.05)
     np.testing.assert_allclose(page.curve.depth, DEPTH, rtol=1e-6, atol=1e-13)
     # The next file of the folder has the same instrument.
@@ -370,7 +381,7 @@ def test_several_curves_are_one_click(kind):
     )
     assert "=" not in plain(page.refused)
     press(form.confirm)
-    assert page.refused == ""
+    assert not page.refused
     assert page.count == (1 if kind == "segments" else 2)
     again = page_of(page.setting.query())
     again.take_file("run.csv", table(columns).encode())
@@ -415,14 +426,14 @@ def test_files_that_are_none_are_refused_in_words_and_the_next_one_is_read():
         page.take_file(name, data)
         said = plain(page.refused)
         assert len(said) > 15, name
-        assert "<img" not in page.refused + page.about
+        assert "<img" not in page.form.refused.text + page.about
         assert not re.search(r"\w+_\w+=|file \d+\.", said), said
         assert page.busy == ""
     page.take_file("run.csv", curve_file())
     page.change(lambda setting: setting.replace(tip="berkovich"))
     page.choose_medium("constant")
     assert page.fit is not None
-    assert page.refused == ""
+    assert not page.refused
 
 
 def test_a_full_disk_is_said_on_the_page(monkeypatch):
@@ -437,7 +448,7 @@ def test_a_full_disk_is_said_on_the_page(monkeypatch):
         page.take_file("other.csv", curve_file())
         assert "its disk is full" in plain(page.refused)
         page.take_tip("tip.csv", b"r (nm), z (nm)\n0, 0\n1, 1\n")
-        assert "its disk is full" in plain(page.of_tip)
+        assert "its disk is full" in plain(page.tip_refused)
     page.take_file("other.csv", curve_file())
     assert page.fit is not None
 
@@ -478,8 +489,8 @@ def test_a_tip_is_read_from_a_file():
     assert plain(page.of_tip) == "30 samples, as in the file"
     assert page.setting.tip_name == "<b>tip.csv"
     page.take_tip("<b>tip.csv", b"nothing")
-    assert "<b>tip.csv" in plain(page.of_tip)
-    assert "<b>" not in page.of_tip
+    assert "<b>tip.csv" in plain(page.form.tip_refused)
+    assert "<b>" not in page.form.tip_refused.text
     # The tip before it stays.
     assert page.setting.tip_samples
 
@@ -587,7 +598,10 @@ def test_the_way_to_the_explorer_has_tip_and_medium_in_their_digits_and_nothing_
     assert (profile(state), medium(state).E_star) == (page.fit.profile, state.E_star)
     assert medium(state).hardness == approx(page.fit.medium.hardness, rel=1e-2)
     names = set(dict(part.split("=") for part in explorer_query(page.setting, page.fit).split("&")))
-    assert names <= {"elasticity", "plasticity", "shape", "cone_slope", "E_star", "volume_hardness"}
+    own = {"elasticity", "plasticity", "shape", "cone_slope", "E_star", "volume_hardness", "max_depth"}
+    assert names <= own
+    # As deep as the curve is from first contact on.
+    assert state.max_depth == approx(1e-6, rel=1e-3)
     gel = page_of()
     gel.take_sample("gel")
     state = link.read(explorer_query(gel.setting, gel.fit))
@@ -690,6 +704,6 @@ def test_remarks_have_words_in_the_place_of_names_of_python():
     data = table({"h (nm)": 1e9 * DEPTH + 5 * noise[0], "F (mN)": 1e3 * F * (1 + 0.01 * noise[1])}).encode()
     page = opened(data)
     page.hold("depth_noise", 0.0)
-    text = plain(page.results.remarks.object) + headline(page) + page.results._report.value
+    text = said(page) + page.results._report.value
     assert re.findall(r"[A-Za-z]{2,}_[a-z]+|E_star|\w=\w", text) == []
-    assert page.results.remarks.object
+    assert "goes back and forth" in text

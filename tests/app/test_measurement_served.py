@@ -13,6 +13,7 @@ from app.fit.worker import Worker
 
 from .conftest import ROOT, Explorer, Server
 from .states import table
+from .test_judged import heights
 
 READY = "Bokeh.documents.length && Bokeh.documents.every((each) => each.is_idle)"
 TIP = mdr.Cone.from_half_angle(70.3)
@@ -172,9 +173,11 @@ def test_the_explorer_leads_there_and_back(explorer):
     page.get_by_text("A curve in, E* out").wait_for()
     explorer.press("Sample: gel by AFM")
     number(explorer, "kPa")
-    page.get_by_role("link", name="Tip and medium in the explorer").click()
+    page.get_by_role("link", name="Model of this curve in the explorer").click()
     page.wait_for_function("window.explorer?.idle()")
     assert explorer.field("E*").input_value() == "19.7 kPa"
+    # As deep as the curve from first contact on.
+    assert explorer.field("d_max").input_value().startswith("138")
     assert explorer.chosen("Shape") == "Paraboloid"
 
 
@@ -222,3 +225,58 @@ def test_a_question_is_answered_by_one_click(measurement, tmp_path):
     page.get_by_text("eine_datei.csv: 400 samples").wait_for()
     drop(measurement, tmp_path / "noch_eine.csv")
     page.get_by_text("noch_eine.csv: 400 samples").wait_for()
+
+
+def focused(page, name):
+    """Wait until a field with a name has the focus, in whichever shadow it is."""
+    page.wait_for_function(
+        """(name) => {
+          let each = document.activeElement
+          while (each?.shadowRoot?.activeElement) each = each.shadowRoot.activeElement
+          return (each?.ariaLabel ?? each?.labels?.[0]?.innerText ?? "").startsWith(name)
+        }""",
+        arg=name,
+    )
+
+
+def test_a_button_of_a_remark_leads_to_the_field_that_cures_it(measurement, tmp_path):
+    """Silica with µm for nm, at 1280 × 720 without scrolling; then by keys alone."""
+    page = measurement.page
+    page.set_viewport_size({"width": 1280, "height": 720})
+    page.goto(f"{page.url}&tip=berkovich&medium=constant")
+    measurement.wait(READY)
+    path = tmp_path / "silica_um.csv"
+    path.write_bytes((ROOT / "assets" / "silica.csv").read_bytes().replace(b"_nm", b"_um"))
+    drop(measurement, path)
+    button = page.get_by_role("button", name="Look at the unit of depth")
+    button.wait_for()
+    box = button.bounding_box()
+    assert box["y"] + box["height"] < 720
+    page.get_by_text("No E* to quote").wait_for()
+    assert page.locator(".big output").count() == 0
+    button.click()
+    focused(page, "Unit of depth")
+    page.get_by_label("Unit of depth").select_option("nm")
+    assert number(measurement, "GPa").startswith("69.6")
+    # What ± is stands below the number, on the first screen.
+    box = page.get_by_text("an ideal tip and a rigid frame are assumed").bounding_box()
+    assert box["y"] + box["height"] < 720
+
+
+def test_an_afm_file_without_a_stiffness_is_asked_for_it_above_the_fold(measurement, tmp_path):
+    pytest.importorskip("afmformats")
+    pytest.importorskip("h5py")
+    page = measurement.page
+    page.set_viewport_size({"width": 1280, "height": 720})
+    page.goto(f"{page.url}&tip=paraboloid&radius=5e-6&medium=gel")
+    measurement.wait(READY)
+    heights().export_data(tmp_path / "gel_1.h5", fmt="hdf5")
+    drop(measurement, tmp_path / "gel_1.h5")
+    page.get_by_text("Give the spring constant k").wait_for()
+    button = page.get_by_role("button", name="Give the spring constant of the cantilever")
+    assert button.bounding_box()["y"] < 720
+    button.click()
+    focused(page, "k spring constant")
+    page.keyboard.type("0.05")
+    page.keyboard.press("Enter")
+    assert number(measurement, "kPa").startswith("20")
