@@ -1,7 +1,12 @@
 """Whether an unloading has the exponent of an elastic one, or that of a depth that creeps."""
 
+import numpy as np
+
+from ..contact.integrals import integrals
+from ..contact.live_interval import LiveInterval
 from ..numerics.results import Remark, Remedy
 from .first_contact import elastic_exponents
+from .unloading import laws_of
 
 #: Exponent that unloadings do not have after which more than a share of the largest depth remains.
 _STEEP, _REMAINS = 1.7, 0.5
@@ -9,6 +14,8 @@ _STEEP, _REMAINS = 1.7, 0.5
 _VARIES = 0.1
 #: Standard deviations of the scatter about the power law that m and its half-range exceed.
 _BEYOND = 3.0
+#: Least difference of exponents that is not one of the arithmetic, and samples of an elastic unloading.
+_ROUNDING, _SAMPLES = 1e-6, 100
 
 
 def doubt(profile, depth, laws, in_time):
@@ -20,10 +27,12 @@ def doubt(profile, depth, laws, in_time):
     """
     m, error = laws.exponent, _BEYOND * laws.scatter
     _, elastic = elastic_exponents(profile, depth)
+    if m > elastic + error + _ROUNDING:
+        elastic = max(elastic, _of_elastic_unloading(profile, depth))
     least, most = laws.exponents
     remaining = laws.remaining(depth)
     steep = _STEEP * max(elastic / 2, 1.0)
-    if m > elastic + error + 1e-6:
+    if m > elastic + error + _ROUNDING:
         text = (
             f"no elastic unloading of this tip has m = {m:.3g}, above {elastic:.3g}: E* is not that of a "
             "half-space, or the depth creeps"
@@ -43,3 +52,13 @@ def doubt(profile, depth, laws, in_time):
     if in_time:
         return Remark(text, "creep")
     return Remark(f"{text}; give time=", "creep", text, (Remedy("give", "time"),))
+
+
+def _of_elastic_unloading(profile, depth):
+    """Largest exponent of the parts of an elastic unloading from a depth (m), whose h_f is fitted, too.
+
+    It is that of a cone where the tip is a truncated one.
+    """
+    depths = np.linspace(min(depth, profile.known_depth), 0.0, _SAMPLES)
+    force = integrals(profile).radius_integral(LiveInterval.elastic(depths))
+    return laws_of(depths, force).exponents[1]

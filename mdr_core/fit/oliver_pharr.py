@@ -11,7 +11,6 @@ from ..applicability import check_pair
 from ..measured_curve import MeasuredCurve
 from ..medium import Medium
 from ..numerics.results import Remark, Remedy
-from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..show.quantities import engineering
 from . import creep as creeping
@@ -20,6 +19,7 @@ from .errors import roughness
 from .exponent import doubt
 from .iso_14577 import iso_numbers
 from .materials import doubts
+from .moduli import moduli, remaining
 from .oliver_pharr_result import ISO_14577, OliverPharr, OverDepth
 from .tip import of_ideal_tip
 from .unloading import last_at_top, laws_of, parts_of
@@ -87,11 +87,13 @@ def oliver_pharr(
     For an elastic contact and the ε of its shape E* is exact. A yielded cone in a medium of this package
     has z(a) = 2d/π, and here z(a) → d: E* is up to π/2 times smaller than the medium's, H (π/2)² times.
 
-    **First contact.** A record begins in the air where the force of its first 20 samples and more is noise
+    **First contact.** A record begins in the air where the force of its first 5 samples and more is noise
     about a constant, over 2 % of the largest depth or more. A power law of the depth from first contact on
     is then fitted to the beginning of the loading. Its z₀ is `contact_point`, whose error is included in
-    the errors of the results. Otherwise depths are taken as given and `contact_point` is 0. A remark names
-    the case.
+    the errors of the results, with a remark. So it is in the air after a preload, from which the indenter
+    is lifted off. Otherwise depths are taken as given and `contact_point` is 0. If the first depth is 0
+    where the force is 1 % of the largest one or more, a remark has E* and H of both readings: of a depth
+    that was set to 0 in contact, and of a force with an offset.
 
     **Creep** at the start of an unloading makes S too large. With `time`, and a hold of the force before
     the unloading, the depth of the unloading is reduced by creep at the rate ḣ of the end of the hold: at
@@ -100,7 +102,18 @@ def oliver_pharr(
     −ḣ/Ṗ of 20 % of 1/S, E* is then within 1 % instead of 14 or 15 % too large, where the unloading takes
     no longer than the hold; where it takes four times as long, and the rate falls meanwhile, E* is up to
     3 % too small. A remark gives the length of the hold. It is the time between straight lines through the
-    force before and after, at the force that is held, so that the tip of a triangle is no hold.
+    force before and after, at the force that is held, so that the tip of a triangle is no hold. Without
+    `time` creep shows in m: a remark says where it is larger than that of the tip's elastic contact, or
+    than 1.7 where more than half of the depth remains, or different by 0.2 and more in parts of the
+    unloading, each beyond the scatter. Where m is above 1.5 and a fourth of the depth remains, the errors
+    are as large as the results of parts down to 20 % of the force deviate.
+
+    **ISO 14577.** `elastic_work_ratio` is n_IT = W_elast/W_total, of the work of the unloading, and of the
+    loading and the hold before it. Below the last sample the unloading is continued by its power law, not
+    from above 20 % of the largest force; a hold after the unloading is no part of it. `indentation_creep`
+    is C_IT = (h₂ − h₁)/h₁ of the depths at both ends of a hold, `martens_hardness` HM = F/(26.43 h²) at
+    the end of the loading, for cones of 70.2° to 70.4°, which stand for Berkovich and Vickers pyramids.
+    Those that a record lacks are None, and NaN for such an unloading of several.
 
     Examples
     --------
@@ -154,11 +167,12 @@ def oliver_pharr(
     numbers, triples = zip(*parts.items(), strict=True)
     corrected, uncorrected, iso = zip(*triples, strict=True)
     numbers = _check.frozen(numbers if cycles else numbers[0])
-    result = _collected(profile, corrected, iso, contact, numbers, (*remarks, *begins))
+    result = _collected(profile, corrected, iso, contact, constants[0], numbers, (*remarks, *begins))
     result = _with_other_readings(result, read, in_contact, constants)
     if time is None:
         return result
-    return replace(result, uncorrected=_collected(profile, uncorrected, iso, contact, numbers, ()))
+    before = _collected(profile, uncorrected, iso, contact, constants[0], numbers, ())
+    return replace(result, uncorrected=before)
 
 
 def _one(remarks):
@@ -281,7 +295,7 @@ def _values_and_errors(profile, depth, laws, constants, contact):
 
     def results(F, S, m, shift=0.0):
         contact_depth = depth.max() + shift - epsilon * F / S
-        return np.stack([S, contact_depth, *_moduli(profile, contact_depth, F, S, beta), m]).T
+        return np.stack([S, contact_depth, *moduli(profile, contact_depth, F, S, beta), m]).T
 
     solution = laws.solution
     values, *noisy = results(*np.column_stack([solution, solution[:, None] + laws.deviations]))
@@ -311,13 +325,6 @@ def _not_from_contact(text):
     return Refusal(Remark(sentence, "no unloading", words))
 
 
-def _moduli(profile, contact_depth, force, stiffness, beta):
-    """E* and H (Pa) at contact depths (m)."""
-    a = _radius_at_height(profile, contact_depth)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return stiffness / (2 * beta * a), force / (np.pi * a**2)
-
-
 def _over_depth(profile, depth, force, stiffness, constants, contact):
     """Values and errors by name at each sample with a measured stiffness, and remarks."""
     epsilon, beta = constants
@@ -333,7 +340,7 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     def at(shift):
         h = np.where(used, np.maximum(contact_depth + shift, 0.0), np.nan)
         E, H = np.full((2, depth.size), np.nan)
-        E[used], H[used] = _moduli(profile, h[used], force[used], stiffness[used], beta)
+        E[used], H[used] = moduli(profile, h[used], force[used], stiffness[used], beta)
         return {"contact_depth": h, "E_star": E, "hardness": H}
 
     values, shifted = at(0.0), at(-contact.depth_error)
@@ -358,7 +365,7 @@ def _over_depth(profile, depth, force, stiffness, constants, contact):
     return frozen, {name: _check.frozen(error) for name, error in errors.items()}, remarks
 
 
-def _collected(profile, results, iso, contact, numbers, remarks):
+def _collected(profile, results, iso, contact, epsilon, numbers, remarks):
     """An `OliverPharr` of the values and errors of unloadings by number, or of one where that is one."""
     columns = np.array(results) if numbers.ndim else np.array(results[0])
     names = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
@@ -372,7 +379,9 @@ def _collected(profile, results, iso, contact, numbers, remarks):
         errors["contact_point"] = _check.frozen(np.full(shape, contact.depth_error))
     columns = zip(ISO_14577, np.array(iso if numbers.ndim else iso[0]).T, strict=True)
     values |= {name: _check.frozen(each) for name, each in columns if not np.all(np.isnan(each))}
-    remarks = [*remarks, *doubts(values["E_star"], values["hardness"]), *profile.remarks]
+    S, h_c, E, H, m = (values[name] for name in names)
+    remains = remaining(profile, h_c, S, H, m, epsilon)
+    remarks = [*remarks, *doubts(E, H, remains), *profile.remarks]
     remarks += of_ideal_tip(profile, values["contact_depth"])
     return OliverPharr(profile=profile, **values, standard_errors=errors, remarks=tuple(remarks))
 
@@ -387,17 +396,9 @@ def _with_other_readings(result, read, in_contact, constants):
     shifted = F - in_contact.force
     pairs = (
         (result.E_star, result.hardness),
-        _moduli(result.profile, h_c - in_contact.depth, F, S, beta),
-        _moduli(result.profile, h_c + epsilon * in_contact.force / S, shifted, S, beta),
+        moduli(result.profile, h_c - in_contact.depth, F, S, beta),
+        moduli(result.profile, h_c + epsilon * in_contact.force / S, shifted, S, beta),
     )
     # One number of several unloadings or samples.
     remark = in_contact.remark(*(tuple(float(np.nanmedian(each)) for each in pair) for pair in pairs))
     return replace(result, remarks=(*read, remark, *result.remarks))
-
-
-def _radius_at_height(profile, height):
-    """Radius (m) of the profile at heights (m): 0 below its tip, infinite where it is not known."""
-    known = np.minimum(profile.wall, profile.known_radius)
-    # Without a slope the search is by bisection.
-    radius = increasing_root(lambda r: (profile.height_at(r), np.inf), height, np.abs(height), known)
-    return np.maximum(np.minimum(radius, profile.wall), profile.face_radius)

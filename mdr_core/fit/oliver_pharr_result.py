@@ -8,7 +8,7 @@ import numpy as np
 from ..numerics.results import Record, Remark
 from ..profiles.profile import Profile
 from ..show.quantities import QUANTITIES, Quantity, described, engineering
-from ..show.report import rows
+from ..show.report import limit_rows, rows
 from .iso_14577 import is_pyramid
 from .report import with_error
 
@@ -38,7 +38,9 @@ class OliverPharr(Record):
 
     The standard errors, by name, are those of the scatter about the power law, and not less than half the
     range of the results for six parts of the unloading: from 99 or 95 % of the largest force down to 50, 40
-    or 30 %; with those of first contact and of the rate of creep where these were found. With
+    or 30 %; with those of first contact and of the rate of creep where these were found. Where m is above
+    1.5 and a fourth of the depth remains, they are not less than the largest deviation of the results for
+    these parts and for those down to 20 %. With
     ``cycles=True`` all are arrays (U,), and `result[i]` is one unloading, i from 0 on. Its number in the
     record, from 1 on, is `unloading`; remarks, print and tables have the same number.
     """
@@ -108,17 +110,21 @@ class OliverPharr(Record):
     def _rows(self):
         yield "indenter", described(self.profile)
         for i in range(len(self) if self.shape else 0):
-            texts = [f"{OLIVER_PHARR[name].symbol} {text}" for name, text in self[i]._texts()]
-            yield f"unloading {self.unloading[i]}", ", ".join(texts)
+            texts = dict(self[i]._texts())
+            texts.pop("contact_point", None)
+            symbols = (f"{OLIVER_PHARR[name].symbol} {text}" for name, text in texts.items())
+            yield f"unloading {self.unloading[i]}", ", ".join(symbols)
+        if self.shape and "contact_point" in self.standard_errors and len(self):
+            quantity = OLIVER_PHARR["contact_point"]
+            yield f"{quantity.long_name} {quantity.symbol}", dict(self[0]._texts())["contact_point"]
         for name, text in () if self.shape else self._texts():
             yield f"{OLIVER_PHARR[name].long_name} {OLIVER_PHARR[name].symbol}", text
         if self.uncorrected is not None and not self.shape:
             texts = dict(self.uncorrected._texts())
             text = f"E* {texts['E_star']}, H {texts['hardness']}"
             yield "uncorrected for creep", text
-        if not is_pyramid(self.profile):
+        if "martens_hardness" in self._quantities and not is_pyramid(self.profile):
             yield OLIVER_PHARR["martens_hardness"].long_name, _NO_PYRAMID
-        yield from (("remark", remark) for remark in self.remarks)
 
     def _texts(self):
         """Names of the quantities of one unloading, and their values with errors."""
@@ -155,9 +161,14 @@ class OverDepth(OliverPharr):
             quantity, values = OLIVER_PHARR[name], getattr(self, name)
             text = engineering(values[np.isfinite(values)], quantity.unit)
             yield f"{quantity.long_name} {quantity.symbol}", text
-        yield from (("remark", remark) for remark in self.remarks)
 
 
 @rows.register
 def _rows_of_unloading(result: OliverPharr):
     return result._rows()
+
+
+@limit_rows.register
+def _limit_rows_of_unloading(result: OliverPharr, most):
+    # Remarks stand whole, where other rows are cut.
+    yield from (("remark", remark) for remark in result.remarks)

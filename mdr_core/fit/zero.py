@@ -52,10 +52,10 @@ def begin_of(depth, force):
         return 0
     begin = int(np.argmin(depth[: deeper[0]]))
     noise, largest = SIGNIFICANT * roughness(force[None])[0, 0], force.max()
+    before, after = force[: begin + 1], force[begin:]
     retreats = depth[0] - depth[begin] > LEAST_LENGTH * np.ptp(depth) / 2
-    before = force[: begin + 1]
-    lost = before[-1] < before[0] - noise and before.max() - before[-1] < _PRELOAD * largest
-    return begin if retreats and lost else 0
+    lost = before[-1] <= after[: int(np.argmax(after)) + 1].min() + max(noise, _LEAST_FORCE * largest)
+    return begin if retreats and lost and before.max() - before[-1] < _PRELOAD * largest else 0
 
 
 def zero_of(profile, depth, force):
