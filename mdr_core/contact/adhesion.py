@@ -16,7 +16,7 @@ from functools import lru_cache
 import numpy as np
 
 from .. import _check
-from ..numerics.roots import crossing
+from ..numerics.roots import change_between, crossing
 from .integrals import integrals
 from .live_interval import LiveInterval
 from .yielding import yield_rule
@@ -114,11 +114,12 @@ def _ranges(profile, threshold):
     x, rate = _rates(profile)
     stable = rate >= threshold
     change = np.flatnonzero(stable[1:] != stable[:-1])
-    inner, outer, up = x[change], x[change + 1], stable[change + 1]
-    for _ in range(60):
-        middle = np.sqrt(inner) * np.sqrt(outer)
-        passed = (np.sqrt(middle) * profile.reduced_slope_at(middle) >= threshold) == up
-        inner, outer = np.where(passed, inner, middle), np.where(passed, middle, outer)
+    up = stable[change + 1]
+
+    def stable_at(x):
+        return np.sqrt(x) * profile.reduced_slope_at(x) >= threshold
+
+    inner, _ = change_between(stable_at, x[change], x[change + 1], ~up)
     low, high = profile.reduced_at(inner[up]), profile.reduced_at(inner[~up])
     if stable[0]:
         low = np.append(0.0, low)
