@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from . import _check, _read_only
-from ._check import ArrayLike
+from ._check import ArrayLike, shown
 from ._door import above
 
 _TINY = np.finfo(float).tiny
@@ -142,4 +142,72 @@ class SumOfClasses(HardnessLaw):
     def scaled(self, factor, length):
         return SumOfClasses(
             self.hardness * (factor * length), self.q_c * factor, self.f_c * (factor / length)
+        )
+
+
+def hardness_constants(q_c, hardness, f_c):
+    """The three constants of a `Medium`, checked; 0 where not given, and an infinite q_c without any."""
+    if isinstance(hardness, HardnessLaw):
+        return _law_alone(q_c, hardness, f_c)
+    if callable(hardness):
+        wanted = "must be a number (Pa) or a HardnessLaw with its parameters"
+        raise _check.InvalidArgument(
+            f"hardness {wanted}, got {shown(hardness)}", "hardness", hardness, wanted, "Pa"
+        )
+    elastic = hardness is None and f_c is None
+    given = {
+        "q_c": (np.inf if elastic else 0.0) if q_c is None else q_c,
+        "hardness": 0.0 if hardness is None else hardness,
+        "f_c": 0.0 if f_c is None else f_c,
+    }
+    return {
+        "q_c": _check.positive(
+            "yield constant q_c", given["q_c"], unit="N/m", infinite=True, zero=not elastic
+        ),
+        "hardness": _check.positive("hardness", given["hardness"], unit="Pa", zero=True),
+        "f_c": _check.positive("yield constant f_c", given["f_c"], unit="N", zero=True),
+    }
+
+
+def _law_alone(q_c, law, f_c):
+    """The constants beside a law of hardness: none, where an infinite q_c means that none is given."""
+    law = law.stored()
+    for name, value, unit, term in (("q_c", q_c, "N/m", "q_c/a"), ("f_c", f_c, "N", "f_c/a²")):
+        quantity, value = f"yield constant {name}", 0.0 if value is None else value
+        value = _check.positive(quantity, value, unit=unit, zero=True, infinite=name == "q_c")
+        beside = (np.asarray(value) > 0) & (np.asarray(value) < np.inf)
+        bound = f"cannot be combined with the law of hardness {shown(law)}"
+        advice = f"write {term} into its at(a), or take hardness = 0 beside {name}"
+        _check.refuse(quantity, np.asarray(value), beside, bound, unit=unit, advice=advice)
+    return {"q_c": 0.0, "hardness": law, "f_c": 0.0}
+
+
+def refuse_sum(medium):
+    """Refuses a `Medium` whose hardness is 0, or has an infinite q_c beside another class, or adhesion."""
+    if isinstance(medium.hardness, HardnessLaw):
+        if np.any(np.asarray(medium.work_of_adhesion) > 0):
+            raise ValueError(
+                "adhesion is modelled for the hardness q_c/a only, not for the law "
+                f"{shown(medium.hardness)}; set the work of adhesion work_of_adhesion to 0, or give q_c"
+            )
+        return
+    others = np.asarray(medium.hardness) + np.asarray(medium.f_c)
+    q_c = np.broadcast_to(medium.q_c, np.broadcast_shapes(np.shape(medium.q_c), others.shape))
+    for bad, bound, advice in (
+        (
+            (q_c == 0) & (others == 0),
+            "leaves no hardness, because the other constants are 0",
+            "give one above 0",
+        ),
+        (
+            (q_c == np.inf) & (others > 0),
+            "means that nothing yields, which contradicts a hardness or f_c above 0",
+            "give q_c = 0 or a finite one",
+        ),
+    ):
+        _check.refuse("yield constant q_c", q_c, bad, bound, unit="N/m", advice=advice)
+    if np.any((np.asarray(medium.work_of_adhesion) > 0) & (others > 0)):
+        raise ValueError(
+            "adhesion is modelled for the hardness q_c/a only; set the work of adhesion work_of_adhesion "
+            "to 0, or hardness and f_c"
         )

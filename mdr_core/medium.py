@@ -8,7 +8,7 @@ import numpy as np
 from . import _check
 from ._check import Array, ArrayLike, Parameter, shown
 from ._door import above
-from .hardness import HardnessLaw, SumOfClasses
+from .hardness import HardnessLaw, SumOfClasses, hardness_constants, refuse_sum
 from .transverse_isotropy import effective_modulus
 
 
@@ -42,74 +42,6 @@ def _poisson(quantity, ratio):
     """A Poisson ratio as a float array."""
     ratio = _check.finite_array(quantity, ratio)
     return _check.refuse(quantity, ratio, (ratio <= -1) | (ratio > 0.5), "must lie in −1 < ν ≤ 0.5")
-
-
-def _hardness_constants(q_c, hardness, f_c):
-    """The three constants of the hardness, those that are not given by the rules of `Medium`."""
-    if isinstance(hardness, HardnessLaw):
-        return _law_alone(q_c, hardness, f_c)
-    if callable(hardness):
-        wanted = "must be a number (Pa) or a HardnessLaw with its parameters"
-        raise _check.InvalidArgument(
-            f"hardness {wanted}, got {shown(hardness)}", "hardness", hardness, wanted, "Pa"
-        )
-    elastic = hardness is None and f_c is None
-    given = {
-        "q_c": (np.inf if elastic else 0.0) if q_c is None else q_c,
-        "hardness": 0.0 if hardness is None else hardness,
-        "f_c": 0.0 if f_c is None else f_c,
-    }
-    return {
-        "q_c": _check.positive(
-            "yield constant q_c", given["q_c"], unit="N/m", infinite=True, zero=not elastic
-        ),
-        "hardness": _check.positive("hardness", given["hardness"], unit="Pa", zero=True),
-        "f_c": _check.positive("yield constant f_c", given["f_c"], unit="N", zero=True),
-    }
-
-
-def _law_alone(q_c, law, f_c):
-    """The constants beside a law of hardness: none, where an infinite q_c means that none is given."""
-    law = law.stored()
-    for name, value, unit, term in (("q_c", q_c, "N/m", "q_c/a"), ("f_c", f_c, "N", "f_c/a²")):
-        quantity, value = f"yield constant {name}", 0.0 if value is None else value
-        value = _check.positive(quantity, value, unit=unit, zero=True, infinite=name == "q_c")
-        beside = (np.asarray(value) > 0) & (np.asarray(value) < np.inf)
-        bound = f"cannot be combined with the law of hardness {shown(law)}"
-        advice = f"write {term} into its at(a), or take hardness = 0 beside {name}"
-        _check.refuse(quantity, np.asarray(value), beside, bound, unit=unit, advice=advice)
-    return {"q_c": 0.0, "hardness": law, "f_c": 0.0}
-
-
-def _refuse_sum(medium):
-    """Refuses a hardness that is 0, and an infinite q_c beside another class."""
-    if medium.has_own_law:
-        if np.any(np.asarray(medium.work_of_adhesion) > 0):
-            raise ValueError(
-                "adhesion is modelled for the hardness q_c/a only, not for the law "
-                f"{shown(medium.hardness)}; set the work of adhesion work_of_adhesion to 0, or give q_c"
-            )
-        return
-    others = np.asarray(medium.hardness) + np.asarray(medium.f_c)
-    q_c = np.broadcast_to(medium.q_c, np.broadcast_shapes(np.shape(medium.q_c), others.shape))
-    for bad, bound, advice in (
-        (
-            (q_c == 0) & (others == 0),
-            "leaves no hardness, because the other constants are 0",
-            "give one above 0",
-        ),
-        (
-            (q_c == np.inf) & (others > 0),
-            "means that nothing yields, which contradicts a hardness or f_c above 0",
-            "give q_c = 0 or a finite one",
-        ),
-    ):
-        _check.refuse("yield constant q_c", q_c, bad, bound, unit="N/m", advice=advice)
-    if np.any((np.asarray(medium.work_of_adhesion) > 0) & (others > 0)):
-        raise ValueError(
-            "adhesion is modelled for the hardness q_c/a only; set the work of adhesion work_of_adhesion "
-            "to 0, or hardness and f_c"
-        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,7 +130,7 @@ class Medium(_check.Parameters):
         _check.store(
             self,
             E_star=_check.positive("effective modulus E_star", self.E_star, unit="Pa"),
-            **_hardness_constants(self.q_c, self.hardness, self.f_c),
+            **hardness_constants(self.q_c, self.hardness, self.f_c),
             eta=_check.positive("viscosity eta", self.eta, unit="Pa·s", zero=True),
             poisson=float(poisson) if isinstance(poisson, np.floating) else poisson,
             work_of_adhesion=_check.positive(
@@ -209,7 +141,7 @@ class Medium(_check.Parameters):
         if self.has_own_law:
             parameters |= {"hardness": np.empty(self.hardness.shape)}
         _check.common_shape("medium", **parameters)
-        _refuse_sum(self)
+        refuse_sum(self)
         if np.any((np.asarray(self.eta) > 0) & (np.asarray(self.work_of_adhesion) > 0)):
             raise ValueError(
                 "adhesion is not modelled on a viscous medium; set the viscosity eta or the work of "
@@ -424,8 +356,8 @@ class Medium(_check.Parameters):
         """
         a = _check.positive("radius", radius, unit="m")
         _check.common_shape("hardness_at", radius=a, medium=np.empty(self.shape))
-        own = self.has_own_law
-        hardness = above("own.law").law_numbers(self.law, "at", a) if own else self.law.at(a)
+        law = self.law
+        hardness = above("own.law").law_numbers(law, "at", a) if self.has_own_law else law.at(a)
         bound = "is no hardness: it must be above 0"
         _check.refuse("hardness", hardness, ~(hardness > 0), bound, unit="Pa", advice="mend the law")
         return _check.frozen(hardness + np.zeros(np.shape(a)))

@@ -89,7 +89,7 @@ CHECKED = {
     "contact.closed_forms", "contact.adhesion", "contact.pressure", "contact.indentation",
     "contact.loading", "contact.unloading", "contact.creep_loading", "contact.creep_retreat",
     "contact.creep_states", "contact.creep", "impacts.impact",
-    "impacts.energy_balance", "impacts.adhesive", "impacts.contact_time", "impacts.time_quadrature",
+    "impacts.energy_balance", "impacts.adhesive", "impacts.contact_time",
     "impacts.result", "impacts.viscous", "impacts.equation_of_motion",
     "impacts.collocation_steps", "impacts.motion_solver", "impacts.motion",
     "impacts.scaling", "impacts.snap", "profiles.radius_table", "contact.stress",

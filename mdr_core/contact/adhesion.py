@@ -16,7 +16,7 @@ from functools import lru_cache
 import numpy as np
 
 from .. import _check
-from ..numerics.roots import crossing
+from ..numerics.roots import change_between, crossing
 from .integrals import integrals
 from .live_interval import LiveInterval
 from .yielding import yield_rule
@@ -114,11 +114,12 @@ def _ranges(profile, threshold):
     x, rate = _rates(profile)
     stable = rate >= threshold
     change = np.flatnonzero(stable[1:] != stable[:-1])
-    inner, outer, up = x[change], x[change + 1], stable[change + 1]
-    for _ in range(60):
-        middle = np.sqrt(inner) * np.sqrt(outer)
-        passed = (np.sqrt(middle) * profile.reduced_slope_at(middle) >= threshold) == up
-        inner, outer = np.where(passed, inner, middle), np.where(passed, middle, outer)
+    up = stable[change + 1]
+
+    def stable_at(x):
+        return np.sqrt(x) * profile.reduced_slope_at(x) >= threshold
+
+    inner, _ = change_between(stable_at, x[change], x[change + 1], ~up)
     low, high = profile.reduced_at(inner[up]), profile.reduced_at(inner[~up])
     if stable[0]:
         low = np.append(0.0, low)
@@ -238,47 +239,63 @@ def force_path(profile, medium, force):
     Under tension that is larger than the pull-off force the contact is lost: the depth is then that of
     the bottom of the imprint. A force that is not negative closes the contact again.
     """
-    low = single_range(profile, medium, AT_FORCE)
-    target, d_c, touches = force / (2 * medium.E_star), medium.critical_depth, force >= 0
-    largest, ever, known = np.where(touches, target, 0.0), touches, profile.known_depth
-    if force.ndim:
-        largest, ever = (np.maximum.accumulate(each, axis=-1) for each in (largest, ever))
-
-    def loading(upper):
-        interval, stretched = loaded_interval(profile, medium, upper)
-        return _tension(profile, interval, stretched, largest, interval.lower > 0)
-
-    start = np.full(force.shape, max(2 * low, d_c if d_c < np.inf else 0.0, 1e-30))
-    upper = crossing(loading, np.minimum(start, known), np.full(force.shape, low), known)
-    miss, slope = loading(upper)
-    rises = (slope > 0) & (np.abs(miss) <= 1e-6 * upper * slope)
+    low, path = single_range(profile, medium, AT_FORCE), np.atleast_1d(force)
+    target, closes = path / (2 * medium.E_star), path >= 0
+    largest = np.maximum.accumulate(np.where(closes, target, 0.0), axis=-1)
+    loaded, carried = _pressed(profile, medium, largest, low)
     bound = f"presses {profile.too_deep()}, or is not reached because adhesion draws the indenter in"
-    _check.refuse(
-        "force", force, ~((upper <= known) & rises), bound, unit="N", advice="press to a depth instead"
-    )
-    loaded, _ = loaded_interval(profile, medium, upper)
-    lower, limit = np.where(ever, loaded.lower, 0.0), loaded.length
+    not_carried = np.reshape(~carried, force.shape)
+    _check.refuse("force", force, not_carried, bound, unit="N", advice="press to a depth instead")
+    lower = np.where(np.logical_or.accumulate(closes, axis=-1), loaded.lower, 0.0)
+    least = np.maximum(low - lower, 0.0)
 
     def unloading(length):
         interval = LiveInterval.above(lower, length)
-        return _tension(
-            profile, interval, stretch(medium, profile.radius_at(interval.upper)), target, False
-        )
+        stretched = stretch(medium, profile.radius_at(interval.upper))
+        return _tension(profile, interval, stretched, target, False)
 
-    bottom = np.maximum(low - lower, 0.0)
-    lost = unloading(bottom)[0] > 0
-    if force.ndim:
-        order = np.arange(force.shape[-1])
-        last = [np.maximum.accumulate(np.where(each, order, -1), axis=-1) for each in (touches, lost)]
-        touches = ever & (last[0] > last[1])
-    length = np.where(target == largest, limit, crossing(unloading, limit, bottom, limit))
+    contact = _contact_along(closes, lost=unloading(least)[0] > 0)
+    on_loading = target == largest
+    length = np.where(on_loading, loaded.length, crossing(unloading, loaded.length, least, loaded.length))
     # Without contact the depth is that of the bottom.
-    length = np.where(touches, length, 0.0)
-    stretched = np.where(touches, stretch(medium, profile.radius_at(lower + length)), 0.0)
-    yielding = touches & (target == largest) & (lower > 0)
-    depth = lower + np.where(yielding, d_c, length - stretched)
-    length = np.where(yielding, d_c + stretched, length)
-    return depth, LiveInterval.above(lower, length), -medium.E_star * stretched
+    length = np.where(contact, length, 0.0)
+    stretched = np.where(contact, stretch(medium, profile.radius_at(lower + length)), 0.0)
+    yielding = contact & on_loading & (lower > 0)
+    live_depth = np.where(yielding, medium.critical_depth, length - stretched)
+    length = np.where(yielding, medium.critical_depth + stretched, length)
+    states = lower + live_depth, lower, length, -medium.E_star * stretched
+    depth, lower, length, load = (np.reshape(each, force.shape) for each in states)
+    return depth, LiveInterval.above(lower, length), load
+
+
+def _pressed(profile, medium, target, low):
+    """Live intervals under the largest forces so far, `target` over 2E* (m²), and which these carry.
+
+    D is at least `low` (m).
+    """
+    d_c, known = medium.critical_depth, profile.known_depth
+
+    def loading(upper):
+        interval, stretched = loaded_interval(profile, medium, upper)
+        return _tension(profile, interval, stretched, target, interval.lower > 0)
+
+    start = np.full(target.shape, max(2 * low, d_c if d_c < np.inf else 0.0, 1e-30))
+    upper = crossing(loading, np.minimum(start, known), np.full(target.shape, low), known)
+    miss, slope = loading(upper)
+    carried = (upper <= known) & (slope > 0) & (np.abs(miss) <= 1e-6 * upper * slope)
+    return loaded_interval(profile, medium, upper)[0], carried
+
+
+def _contact_along(closes, lost):
+    """Whether there is contact at the end of each load of paths along the last axis.
+
+    From one that closes it, up to one by which it is lost.
+    """
+    contact, along = np.zeros(closes.shape[:-1], bool), np.empty(closes.shape, bool)
+    for i in range(closes.shape[-1]):
+        contact = (contact | closes[..., i]) & ~lost[..., i]
+        along[..., i] = contact
+    return along
 
 
 def loaded_interval(profile, medium, upper, before=0.0):

@@ -8,7 +8,7 @@ from .. import _check
 from .._check import ArrayLike
 from ..applicability import check_hardness, check_pair, check_reached, check_shape, paths_on
 from ..medium import Medium
-from ..numerics.roots import increasing_root
+from ..numerics.roots import change_between, increasing_root
 from ..profiles.profile import Profile, check_known
 from . import adhesion
 from .indentation import Indentation
@@ -237,7 +237,7 @@ def _growing_branches(rule, elastic_depth=None):
     grows[0] = True
     turn = np.flatnonzero(grows[1:] != grows[:-1])
     grew = grows[turn]
-    before, after = _halved(grows_at, depth[turn], depth[turn + 1], grew)
+    before, after = change_between(grows_at, depth[turn], depth[turn + 1], grew)
     low = np.append(0.0, after[~grew])
     # The last branch goes on to the end, unless the force falls there.
     high = np.append(before[grew], end)[: low.size]
@@ -260,22 +260,6 @@ def _depths_to_ask(onset, end, elastic_depth):
         depth = np.union1d(depth[depth > onset], far[far > onset])
     last = [end] if end < np.inf else []
     return np.concatenate([[onset], depth[depth < end], last])
-
-
-def _halved(answer, low, high, at_low):
-    """Neighbouring depths (m), to rounding, between which an answer changes from what it is at `low`.
-
-    `answer` gives a truth for each of an array of depths, and it changes once between `low` and `high`, of
-    shape (M,). All changes are halved at once: on samples there is one at every vertex, and a call costs as
-    much for one depth as for many.
-    """
-    while np.any(high - low > 4e-16 * high):
-        middle = (low + high) / 2
-        if np.all((middle == low) | (middle == high)):
-            break
-        same = answer(middle) == at_low
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return low, high
 
 
 def live_length(profile, largest, area):

@@ -30,11 +30,11 @@ from ..contact.yielding import TRANSITIONS, ConstantCap, yield_rule
 from ..medium import Medium
 from ..numerics.blocks import LONG, chunks
 from ..numerics.gauss import gauss_legendre
-from ..numerics.roots import crossing
+from ..numerics.roots import change_between, crossing
 from ..profiles.profile import Profile
+from .contact_time import places
 from .energy_balance import turning_interval
 from .result import Impact
-from .time_quadrature import places
 
 #: Gauss nodes of the contact time in each piece.
 _NODES = 32
@@ -282,11 +282,8 @@ def capture_speeds(profile: Profile, medium: Medium, mass: ArrayLike) -> tuple[A
     upper = start.upper + upper[start.upper + upper <= known]
     bounces = rebound(upper) > 0
     change = np.flatnonzero(bounces[1:] != bounces[:-1])
-    low, high = upper[change], upper[change + 1]
-    for _ in range(100):
-        middle = (low + high) / 2
-        same = (rebound(middle) > 0) == bounces[change]
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    between = upper[change], upper[change + 1]
+    low, _ = change_between(lambda upper: rebound(upper) > 0, *between, bounces[change])
     speed = np.sqrt(2 * np.maximum(_loading(profile, medium, low, 0.0)[0] - energy, 0.0))
     ends = np.array([np.nan, np.nan])
     if bounces.any():

@@ -11,14 +11,11 @@ from .._check import ArrayLike
 from ..applicability import check_pair, check_reached, refuse_adhesion, shape_with
 from ..medium import Medium
 from ..profiles.profile import Profile
-from ..structure import RIGID, Structure, structure_of
+from ..structure import Structure, structure_of
 from .adhesive import adhesive_impact
 from .energy_balance import dry_impact
 from .result import Impact
 from .viscous import viscous_impact
-
-#: Impacts of an ensemble on an elastic medium, by which a law of hardness is checked before it is solved.
-_SOME = 100
 
 
 @_check.keywords_explained
@@ -98,7 +95,8 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, structure=None, *,
     if np.any(outside):
         bound, advice = f"is {_too_deep(profile, outside)}", "give a smaller one"
         _check.refuse("plastic_depth", imprint_depth, outside, bound, unit="m", advice=advice)
-    hit = _solved_by_law(profile, medium, mass, speed, imprint_depth, structure, in_time)
+    hit = _solved(profile, medium, mass, speed, imprint_depth, structure, in_time)
+    check_reached(profile, medium, hit.turning_point.live_interval.upper)
     known = np.minimum(profile.known_depth, _check.LONGEST)
     unknown = ~(hit.turning_point.live_interval.upper <= known)
     if np.any(unknown):
@@ -120,28 +118,6 @@ def _refuse_losses(medium, structure, shape):
     bound = "is not computed together with a structure by `impact`"
     advice = "take chain_impact(…, structure=…), or set eta = 0"
     _check.refuse("viscosity eta", eta, bad, bound, unit="Pa·s", advice=advice)
-
-
-def _solved_by_law(profile, medium, mass, speed, imprint_depth, structure, in_time):
-    """The `Impact`, refused if a law of hardness is not valid up to its largest contact radius."""
-    if medium.has_own_law:
-        _check_elastic(profile, medium, mass, speed, imprint_depth)
-    hit = _solved(profile, medium, mass, speed, imprint_depth, structure, in_time)
-    check_reached(profile, medium, hit.turning_point.live_interval.upper)
-    return hit
-
-
-def _check_elastic(profile, medium, mass, speed, imprint_depth):
-    """Refuses a law of hardness that is not valid up to the depths of impacts on an elastic medium.
-
-    Of many impacts some are checked. They are less deep than those on a medium that yields, and a law that
-    is refused here is not given to a solver.
-    """
-    rows = np.unique(np.linspace(0, mass.size - 1, min(mass.size, _SOME)).astype(int))
-    some = (values.ravel()[rows] for values in (mass, speed, imprint_depth))
-    own, medium = (each.flat_entries(rows, mass.shape) for each in (profile, medium))
-    elastic = _solved(own, Medium(medium.E_star, eta=medium.eta), *some, RIGID, False)
-    check_reached(own, medium, elastic.turning_point.live_interval.upper)
 
 
 def _solved(profile, medium, mass, speed, imprint_depth, structure, in_time):

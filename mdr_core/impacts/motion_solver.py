@@ -8,6 +8,7 @@
 """
 
 from dataclasses import dataclass, fields, replace
+from enum import IntEnum
 
 import numpy as np
 
@@ -158,6 +159,19 @@ def _unload(bodies, turning_state, tolerance, equation_of, to_rest):
     return state, endless, steps
 
 
+class _Outcome(IntEnum):
+    """What becomes of an impact by a step that was tried."""
+
+    #: The step is not good: it is tried again, shorter.
+    AGAIN = 0
+    #: It goes on from the end of the step.
+    ON = 1
+    #: It is at the end of the leg.
+    ARRIVED = 2
+    #: It is at the turning point.
+    TURNED = 3
+
+
 @dataclass(frozen=True)
 class _Underway(Entries):
     """Impacts on their way along a leg, at the end of their last steps: one a row of arrays (N, 1)."""
@@ -210,17 +224,16 @@ class _Leg(Entries):
                 return _joined(ended), np.concatenate(turned)
             in_depth, deceleration = self._variable(impacts)
             going = []
-            # A step in velocity ends a leg only where the velocity is zero.
-            kinds = (in_depth, self._by_depth, False), (~in_depth, self._by_velocity, True)
-            for chosen, advance, turns in kinds:
+            for chosen, advance in (in_depth, self._by_depth), (~in_depth, self._by_velocity):
                 if not chosen.any():
                     continue
-                after, step, good, arrived = advance(impacts[chosen], deceleration[chosen], tolerance)
+                after, step, outcome = advance(impacts[chosen], deceleration[chosen], tolerance)
+                good, at_end = outcome > _Outcome.AGAIN, outcome > _Outcome.ON
                 if good.any():
                     steps.append((after.row[good], step[np.flatnonzero(good)]))
-                going.append(after[~arrived])
-                ended.append(after[arrived])
-                turned.append(np.full(np.count_nonzero(arrived), turns))
+                going.append(after[~at_end])
+                ended.append(after[at_end])
+                turned.append(outcome[at_end] == _Outcome.TURNED)
             impacts = _joined(going)
         raise Unsolved(impacts.row)
 
@@ -238,8 +251,7 @@ class _Leg(Entries):
     def _by_depth(self, impacts, deceleration, tolerance):
         """Tries one step in depth of each impact.
 
-        Returns the impacts after it, where they were if it was not good; the steps; which are good; and
-        which of these end the leg.
+        Returns the impacts after it, where they were if it was not good; the steps; and the `_Outcome`.
         """
         leg, state = self[impacts.row], impacts.state
         room = self.depth_sign * (leg.edge_delta - impacts.delta)
@@ -251,8 +263,7 @@ class _Leg(Entries):
         good, factor = _judged(step, end, error, tolerance)
         if self.depth_vanishes:
             factor = _shrinking(factor, good, last, length, room)
-        arrived = good & last
-        end = replace(end, depth=np.where(arrived, leg.edge, end.depth))
+        end = replace(end, depth=np.where(last, leg.edge, end.depth))
         after = _Underway(
             impacts.row,
             state=state.replaced(good[:, 0], end[good[:, 0]]),
@@ -261,7 +272,7 @@ class _Leg(Entries):
             velocity_step=np.full_like(length, np.inf),
             depth_only=impacts.depth_only,
         )
-        return after, step, good[:, 0], arrived[:, 0]
+        return after, step, _outcome(good, last, _Outcome.ARRIVED)
 
     def _by_velocity(self, impacts, deceleration, tolerance):
         """Tries one step in velocity of each impact; returns the same as `_by_depth`."""
@@ -286,7 +297,8 @@ class _Leg(Entries):
             velocity_step=length * factor,
             depth_only=impacts.depth_only | depth_only,
         )
-        return after, step, good[:, 0], (good & last)[:, 0]
+        # A step in velocity ends a leg only where the velocity is zero.
+        return after, step, _outcome(good, last, _Outcome.TURNED)
 
 
 class _LoadingLeg(_Leg):
@@ -329,6 +341,11 @@ class _UnloadingLeg(_Leg):
         depth, relaxation_time = impacts.state.depth, self.equation.bodies.relaxation_time
         gain = _RETURNED / (1 / np.sqrt(depth * deceleration) + relaxation_time / depth)
         return np.full_like(gain, np.inf), gain
+
+
+def _outcome(good, last, end):
+    """The `_Outcome` of steps (N, 1), (N,): `end` of good ones that took all of the room."""
+    return np.select([~good[:, 0], last[:, 0]], [_Outcome.AGAIN, end], _Outcome.ON)
 
 
 def _length(room, longest):

@@ -26,7 +26,8 @@ MAX_ERROR = 0.1
 class ScalingLaw:
     """Power laws in the impact energy W for very fast impacts on a medium of one class of hardness.
 
-    With F ∝ aⁱ and a ∝ d^(1/n), the work is proportional to d^((n + i)/n), the elastic energy to F²/a.
+    With F ∝ aⁱ and a ∝ d^(1/n), the work is proportional to d^((n + i)/n), the elastic energy to F²/a. The
+    medium is on a rigid support: a `Structure` takes up a part of the energy, which is no power of W.
 
     Parameters
     ----------
@@ -101,7 +102,8 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
     """Determine the class of hardness from the radii of imprints of fast impacts at several energies.
 
     The slope of ln(radius) over ln(energy) is compared with 1/(n + i). A class fits within two standard
-    errors, or within 10 %, because real impacts are only approximately fast.
+    errors, or within 10 %, because real impacts are only approximately fast. They hit a thick and massive
+    body: of a hit on a plate or a soft support the structure takes a part of the energy.
 
     Parameters
     ----------

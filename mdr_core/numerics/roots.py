@@ -79,6 +79,22 @@ def increasing_root(function, target, start, highest=np.inf, *, largest=_check.L
     raise ValueError(f"no {quantity} was found in 200 steps; check that all quantities are in SI units")
 
 
+def change_between(answer, low, high, at_low):
+    """Neighbouring numbers between which an answer changes from what it is at `low`, by halving.
+
+    `answer` gives a truth for each of an array of numbers, and changes once between `low` and `high`, of
+    shape (M,). All changes are halved at once: on samples there is one at every vertex, and a call costs as
+    much for one number as for many.
+    """
+    while np.any(high - low > 4e-16 * high):
+        middle = (low + high) / 2
+        if np.all((middle == low) | (middle == high)):
+            break
+        same = answer(middle) == at_low
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return low, high
+
+
 def crossing(function, x, low, high):
     """Root x of a function that is negative at `low`, elementwise, by Newton's method inside a bracket.
 

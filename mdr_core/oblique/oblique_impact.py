@@ -42,7 +42,8 @@ def oblique_impact(
 
     Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff and as
     viscous (Mindlin; outlook of Popov 2015). It sticks while its load is at most μ times the normal load of
-    spring and dashpot, and slips otherwise. Yield, of any hardness, limits the normal springs only.
+    spring and dashpot, and slips otherwise. Yield, of any hardness, limits the normal springs only. The
+    body behind the medium is at rest: there is no structure, as in `impact`, that gives way.
 
     Parameters
     ----------

@@ -179,8 +179,10 @@ class ScaledLaw(_check.Parameters):
         bad = _is_none(name, value) & ~np.isnan(radius)
         if np.any(bad):
             value, radius, bad = np.broadcast_arrays(value, radius, bad)
-            what = f"{name}(a) is {value[bad][0]:g} at a = {radius[bad][0]:g} m"
-            raise refused_law(self.law, what, "it must be a number, not negative, at every radius a > 0")
+            first = np.unravel_index(np.argmax(bad), bad.shape)
+            what = f"{name}(a) is {value[first]:g} at a = {radius[first]:g} m"
+            one = self.law.entries(first, bad.shape) if self.law.shape else self.law
+            raise refused_law(one, what, "it must be a number, not negative, at every radius a > 0")
         return value
 
 

@@ -18,11 +18,10 @@ import numpy as np
 
 from .. import _check
 from .._check import shown
+from ..numerics.roots import change_between
 
 #: Radii (m) between which a shape is looked at: 33 in each decade, no two 8 % apart.
 _RADII = np.concatenate([[0.0], np.geomspace(1e-18, 1e12, 1000)])
-#: Halvings of the gap between two of these, at which the end of a shape is found to rounding.
-_HALVINGS = 50
 #: Share of the largest depth by which g may fall, or be off 0 at the tip: the rounding of a formula, as of
 #: √(x² + R²) − R next to the tip, is less; and height g (m) of a tip that is more than such a rounding.
 _ROUNDING, _TIP = 1e-6, 1e-12
@@ -177,11 +176,8 @@ def _said_of_slope(profile, x):
 
 def _last_sound(profile, low, high):
     """The last radius (m) between two at which a shape is valid, and the first at which it is not."""
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        none = _values(profile, np.array([middle]))[2][0]
-        low, high = (low, middle) if none else (middle, high)
-    return float(low), float(high)
+    low, high = change_between(lambda x: ~_values(profile, x)[2], np.array([low]), np.array([high]), True)
+    return float(low[0]), float(high[0])
 
 
 def _values(profile, x):

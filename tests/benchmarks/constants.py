@@ -2,7 +2,7 @@
 
 python -m tests.benchmarks.constants
 
-For `NODES` (time_quadrature.py), `TRANSITIONS`, `scales` and `_NODES` (yielding.py):
+For `NODES` (contact_time.py), `TRANSITIONS`, `scales` and `_NODES` (yielding.py):
 the largest relative error over impacts of five shapes with a transition depth, from far
 below it to far above, against much denser cuts, or more nodes; for `_NODES` (creep_loading.py) that of the
 work of the dashpots in creep. For the shares of steps in `motion_solver`: how many steps viscous impacts
@@ -17,7 +17,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.contact import creep_loading, yielding
 from mdr_core.contact.yielding import RadiusCap, YieldRule
-from mdr_core.impacts import collocation_steps, motion_solver, time_quadrature
+from mdr_core.impacts import collocation_steps, contact_time, motion_solver
 
 SHAPES = (
     mdr.Sphere(1e-6),
@@ -148,7 +148,7 @@ def main():
     shares_table()
     for what, medium in MEDIA.items():
         counts = (14, 6), (20, 9), (28, 9), (28, 12), (28, 18), (40, 12)
-        table(f"NODES, {what}", medium, time_quadrature, "NODES", counts, (56, 40))
+        table(f"NODES, {what}", medium, contact_time, "NODES", counts, (56, 40))
     table("_NODES of RadiusCap", MEDIA["H, q_c, f_c"], yielding, "_NODES", (8, 12, 16, 20, 24, 32), 64)
     shares = ([], [1.0], [6.0], [0.5, 3.0], [1.0, 6.0], [2.0, 12.0], [1.0, 3.0, 9.0])
     shares = [np.array(share) for share in shares]

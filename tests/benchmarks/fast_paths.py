@@ -18,7 +18,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core import _check, hardness
 from mdr_core.contact import adhesion, creep_retreat, indentation, integrals, quadrature
-from mdr_core.impacts import contact_time, energy_balance, motion, time_quadrature
+from mdr_core.impacts import contact_time, energy_balance, motion
 from mdr_core.numerics import collocation, gauss
 from mdr_core.profiles import radius_table
 from mdr_core.profiles.power import PowerLaw, kappa
@@ -240,7 +240,7 @@ PATHS = (
      lambda: one_by_one(ROUND)),
     ("gauss_legendre kept, a contact time", lambda: uncached_everywhere(gauss.gauss_legendre),
      lambda: times(ROUND, 0.1)),
-    ("_rule kept, a contact time", lambda: uncached(time_quadrature, "_rule"), lambda: times(ROUND, 0.1)),
+    ("_rule kept, a contact time", lambda: uncached(contact_time, "_rule"), lambda: times(ROUND, 0.1)),
     ("tanh_sinh kept, a reduced height", lambda: uncached_everywhere(gauss.tanh_sinh),
      lambda: SMOOTH.reduced(1e-6)),
     ("_collocation kept, a viscous impact", lambda: uncached_everywhere(collocation._collocation),

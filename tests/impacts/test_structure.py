@@ -174,6 +174,19 @@ class TestABodyThatNeverLeaves:
         assert hit.structure_work == approx(ENERGY, rel=1e-14)
         assert hit.max_deflection == approx(MASS * SPEED / structure.impedance, rel=1e-14)
 
+    @pytest.mark.parametrize("damping", [1.1, 30.0, 100.0])
+    def test_the_motion_of_a_flat_face_is_that_of_the_overdamped_oscillator(self, damping):
+        """d = v₀ (exp(−r₁t) − exp(−r₂t))/(r₂ − r₁) with the rates r = ω (ζ ∓ √(ζ² − 1))."""
+        b = 1e-4
+        structure = mdr.Structure(np.sqrt(2 * E * b * MASS) / (2 * damping))
+        motion = mdr.impact(mdr.FlatPunch(b), ELASTIC, MASS, SPEED, structure=structure).motion(60)
+        fast = np.sqrt(2 * E * b / MASS) * (damping + np.sqrt(damping**2 - 1))
+        slow = 2 * E * b / MASS / fast
+        depth = SPEED * (np.exp(-slow * motion.time) - np.exp(-fast * motion.time)) / (fast - slow)
+        # Steps have 10⁻¹⁰ each, and there are a hundred; near first contact depths have it of the largest.
+        np.testing.assert_allclose(motion.depth, depth, rtol=1e-8, atol=1e-10 * depth.max())
+        assert motion.depth[-1] < 2e-3 * depth.max()
+
     def test_is_decided_by_the_radius_that_is_left(self):
         """Of a yielding contact by c, of a sharp elastic one never: there it leaves, however slowly."""
         for impedance in np.geomspace(20, 400, 30):

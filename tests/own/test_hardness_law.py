@@ -368,7 +368,7 @@ class TestWhatIsNoLaw:
 
     def test_an_ensemble_is_looked_at_one_by_one(self):
         medium = mdr.Medium(E, hardness=NixGao(np.array([1e9, -1e9]), 1e-6))
-        with pytest.raises(ValueError, match=r"NixGao\(H0=.*-1.*not finite and above 0"):
+        with pytest.raises(ValueError, match=r"NixGao\(H0=[^\[]*-1.*it must be a number, not negative"):
             mdr.impact(BALL, medium, 1e-12, 1.0)
         # Under the slender one of two cones the law grows too much.
         rising = mdr.Medium(E, hardness=Power(1e9, 1e-6, 0.5))
