@@ -146,7 +146,7 @@ def write(starts, rows, served, static_page):
         "",
         f"Made by `python -m tests.benchmarks.in_browser` on {datetime.now(UTC).date()}, with Pyodide",
         f"{static.PYODIDE} in Chromium and all files on this machine. Both sides take turns. The first",
-        f"picture is there after {picture:.1f} s, the live page after {live:.0f} s, and the second time after",
+        f"picture is there after {picture:.1f} s, the live page after {live:.0f} s, the second time after",
         f"{second:.0f} s; {size:.0f} MB are loaded the first time.",
         "",
         "| what | here | in the browser | ratio | the first time |",
