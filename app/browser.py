@@ -62,6 +62,6 @@ async def start(query: str, dark: bool) -> None:
         js.document.body.append(place)
     # What is sent is answered once the script that sends it has ended, as from a server.
     answer = document.apply_json_patch
-    document.apply_json_patch = lambda patch, setter=None: host.soon(partial(answer, patch, setter))
+    document.apply_json_patch = lambda patch, setter=None: host.soon(partial(answer, patch, setter=setter))
     await browser.write_doc(document)
     host.linked = True
