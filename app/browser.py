@@ -5,12 +5,14 @@ Private ends of Panel and Pyodide are here alone, with what they gain.
 
 import asyncio
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import js
 import panel as pn
 import pyodide.ffi
 from panel.io import pyodide as browser
+from tqdm import tqdm
 
 from .host import Sliced, Steps
 from .page import Address, Page
@@ -20,6 +22,8 @@ from .ui import SHEETS
 # browser sends with it. Before, null is None already, so that no value is this one.
 if not hasattr(pyodide.ffi, "jsnull"):
     pyodide.ffi.jsnull = object()
+# It watches its bars by a thread.
+tqdm.monitor_interval = 0
 
 
 class Browser(Sliced):
@@ -56,5 +60,8 @@ async def start(query: str, dark: bool) -> None:
         place.id, place.style.display = f"root-{k}", "contents"
         place.setAttribute("data-root-id", f"{k:03}")
         js.document.body.append(place)
+    # What is sent is answered once the script that sends it has ended, as from a server.
+    answer = document.apply_json_patch
+    document.apply_json_patch = lambda patch, setter=None: host.soon(partial(answer, patch, setter=setter))
     await browser.write_doc(document)
     host.linked = True

@@ -62,9 +62,11 @@ def test_the_wheel_has_the_library_and_the_explorer_and_nothing_else(unpacked):
 
 
 def test_the_wheel_has_each_asset_that_the_explorer_reads(unpacked):
-    """Files of assets/ that are named in its code, and the licences of measured curves."""
+    """Files of assets/ that are named in its code or drawn in its theory, and the licences of curves."""
     code = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "app").rglob("*.py"))
     named = {path.name for path in (ROOT / "assets").iterdir() if f'"{path.name}"' in code}
+    theory = (ROOT / "assets" / "theory.md").read_text(encoding="utf-8")
+    named |= set(re.findall(r"!\[.*?\]\((\w+\.svg)\)", theory))
     assert {"quantities.json", "presets.json", "theory.md", "silica.csv", "gel.csv"} <= named
     licences = {path.name for path in (ROOT / "assets").glob("*.license") if path.stem in named}
     assert files(unpacked / "mdr_explorer" / "assets") == named | licences

@@ -1,5 +1,6 @@
 """Configuration of the documentation, which the README has the command for."""
 
+import os
 from pathlib import Path
 
 from docutils import nodes
@@ -9,6 +10,7 @@ from sphinx import addnodes
 import mdr_core
 from app.extras.scene_file import scene_file
 from app.page import Page
+from mdr_explorer import static
 
 project = "mdr-core"
 author = "The mdr-core authors"
@@ -86,7 +88,14 @@ def save_scene(app, error):
     Path(app.outdir, "scene.html").write_text(scene_file(Page().shown), encoding="utf-8")
 
 
+def write_explorer(app, error):
+    """Write the explorer that runs in the browser, if it is asked for by `-t explorer`: it has a size."""
+    if app.tags.has("explorer") and error is None:
+        static.write(Path(app.outdir, "explorer"), os.environ.get("MDR_PYODIDE", ""))
+
+
 def setup(app):
     app.add_html_math_renderer("mathml", (mathml, None), (mathml, None))
     app.connect("doctree-read", link_pages)
     app.connect("build-finished", save_scene)
+    app.connect("build-finished", write_explorer)
