@@ -1,9 +1,13 @@
 """The command `mdr-explorer`, which serves the explorer wherever the package is installed, or writes it."""
 
+import errno
+import socket
 import sys
-from argparse import ArgumentParser
+from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
 from collections.abc import Sequence
 from pathlib import Path
+
+from mdr_core import __version__
 
 _HERE = Path(__file__).parent
 #: The folder that is served: in the wheel it is in this package, in the tree beside it.
@@ -17,6 +21,11 @@ OPTIONS = (
     "--session-token-expiration", "600", "--check-unused-sessions", "15000",
     "--unused-session-lifetime", "600000", "--keep-alive", "15000",
 )  # fmt: skip
+
+
+#: The help of the command, before and after its options.
+_ABOUT = "Serve the explorer at http://localhost:5006/app, or write it as a folder for a host of files."
+_MORE = "All other options are those of `panel serve`; `panel serve --help` lists them."
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -33,36 +42,65 @@ def main(arguments: Sequence[str] | None = None) -> None:
     Raises
     ------
     SystemExit
-        If Panel is not installed, or the folder cannot be written.
+        If Panel is not installed, the port is in use, or the folder cannot be written.
     """
+    given, others = _parser().parse_known_args(arguments)
     try:
         from panel.command import main as panel
     except ImportError:
         sys.exit('mdr-explorer needs Panel, which is not installed: pip install "mdr-core[app]"')
-    given = sys.argv[1:] if arguments is None else arguments
-    if any(each.split("=")[0] == "--static" for each in given):
+    if given.static is not None:
+        if others:
+            sys.exit(f"mdr-explorer: --static does not serve, and does not take {' '.join(others)}")
         _write(given)
         return
+    if given.pyodide:
+        sys.exit("mdr-explorer: --pyodide goes with --static FOLDER")
+    if not any(each.startswith(("--address", "--unix-socket")) for each in others):
+        _check_free(given.port)
+    shown = ["--show"] if given.show else []
     # Panel takes its arguments from here alone.
-    sys.argv = ["panel", "serve", str(APP), *OPTIONS, *given]
+    sys.argv = ["panel", "serve", str(APP), *OPTIONS, "--port", str(given.port), *shown, *others]
     panel()
 
 
-def _write(given: Sequence[str]) -> None:
+def _parser() -> ArgumentParser:
+    """What is said and asked by the command itself."""
+    parser = ArgumentParser(
+        "mdr-explorer", description=_ABOUT, epilog=_MORE, formatter_class=RawDescriptionHelpFormatter,
+        allow_abbrev=False,
+    )  # fmt: skip
+    parser.add_argument("--port", type=int, default=5006, help="port that is served, by default 5006")
+    parser.add_argument("--show", action="store_true", help="open the explorer in the browser")
+    parser.add_argument("--static", metavar="FOLDER", type=Path, help="write it there instead of serving")
+    told = "with --static: the folder of a whole Pyodide, or the address from which browsers load it"
+    parser.add_argument("--pyodide", metavar="URL-or-folder", default="", help=told)
+    parser.add_argument("--version", action="version", version=f"mdr-core {__version__}")
+    return parser
+
+
+def _check_free(port: int) -> None:
+    """End with what to do if another program has the port."""
+    with socket.socket() as tried:
+        tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            tried.bind(("", port))
+        except OSError as error:
+            if error.errno != errno.EADDRINUSE:
+                raise
+            sys.exit(f"mdr-explorer: port {port} is in use. Choose another one, as in --port {port + 1}")
+
+
+def _write(given: Namespace) -> None:
     """Write the explorer as a folder."""
     from . import static
 
-    parser = ArgumentParser("mdr-explorer", description="Write the explorer for a host of files.")
-    parser.add_argument("--static", metavar="FOLDER", type=Path, required=True, help="where it is written")
-    told = f"folder of a whole Pyodide {static.PYODIDE}, or its address; by default {static.PUBLISHED}"
-    parser.add_argument("--pyodide", metavar="URL-or-folder", default="", help=told)
-    options = parser.parse_args(given)
+    folder = given.static
     try:
-        static.write(options.static, options.pyodide)
+        static.write(folder, given.pyodide)
     except (ValueError, OSError) as error:
         sys.exit(f"mdr-explorer: {error}")
-    size = sum(path.stat().st_size for path in options.static.rglob("*") if path.is_file())
-    folder = options.static
+    size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
     print(f"{folder}: the explorer, {size / 1e6:.0f} MB. Try it: python -m http.server -d {folder}")
     if not (folder / "pyodide").exists():
-        print(f"Browsers load Pyodide from {options.pyodide or static.PUBLISHED}")
+        print(f"Browsers load Pyodide from {given.pyodide or static.PUBLISHED}")

@@ -2,6 +2,7 @@
 
 import os
 import re
+import socket
 import subprocess
 import sys
 import tarfile
@@ -105,6 +106,23 @@ def test_the_command_serves_the_explorer_from_the_wheel(unpacked, tmp_path):
 
 def test_the_command_in_the_tree_serves_the_tree():
     assert ROOT / "app" == mdr_explorer.APP
+
+
+def test_the_command_names_its_options_and_another_port(capsys):
+    with pytest.raises(SystemExit):
+        mdr_explorer.main(["--help"])
+    said = capsys.readouterr().out
+    for name in ("http://localhost:5006/app", "--port", "--show", "--static", "--version", "panel serve"):
+        assert name in said
+    pytest.importorskip("panel")
+    with socket.socket() as other:
+        other.bind(("", 0))
+        other.listen()
+        port = other.getsockname()[1]
+        with pytest.raises(SystemExit, match=f"port {port} is in use.*--port {port + 1}"):
+            mdr_explorer.main(["--port", str(port)])
+    with pytest.raises(SystemExit, match="--static does not serve, and does not take --prefix lab"):
+        mdr_explorer.main(["--static", "folder", "--prefix", "lab"])
 
 
 def test_the_command_says_how_to_install_what_it_needs(monkeypatch):
