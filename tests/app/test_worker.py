@@ -9,7 +9,7 @@ import threading
 import pytest
 
 from app.fit import folders
-from app.fit.measurement import without_folders
+from app.fit.refusals import without_folders
 from app.fit.worker import LATE, NONE, Turns, Worker, waiting
 
 from .conftest import ROOT
