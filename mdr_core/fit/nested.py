@@ -20,8 +20,9 @@ from .errors import SIGNIFICANT, SINGULAR, block_length, roughness
 
 
 class _Test(NamedTuple):
-    """Words for a parameter, its unit, the factor by which the misfit falls clearly, and what follows."""
+    """Kind of a remark, words, unit, the factor by which the misfit falls clearly, and what follows."""
 
+    kind: str
     what: str
     unit: str
     clearly: float
@@ -29,26 +30,34 @@ class _Test(NamedTuple):
     remedy: tuple[Remedy, ...] = ()
 
 
+_OF_UNLOADING = (
+    "creep or hysteresis of the scanner or the medium, or a drag; compare with a fit of the loading alone",
+    (Remedy("part", "loading"),),
+)
 #: The misfit of measured curves without a tilt falls up to 1.2 times by one.
 _TESTS = {
     "tilt": _Test(
-        "a tilt of {}", "N/m", 1.5, "fit a tilt and a baseline, too",
+        "tilt", "a tilt of {}", "N/m", 1.5, "fit a tilt and a baseline, too",
         (Remedy("free", "tilt"), Remedy("free", "baseline")),
     ),
-    "drag": _Test("a drag of {}", "N·s/m", 1.3, "fit a drag, too", (Remedy("free", "drag"),)),
+    "drag": _Test("drag", "a drag of {}", "N·s/m", 1.3, "fit a drag, too", (Remedy("free", "drag"),)),
+    # Of a medium that yields, which is too stiff for the drag of a liquid.
+    "rate": _Test(
+        "unloading", "a force that goes with the rate ({})", "N·s/m", 1.3, *_OF_UNLOADING
+    ),
     "drift": _Test(
-        "a drift of {}", "m/s", 1.6, "the force changes at rest: the depth drifts, or the medium relaxes"
+        "drift", "a drift of {}", "m/s", 1.6,
+        "the force changes at rest: the depth drifts, or the medium relaxes",
     ),
     "unloading": _Test(
-        "a force that changes by {} on unloading", "%", np.inf,
-        "creep or hysteresis of the scanner or the medium, or a drag; compare with a fit of the loading "
-        "alone",
-        (Remedy("part", "loading"),),
+        "unloading", "a force that changes by {} on unloading", "%", np.inf, *_OF_UNLOADING
     ),
 }  # fmt: skip
 #: Standard deviations from which on one of them is significant, and change of E* in its errors beyond which
 #: these do not cover what is left out.
 _SIGNIFICANT, _UNCOVERED = 3.3, 1.0
+#: Factor of the misfit that is worth a word.
+_LOWERED = 1.005
 #: Least number of samples in contact and without, and least misfit as a share of the range of force.
 _FEW, _SMALL = 10, 1e-5
 #: Least share of the samples in contact before and after the depth is within a share of the largest one.
@@ -78,9 +87,10 @@ def nested_tests(solved, i):
 
 
 def _left_out(solved, i, contact):
-    """Yields remarks on the parameters with which a curve fits better, the best one first.
+    """Yields remarks on the parameters with which a curve fits better.
 
-    Each later one is tried beside those before it.
+    Of those that are clearly better the first one of `_TESTS` is taken, else the best one. Each later one
+    is tried beside those before it.
     """
     curves, minimum, noise = solved.curves, solved.minimum, solved.noise[i]
     _, state = solved.values_and_states
@@ -97,7 +107,8 @@ def _left_out(solved, i, contact):
         if not best.rank:
             return
         yield best.remark(curves.free)
-        del columns[best.name]
+        said = _TESTS[best.name].kind
+        columns = {name: column for name, column in columns.items() if _TESTS[name].kind != said}
         before, jacobian = best.residual, best.jacobian
 
 
@@ -144,14 +155,14 @@ class _Trial(NamedTuple):
     def remark(self, free):
         """What it is, what it does to misfit and E*, and what follows beside parameters that are free."""
         test = _TESTS[self.name]
-        text = (
-            f"{test.what.format(engineering(self.size, test.unit))} would lower the misfit in contact by a "
-            f"factor of {self.factor:.3g} and change E* by {self.change:+.1f} standard errors: "
-        )
+        what = f"{test.what.format(engineering(self.size, test.unit))} would "
+        if self.factor > _LOWERED:
+            what += f"lower the misfit in contact by a factor of {self.factor:.3g} and "
+        text = f"{what}change E* by {self.change:+.1f} standard errors: "
         remedy = tuple(each for each in test.remedy if each.what not in free)
         given = " and ".join(f"{each.what}=None" for each in remedy if each.action == "free")
         return Remark(
-            f"{text}{f'give {given}' if given else test.follows}", self.name, text + test.follows, remedy
+            f"{text}{f'give {given}' if given else test.follows}", test.kind, text + test.follows, remedy
         )
 
 
@@ -179,7 +190,10 @@ def _columns(curves, state, i, contact):
     if _increases(curves, i):
         if baseline and "drag" not in free:
             steps = np.gradient(curves.time[i])
-            yield "drag", -(np.gradient(depth) / np.maximum(steps, 1e-3 * steps.mean()))[:, None]
+            yield (
+                "drag" if curves.held_elastic else "rate",
+                -(np.gradient(depth) / np.maximum(steps, 1e-3 * steps.mean()))[:, None],
+            )
         yield "drift", _drift(curves, state, i, contact)[:, None]
     after = np.arange(depth.size) > np.argmax(depth)
     yield "unloading", np.where(after, -state.force[i] / 100, 0.0)[:, None]

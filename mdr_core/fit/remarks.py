@@ -15,7 +15,7 @@ from .tip import of_ideal_tip
 
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
 DOUBTS = {
-    "units", "order", "no contact", "no minimum", "tilt", "drag", "drift", "misfit", "jitter", "noisy",
+    "units", "order", "no contact", "undetermined", "tilt", "drag", "drift", "misfit", "jitter", "noisy",
 }  # fmt: skip
 #: Those that take the parameters for those of a minimum, with the errors there.
 _OF_MINIMUM = {
@@ -51,14 +51,8 @@ def remarks_of(solved):
 
 def _consistent(remarks):
     """Remarks on one curve without those that others make void."""
-    made, void = {remark.kind for remark in remarks}, set()
-    lost = [each.what for remark in remarks if remark.kind == "undetermined" for each in remark.remedy]
-    if lost:
-        void |= _OF_MINIMUM
-        text = "the search found no minimum of the residuals, but a direction in which they do not change"
-        names = f"{text}, of {', '.join(lost)}", f"{text}, of {symbols(lost)}"
-        remedy = tuple(Remedy("hold", name) for name in lost)
-        remarks = [*remarks, Remark(names[0], "no minimum", names[1], remedy)]
+    made = {remark.kind for remark in remarks}
+    void = set(_OF_MINIMUM) if "undetermined" in made else set()
     # The contact may be hidden by what a linear parameter describes.
     if {"tilt", "drag", "drift"} & (made - void):
         void |= {"no contact"}
@@ -302,8 +296,9 @@ def _undetermined(solved, i):
     for name, error in errors.items():
         if error == np.inf and name != "work_of_adhesion":
             text, more = "the data do not determine", "or a parameter correlated with it"
-            sentence = f"{text} {name}: hold {name} {more}"
-            words = f"{text} {symbols([name])}: hold it {more}"
+            why = "the residuals have no minimum, but a direction in which they do not change"
+            sentence = f"{text} {name}: {why}; hold {name} {more}"
+            words = f"{text} {symbols([name])}: {why}; hold it {more}"
             yield Remark(sentence, "undetermined", words, (Remedy("hold", name),))
 
 

@@ -26,6 +26,8 @@ from .report import Fit, with_error
 if TYPE_CHECKING:
     import xarray
 
+#: Remarks of which a curve may have several, one for each parameter.
+_OF_PARAMETERS = {"bound", "undetermined"}
 #: Fields with one entry per curve; those with one per sample are `SAMPLES`.
 _OF_CURVES = ("contact_point", *BACKGROUND, "covariance", "reduced_chi_square", "block_length")
 
@@ -268,8 +270,8 @@ def _of_many(remarks):
     for i, own in enumerate(remarks):
         for remark in own:
             # Two parameters at their bounds are two remarks.
-            what = remark.kind, tuple((each.action, each.what) for each in remark.remedy)
-            same.setdefault(what, {}).setdefault(i, remark)
+            named = remark.remedy if remark.kind in _OF_PARAMETERS else ()
+            same.setdefault((remark.kind, named), {}).setdefault(i, remark)
     for found in same.values():
         i, first = next(iter(found.items()))
         sentence = f"curve {i} ({len(found)} of {len(remarks)} curves): {first}"

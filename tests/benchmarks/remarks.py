@@ -66,8 +66,10 @@ def of_a_kind(medium, seed):
     yield fit(F=np.where(np.arange(count) % 50, force, np.nan)), {"missing"}
     yield fit(force_noise=0.3 * families.NOISE * top), {"noisy"}
     yield fit(z=depth * 1e9, F=force * 1e9), {"units"}
-    yield fit(z=-depth), {"units"}
-    yield fit(F=families.NOISE * top * random.normal(size=count)), {"no contact", "undetermined", "vague"}
+    yield fit(z=-depth), {"units", "few", "undetermined"}
+    # Of noise alone nothing is determined, and no yield is seen in it.
+    of_noise = {"no contact", "undetermined", "vague", "few", "second minimum", "elastic"}
+    yield fit(F=families.NOISE * top * random.normal(size=count)), of_noise
     if elastic:
         yield fit(q_c=None), {"elastic"}
         yield fit(time=time, eta=None), {"inviscid"}
@@ -81,13 +83,13 @@ def of_a_kind(medium, seed):
     else:
         noisy = depth + 0.01 * np.ptp(depth) * random.normal(size=count)
         yield fit(z=noisy), {"jitter"}
-        yield fit(z=depth[: count // 2], F=force[: count // 2]), {"loading"}
+        yield fit(z=depth[: count // 2], F=force[: count // 2]), {"loading", "undetermined"}
         yield fit(hardness=None, q_c=None), {"constants"}
         moments = np.linspace(0.0, 140.0, count)
         pressed = 1e-9 * np.interp(moments, [0, 5, 85, 105, 140], [-20, 0, 600, 600, 400])
         holding = mdr.indent(medium.tip, medium.medium, pressed).force
         holding = holding + 4e-3 * top * random.normal(size=count)
-        yield fit(z=pressed + 1e-10 * moments, F=holding, time=moments), {"rest", "drift"}
+        yield fit(z=pressed + 3e-10 * moments, F=holding, time=moments), {"rest", "drift"}
         other = {"q_c": None, "hardness": 0.0} if medium is GLASS else {"q_c": 0.0, "hardness": None}
         yield fit(**other), {"misfit"}
 
@@ -115,14 +117,20 @@ def of_unloadings(medium, seed):
     stiffness = np.array(mdr.indent(tip, medium.medium, depth).stiffness)
     stiffness[::50] = np.nan
     right = {"first contact", "missing"}
-    yield mdr.oliver_pharr(tip, depth, force, stiffness=stiffness), right
-    if medium is not GEL:
-        moments, z, F = record(0.2, "viscous")
-        yield mdr.oliver_pharr(tip, z, F, time=moments), {"first contact", "hold", "creep"}
-        real = mdr.RoundedCone(tip_radius=200e-9, slope=tip.slope)
-        found, true = (mdr.oliver_pharr(each, depth / 5, loaded(depth / 5, real)) for each in (tip, real))
-        off = found.hardness > 1.05 * true.hardness
-        yield found, {"first contact"} | ({"tip"} if off else set())
+    if medium is GEL:
+        yield mdr.oliver_pharr(tip, depth, force, stiffness=stiffness), right
+        return
+    moments, z, F = record(0.2, "viscous")
+    yield mdr.oliver_pharr(tip, z, F, time=moments), {"first contact", "hold", "creep"}
+    # A new tip and a worn one, as ideal: right where the hardness is off by more than 5 %.
+    for radius in (50e-9, 200e-9):
+        real = mdr.RoundedCone(tip_radius=radius, slope=tip.slope)
+        for z in (depth, depth / 5):
+            state, F = mdr.indent(real, medium.medium, z), loaded(z, real)
+            for stiffness in (None, state.stiffness):
+                found, true = (mdr.oliver_pharr(each, z, F, stiffness=stiffness) for each in (tip, real))
+                off = np.nanmax(np.divide(found.hardness, true.hardness)) > 1.05
+                yield found, {"first contact", "missing"} | ({"tip"} if off else set())
 
 
 def beside_fits():

@@ -295,7 +295,7 @@ class TestYieldAndViscosity:
         fit = mdr.fit_indentation(self.CONE, self.DEPTH, force, time=self.TIME, eta=None)
         assert np.isinf(fit.standard_errors["E_star"])
         said = " ".join(fit.remarks)
-        assert "the search found no minimum" in said
+        assert "undetermined" in {remark.kind for remark in fit.remarks}
         assert not any(word in said for word in ("class", "tip", "unloading", "inf %"))
 
 
