@@ -97,7 +97,7 @@ def test_fused_silica_is_one_click_and_its_number_is_that_of_the_unloading():
 
 
 def test_the_unloading_of_silica_has_its_numbers_in_a_fold():
-    """Those of ISO 14577 beside those of Oliver and Pharr, ratios in per cent; an elastic sample has none."""
+    """Those of ISO 14577 beside those of Oliver and Pharr, ratios in per cent; a gel has none."""
     page = page_of()
     page.take_sample("silica")
     result, shown = page.told.unloading, page.results.unloading.object
