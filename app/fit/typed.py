@@ -34,8 +34,8 @@ class Typed:
     def __init__(self, name: str, known: Number, take: Callable[[float], None]):
         self._known, self._take, self._name = known, take, name
         self._value: float | None = None
-        # The value that was typed last, and its unit, in which it stays: a browser may tell a number without a
-        # unit twice, which has to be the same.
+        # The value that was typed last, and its unit, in which it stays: a browser may tell a number twice,
+        # which has to be the same without a unit, too.
         self._typed_as: tuple[float, Unit] | None = None
         self._text = ""
         self._empty = f"… {self._unit().name}" if self._unit().name else "type a value"

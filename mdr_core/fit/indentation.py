@@ -370,7 +370,10 @@ def _refuse_empty(measured, held):
     width = np.nanmax(depth, axis=1) - np.nanmin(depth, axis=1)
     _check.refuse("range of depth", width, width == 0, "m: the indenter does not move", advice="check it")
     rise = highest - held.get("baseline", lowest)
-    bound, advice = "above the baseline: no contact", "forces are positive in compression; or free baseline"
+    bound, advice = (
+        "above the baseline: no contact",
+        "forces are positive in compression; or free the baseline",
+    )
     attracted, free = np.any(held.get("work_of_adhesion", 1.0)), (Remedy("free", "baseline"),)
     bad = (rise <= 0) & ~attracted
     _check.refuse("largest force", rise, bad, bound, unit="N", advice=advice, remedy=free)

@@ -308,3 +308,14 @@ def test_remarks_are_kinds_texts_and_remedies_in_the_file():
     lines = page.written("csv").read()
     for remark in page.remarks:
         assert remark.text in lines
+
+
+def test_an_ideal_tip_at_a_small_depth_is_doubted_below_the_number():
+    """At 100 nm, and not at 1 µm; the doubt comes with a way to another tip."""
+    page = opened(curve_file(depth=0.1 * DEPTH))
+    assert headline(page).startswith("E* = ")
+    assert plain(page.results.below).startswith("An ideal tip at a contact depth of ")
+    offer(page.results.below, "Choose another tip")
+    assert page.form._to.value.startswith("to-profile ")
+    assert "tip" in {each["kind"] for each in json.loads(page.written("json").read())["remarks"]}
+    assert plain(opened(curve_file()).results.below) == ""

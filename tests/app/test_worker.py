@@ -9,7 +9,7 @@ import threading
 import pytest
 
 from app.fit import folders
-from app.fit.measurement import without_folders
+from app.fit.refusals import without_folders
 from app.fit.worker import LATE, NONE, Turns, Worker, waiting
 
 from .conftest import ROOT
@@ -151,7 +151,7 @@ def test_an_answer_comes_to_each_line(what, tmp_path):
                 worker.ask(*job, tell=heard)
                 kind, answer = heard.first()
                 assert kind in ("done", "refused", "ended")
-                assert kind == "done" or len(answer) <= 2000
+                assert kind == "done" or len(answer.text) <= 2000
     finally:
         worker.stop()
 
