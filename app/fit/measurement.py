@@ -35,7 +35,7 @@ from .refusals import changed, refusal
 _HEAD, _REMARK = 80, 500
 #: Kinds of remarks on what changes a number by more than its error, by the source of that. A drift changes
 #: the model's E* beside an unloading, which hardly depends on it.
-_OF_THE_NUMBER = {"unloading": {"creep", "tip"}, "fit": {"drift", "drag", "tilt", "tip"}}
+_OF_THE_NUMBER = {"unloading": {"zero", "creep", "tip"}, "fit": {"drift", "drag", "tilt", "tip"}}
 
 
 # Jobs of the process: each is called with what can be sent.

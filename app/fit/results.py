@@ -61,6 +61,11 @@ class Results:
         self.why, self.remarks = html("", "note", "why"), Said(page, "remarks")
         look = {"collapsed": True, "visible": False, "css_classes": ["fold", "remarks-fold"]}
         self.folded = pn.Card(self.remarks.view, title="Remarks", **look, **WIDE)
+        look["css_classes"] = ["fold", "unloading-fold"]
+        self.unloading = html("", "unloading")
+        self.of_unloading = pn.Card(
+            self.unloading, title="The unloading, by Oliver and Pharr", **look, **WIDE
+        )
         left = pn.Column(
             self.above.view, self.headline, self.below.view, self.not_fitted.view, self.tools, **WIDE
         )
@@ -68,7 +73,7 @@ class Results:
         self._right = right
         self.view = pn.Column(
             pn.Row(left, right, css_classes=["top-of-found"], **WIDE),
-            self.why, self.folded, self.several, self.range, self.curve,
+            self.why, self.of_unloading, self.folded, self.several, self.range, self.curve,
             css_classes=["found"], **_BOTH,
         )  # fmt: skip
 
@@ -179,6 +184,9 @@ class Results:
         show(self.cancel, visible=bool(page.busy))
         show(self.saved, visible=fit is not None)
         show(self.why, object=words.why(fit, page.told) if fit is not None else "")
+        unloading = page.told.unloading if fit is not None else None
+        show(self.of_unloading, visible=unloading is not None)
+        show(self.unloading, object=words.unloading_table(unloading) if unloading is not None else "")
         seen = {*answer.above, *answer.below}
         every = () if fit is None else (*page.remarks, *words.limits(page.setting, fit))
         # The doubt that withholds the number is the reason that is given.

@@ -6,6 +6,7 @@ import numpy as np
 from markupsafe import Markup, escape
 
 from mdr_core.fit.indentation import IndentationFit
+from mdr_core.fit.oliver_pharr_result import OLIVER_PHARR, OliverPharr, texts_of
 from mdr_core.fit.parameters import PARAMETERS
 from mdr_core.fit.report import with_error
 from mdr_core.show.units import KINDS, fitting, with_unit, written
@@ -88,6 +89,19 @@ def assumed(setting: Setting) -> str:
     return f"± of the noise; {' and '.join(parts)} {verb} assumed." if parts else "± of the noise."
 
 
+_UNLOADING = Markup("<table>{}</table>")
+_QUANTITY = Markup("<tr><th><i>{}</i> {}</th><td>{}</td></tr>")
+
+
+def unloading_table(result: OliverPharr) -> Markup:
+    """Numbers of Oliver and Pharr and of ISO 14577 (HTML), those that the record has."""
+    rows = (
+        _QUANTITY.format(marked(OLIVER_PHARR[name].symbol), OLIVER_PHARR[name].long_name, _true_minus(text))
+        for name, text in texts_of(result).items()
+    )
+    return _UNLOADING.format(Markup("").join(rows))
+
+
 def why(fit: IndentationFit, told: Told) -> Markup:
     """One sentence on the E* of the model where another one is quoted (HTML)."""
     if told.quoted.source != "unloading":
@@ -163,6 +177,9 @@ def report(setting: Setting, fit: IndentationFit, told: Told, E: tuple[float, fl
     for name, value in setting.corrections.items():
         known = CORRECTIONS[name]
         lines.append(f"{known.label} {known.symbol}\t{written(value, known.kind)}")
+    if told.unloading is not None:
+        for name, number in texts_of(told.unloading).items():
+            lines.append(f"{OLIVER_PHARR[name].long_name} {OLIVER_PHARR[name].symbol}\t{number}")
     text, misfits = verdict(fit, told)
     if misfits:
         each = ", ".join(f"({letter}) {100 * misfit:.2g} %" for letter, misfit in misfits.items())

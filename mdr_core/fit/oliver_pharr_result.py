@@ -110,31 +110,21 @@ class OliverPharr(Record):
     def _rows(self):
         yield "indenter", described(self.profile)
         for i in range(len(self) if self.shape else 0):
-            texts = dict(self[i]._texts())
+            texts = texts_of(self[i])
             texts.pop("contact_point", None)
             symbols = (f"{OLIVER_PHARR[name].symbol} {text}" for name, text in texts.items())
             yield f"unloading {self.unloading[i]}", ", ".join(symbols)
         if self.shape and "contact_point" in self.standard_errors and len(self):
             quantity = OLIVER_PHARR["contact_point"]
-            yield f"{quantity.long_name} {quantity.symbol}", dict(self[0]._texts())["contact_point"]
-        for name, text in () if self.shape else self._texts():
+            yield f"{quantity.long_name} {quantity.symbol}", texts_of(self[0])["contact_point"]
+        for name, text in () if self.shape else texts_of(self).items():
             yield f"{OLIVER_PHARR[name].long_name} {OLIVER_PHARR[name].symbol}", text
         if self.uncorrected is not None and not self.shape:
-            texts = dict(self.uncorrected._texts())
+            texts = texts_of(self.uncorrected)
             text = f"E* {texts['E_star']}, H {texts['hardness']}"
             yield "uncorrected for creep", text
         if "martens_hardness" in self._quantities and not is_pyramid(self.profile):
             yield OLIVER_PHARR["martens_hardness"].long_name, _NO_PYRAMID
-
-    def _texts(self):
-        """Names of the quantities of one unloading, and their values with errors."""
-        for name, error in self.standard_errors.items():
-            yield name, with_error(getattr(self, name), error, OLIVER_PHARR[name].unit)
-        for name in ISO_14577:
-            value = getattr(self, name)
-            if value is not None:
-                text = engineering(*((100 * value, "%") if name in _RATIOS else (value, "Pa")))
-                yield name, text
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -161,6 +151,19 @@ class OverDepth(OliverPharr):
             quantity, values = OLIVER_PHARR[name], getattr(self, name)
             text = engineering(values[np.isfinite(values)], quantity.unit)
             yield f"{quantity.long_name} {quantity.symbol}", text
+
+
+def texts_of(result: OliverPharr) -> dict[str, str]:
+    """Quantities of one unloading by name, as text with their errors; ratios in per cent."""
+    errors = result.standard_errors
+    texts = {
+        name: with_error(getattr(result, name), errors[name], OLIVER_PHARR[name].unit) for name in errors
+    }
+    for name in ISO_14577:
+        value = getattr(result, name)
+        if value is not None:
+            texts[name] = engineering(*((100 * value, "%") if name in _RATIOS else (value, "Pa")))
+    return texts
 
 
 @rows.register

@@ -96,6 +96,21 @@ def test_fused_silica_is_one_click_and_its_number_is_that_of_the_unloading():
     assert not page.results.take.visible
 
 
+def test_the_unloading_of_silica_has_its_numbers_in_a_fold():
+    """Those of ISO 14577 beside those of Oliver and Pharr, ratios in per cent; a gel has none."""
+    page = page_of()
+    page.take_sample("silica")
+    result, shown = page.told.unloading, page.results.unloading.object
+    assert page.results.of_unloading.visible
+    assert f"{100 * result.elastic_work_ratio:.4g} %" in shown
+    assert f"{100 * result.indentation_creep:.4g} %" in shown
+    assert f"{result.martens_hardness / 1e9:.4g} GPa" in shown
+    assert all(name in shown for name in ("elastic work ratio", "indentation creep", "Martens hardness"))
+    assert "elastic work ratio n_IT" in page.results._report.value
+    page.take_sample("gel")
+    assert not page.results.of_unloading.visible
+
+
 def test_the_gel_is_one_click_and_its_number_is_that_of_hertz():
     """nanite's E* of the same samples, from 60 first contacts."""
     reference = json.loads((ROOT / "tests/data/reference.json").read_text())["spot3-0"]

@@ -112,6 +112,8 @@ def of_unloadings(medium, seed):
     yield mdr.oliver_pharr(tip, depth, force), {"first contact"}
     air = np.append(np.linspace(-0.3 * top, 0, 100, endpoint=False), depth)
     yield mdr.oliver_pharr(tip, air + 0.3 * top, loaded(air)), {"first contact"}
+    later = int(np.argmax(force > 0.1 * force.max()))
+    yield mdr.oliver_pharr(tip, depth[later:] - depth[later], force[later:]), {"zero", "units"}
     yield mdr.oliver_pharr(tip, depth, force, time=time), {"first contact", "hold"}
     yield mdr.oliver_pharr(tip, 1e3 * depth, 1e-3 * force), {"first contact", "units"}
     twice = np.append(0.6 * depth, depth)
@@ -125,6 +127,8 @@ def of_unloadings(medium, seed):
     if medium is GEL:
         yield mdr.oliver_pharr(tip, depth, force, stiffness=stiffness), right
         return
+    moments, z, F = record(0.4, "viscous")
+    yield mdr.oliver_pharr(tip, z, F), {"creep"}
     moments, z, F = record(0.2, "viscous")
     yield mdr.oliver_pharr(tip, z, F, time=moments), {"first contact", "hold", "creep"}
     # A new tip and a worn one, as ideal: right where the hardness is off by more than 5 %.
