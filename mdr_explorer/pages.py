@@ -58,8 +58,8 @@ def write(folder: Path, pyodide: str) -> list[licenses.Licensed]:
 
     words = {"theme": ui.JS["theme"], "private": ui.JS["private"], "style": ui.LAYOUT[0] + ui.CSS}
     words["sheets"] = "\n".join(f'<link rel="stylesheet" href="{name}">' for name in sheets)
-    words["scripts"] = "\n".join(f'<script src="{name}"></script>' for name in scripts)
-    words["settings"] = json.dumps({"pyodide": pyodide, "compiled": COMPILED, "imports": IMPORTS})
+    settings = {"pyodide": pyodide, "compiled": COMPILED, "imports": IMPORTS, "scripts": scripts}
+    words["settings"] = json.dumps(settings)
     words["start"] = (_HERE / "static.js").read_text(encoding="utf-8")
     words["body"] = theory.html()
     for name in ("static", "theory", "measurement"):

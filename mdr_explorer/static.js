@@ -2,8 +2,11 @@
 // bar, over a drawing of the opening scene that plays by itself; the page takes its place.
 const panel = document.getElementById("start"), said = panel.querySelector("p"), bar = panel.querySelector("i")
 const here = (path) => new URL(path, document.baseURI).href
-// The browser paints between the steps.
-const painted = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)))
+// The browser paints between the steps; a page that is not seen is not painted.
+const painted = () => new Promise((done) => {
+  requestAnimationFrame(() => setTimeout(done))
+  setTimeout(done, 300)
+})
 const tell = async (share, text, seconds) => {
   said.textContent = text
   bar.style.transitionDuration = `${seconds}s`
@@ -11,17 +14,24 @@ const tell = async (share, text, seconds) => {
   await painted()
 }
 
-// A link to another scene would be shown a wrong picture.
-if ([...asked.keys()].every((name) => name === "dark")) {
+// The first picture is drawn before anything else. A link to another scene would be shown a wrong one.
+const drawn = new Promise((done) => {
+  if ([...asked.keys()].some((name) => name !== "dark")) return done()
   const first = Object.assign(document.createElement("iframe"), { src: "first.html", title: "Opening scene" })
   first.onload = () => {
-    const { documentElement, body } = first.contentDocument
-    if (documentElement.classList.contains("dark") !== document.documentElement.classList.contains("dark")) body.querySelector("#dark").click()
+    const page = first.contentDocument, dark = (each) => each?.documentElement.classList.contains("dark")
+    if (dark(page) !== dark(document)) page?.getElementById("dark")?.click()
+    painted().then(done)
   }
+  setTimeout(done, 5000)
   panel.append(first)
-}
+})
+// Scripts of the page, in their order.
+const script = (src) => new Promise((onload, onerror) => document.head.append(Object.assign(document.createElement("script"), { src, onload, onerror, async: false })))
 try {
+  await drawn
   await tell(0.4, "Loading Python …", 5)
+  const scripts = Promise.all(settings.scripts.map(script))
   const [{ loadPyodide }, sources] = await Promise.all([
     import(here(settings.pyodide + "pyodide.mjs")),
     fetch("explorer.zip").then((answer) => answer.arrayBuffer()),
@@ -38,6 +48,7 @@ try {
     python.runPython(`import ${module}`)
   }
   await tell(1, "Drawing …", 1)
+  await scripts
   await python.pyimport("app.browser").start(location.search.slice(1), theme.own)
   panel.remove()
 } catch (error) {

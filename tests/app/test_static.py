@@ -95,6 +95,12 @@ class Links(HTMLParser):
             self.found |= {value for name, value in attributes if name in ("src", "href")}
 
 
+def settings(folder):
+    """What the start of the page is told."""
+    (text,) = re.findall(r"const settings = (.*)", (folder / "index.html").read_text(encoding="utf-8"))
+    return json.loads(text)
+
+
 def test_the_folder_has_all_that_its_pages_ask_for_and_names_one_other_address(written):
     folder, said = written
     assert {path.name for path in folder.glob("*.html")} == {
@@ -104,9 +110,9 @@ def test_the_folder_has_all_that_its_pages_ask_for_and_names_one_other_address(w
         local = {link for link in Links(page).found if not link.startswith(("data:", "#", "?"))}
         assert local or page.name == "measurement.html"
         assert [link for link in local if not (folder / link.split("?")[0]).is_file()] == [], page.name
-    index = (folder / "index.html").read_text(encoding="utf-8")
-    (settings,) = re.findall(r"const settings = (.*)", index)
-    assert json.loads(settings)["pyodide"] == static.PUBLISHED
+    told = settings(folder)
+    assert [name for name in told["scripts"] if not (folder / name).is_file()] == []
+    assert told["pyodide"] == static.PUBLISHED
     assert static.PUBLISHED in said
     assert static.PYODIDE in static.PUBLISHED
     assert not (folder / "pyodide").exists()
@@ -117,14 +123,14 @@ def test_the_folder_has_all_that_its_pages_ask_for_and_names_one_other_address(w
 def test_scripts_and_sheets_are_those_of_the_served_page_in_its_order(written, server):
     """By their names; icons of warnings are not shown by a notice of the page."""
 
-    def named(text):
-        scripts = re.findall(r'<script[^>]* src="([^"?]*)', text)
-        sheets = re.findall(r'<link rel="stylesheet" href="([^"?]*)', text)
-        return [Path(each).name for each in scripts], [Path(each).name for each in sheets]
+    def names(pattern, text):
+        return [Path(each).name for each in re.findall(pattern, text)]
 
-    scripts, sheets = named(urlopen(server.url).read().decode())
-    found = named((written[0] / "index.html").read_text(encoding="utf-8"))
-    assert found == (scripts, [name for name in sheets if name != "all.min.css"])
+    sheet, served = r'<link rel="stylesheet" href="([^"?]*)', urlopen(server.url).read().decode()
+    scripts = names(r'<script[^>]* src="([^"?]*)', served)
+    assert [Path(each).name for each in settings(written[0])["scripts"]] == scripts
+    own = names(sheet, (written[0] / "index.html").read_text(encoding="utf-8"))
+    assert own == [name for name in names(sheet, served) if name != "all.min.css"]
 
 
 def test_the_theory_is_the_served_one_with_a_place_for_each_equation(written):
@@ -182,7 +188,7 @@ def test_what_is_loaded_of_pyodide_is_copied_as_its_lock_names_it(pyodide, tmp_p
     for entry in lock["packages"].values():
         path = folder / "pyodide" / entry["file_name"]
         assert not path.exists() or hashlib.sha256(path.read_bytes()).hexdigest() == entry["sha256"]
-    assert '"pyodide": "pyodide/"' in (folder / "index.html").read_text(encoding="utf-8")
+    assert settings(folder)["pyodide"] == "pyodide/"
     # Another time in the same place.
     static.write(folder)
     assert not (folder / "pyodide").exists()
