@@ -48,8 +48,8 @@ for limit in mdr.indent(mdr.Cone(slope=70.3), medium, 1e-9).limits:
 curve = mdr.read_curve(Path(__file__).with_name("silica.csv"))
 print(curve)
 berkovich = mdr.Cone.from_half_angle(70.3)
-print(mdr.oliver_pharr(berkovich, curve.depth, curve.force))
-print(mdr.fit_indentation(berkovich, curve.depth, curve.force, contact_point=0.0))
+print(mdr.oliver_pharr(berkovich, curve))
+print(mdr.fit_indentation(berkovich, curve, contact_point=0.0))
 
 # %% [markdown]
 # Tips as they are measured: noisy, on both sides of the axis; `mdr.Sampled.from_csv` reads them.

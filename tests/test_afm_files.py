@@ -72,6 +72,24 @@ def test_depth_is_minus_the_position_of_the_tip(tmp_path, suffix):
         mdr.read_curve(path, spring_constant=1.0)
 
 
+def test_a_depth_with_the_deflection_in_it_is_not_quoted(tmp_path):
+    """The piezo goes 1.4 times as far as the tip; with the stiffness the modulus is that of the gel."""
+    path = tmp_path / "run.tab"
+    curve().export_data(path, fmt="tab")
+    read = mdr.read_curve(path)
+    quoted = mdr.fit_indentation(TIP, read.approach, q_c=np.inf).quoted
+    assert (quoted.value, quoted.source, quoted.kind) == (None, None, "deflection")
+    assert quoted.remedy == (mdr.Remedy("give", "spring_constant"),)
+    assert "give the spring constant" in quoted.reason
+    # Its arrays alone know nothing of it.
+    alone = mdr.fit_indentation(TIP, read.approach.depth, read.approach.force, q_c=np.inf)
+    assert alone.quoted.source == "fit"
+    path = tmp_path / "known.tab"
+    curve(**{"spring constant": STIFFNESS}).export_data(path, fmt="tab")
+    fit = mdr.fit_indentation(TIP, mdr.read_curve(path).approach, q_c=np.inf)
+    assert fit.quoted.value == approx(GEL.E_star, rel=1e-4)
+
+
 def test_a_height_without_a_stiffness_has_a_remark(tmp_path):
     """The deflection is then that of a frame of the compliance 1/k."""
     curve().export_data(tmp_path / "run.tab", fmt="tab")

@@ -30,7 +30,7 @@ def test_the_tutorial_saves_a_labelled_curve(tmp_path):
     # The limit of a slope of 70.3.
     assert "no angle" in run.stdout
     # The unloading of silica, and the remark on the fit of it.
-    assert "hardness H               9.09" in run.stdout
+    assert "hardness H               9.24" in run.stdout
     assert "not of class (b)" in run.stdout
     assert (tmp_path / "curve.png").stat().st_size > 1000
     with xarray.open_dataset(tmp_path / "curve.nc") as saved:

@@ -203,7 +203,7 @@ A remark is given from 3.3 standard deviations on, where E* is off by more than 
 be seen, or beyond it:
 
 - **A drift of a medium that yields** is taken for another E*, and hardly seen without a hold. Hold the \
-force, and subtract the drift. The report says what 0.1 nm/s would do.
+force, and subtract the drift. Over two minutes 0.1 nm/s changes the E* of a metal by some per cent.
 - **Noise that is correlated over a fifteenth of a curve or more**: errors are up to twice too small. A \
 remark counts the blocks; in a fifth of the curves the residuals look less correlated than the noise is, \
 since the fit takes a part of it.
@@ -214,19 +214,19 @@ is scaled, where the approach is not given.
 
 ## Remarks, and how often they are right
 
-How often each remark is made, and in how many of these cases it is right: what it names is in the \
-curve, or E* is off by more than two standard errors. Made fits are those of the families above, 20 \
-of each, and of curves that have one thing each: samples without a number, a noise that is given too \
-small, other units, another sign, noise alone, a drag, adhesion, a noisy depth, loading alone, a \
-drift in a hold, a hardness of another class. Measured ones are three AFM curves of gels and a cell \
-as a paraboloid and a cone, two of them in time, and silica, quartz, NiAl and steel as each class, \
-as elastic, and with two constants (`tests/data`, `assets/silica.csv`).
+How often each kind of remark is made, and in how many of these cases it is right: what it names is in \
+the curve, or E* of a fit is off by more than two standard errors. Made cases are the families above, 6 \
+of each; curves that have one thing each: samples without a number, a noise that is given too small, \
+other units, another sign or order, noise alone, a drag, adhesion, a noisy depth, loading alone, a drift \
+in a hold, a hardness of another class; unloadings with air, a hold, creep, cycles, a measured stiffness, \
+other units, and round tips taken for ideal ones; and files, area functions and hardnesses over radii. \
+Measured ones are three AFM curves of gels and a cell as a paraboloid and a cone, two of them in time, \
+silica, quartz, NiAl and steel as each class, as elastic, and with two constants, and their unloadings \
+with and without times (`tests/data`, `assets/silica.csv`).
 
 {}
 
-*rest* says of a curve in time without a hold what a drift of 0.1 nm/s would do, which is true of \
-all of them; it is counted as right where there is a drift, or E* is off. It is the only warning of \
-the drift of a medium that yields. *invalid* gives the reason why a curve of a map has no fit.
+The kinds *refused*, *no unloading*, *medium* and *held* are those of refusals and of what is not quoted.
 
 Made by `python -m tests.benchmarks.fits`.
 """
