@@ -43,6 +43,18 @@ cusp = mdr.PowerLaw(coefficient=2e-4, exponent=0.5).reduced([1e-9, 2e-9])[0]
 cap = mdr.Sphere([1e-6, 2e-6]).contact_radius(1e-9)
 fit = mdr.fit_indentation(tip, path.depth, path.force, E_star=1e9, contact_point=0.0)
 told: str = " ".join(fit.remarks) + f"{fit.medium.q_c} ± {fit.standard_errors['q_c']}"
+doubts: list[str] = [f"{each.kind}: {each.text}" for each in (*fit.remarks, *tip.remarks)]
+cures: list[tuple[str, str]] = [(cure.action, cure.what) for each in fit.remarks for cure in each.remedy]
+quoted: str = fit.quoted.kind or fit.quoted.reason
+
+
+def read_and_fit(path: str) -> float:
+    """Of a file, in the place of depth and force."""
+    curve = mdr.read_curve(path)
+    fits = mdr.fit_indentation(mdr.Cone(0.3), mdr.read_curves(path), q_c=np.inf, time=None)
+    return float(mdr.oliver_pharr(mdr.Cone(0.3), curve).E_star) + float(fits[0].contact_point)
+
+
 hard = mdr.fit_hardness(mdr.Cone(0.3), [1e9, 5e8, 2.5e8], [1e-7, 2e-7, 4e-7], E_star=1e11)
 kind: str | None = hard.hardness_class
 ball = mdr.Ball(1e-9, 1e-5)

@@ -9,6 +9,7 @@ from sphinx import addnodes
 import mdr_core
 from app.extras.scene_file import scene_file
 from app.page import Page
+from mdr_core.numerics.results import KINDS
 
 project = "mdr-core"
 author = "The mdr-core authors"
@@ -31,7 +32,10 @@ html_title = project
 html_show_sourcelink = False
 html_math_renderer = "mathml"
 
-myst_enable_extensions = ["dollarmath"]
+myst_enable_extensions = ["dollarmath", "substitution"]
+# The one list of kinds is in the code.
+_KINDS = "\n".join(f"| {kind} | {says} |" for kind, says in KINDS.items())
+myst_substitutions = {"kinds_of_remarks": f"| kind | says |\n| --- | --- |\n{_KINDS}"}
 myst_fence_as_directive = ["math"]
 myst_heading_anchors = 3
 

@@ -191,6 +191,12 @@ class Remedy:
         as "depth", a part of the curve, as "loading", or a class, as "a".
     value : optional
         The value to hold or to give.
+
+    Examples
+    --------
+    >>> from mdr_core import Remedy
+    >>> Remedy("hold", "eta", 0.0)
+    Remedy(action='hold', what='eta', value=0.0)
     """
 
     action: str
@@ -216,7 +222,7 @@ class Remark(str):
 
     Examples
     --------
-    >>> from mdr_core.numerics.results import Remark, Remedy
+    >>> from mdr_core import Remark, Remedy
     >>> hold = Remedy("hold", "q_c")
     >>> remark = Remark("q_c is at its bound: hold q_c", "bound", "q_c is at its bound", (hold,))
     >>> remark.startswith("q_c"), remark.kind, remark.remedy[0].action
@@ -224,6 +230,10 @@ class Remark(str):
     """
 
     __slots__ = ("kind", "remedy", "text")
+
+    kind: str
+    text: str
+    remedy: tuple[Remedy, ...]
 
     def __new__(
         cls, sentence: str, kind: str, text: str | None = None, remedy: tuple[Remedy, ...] = ()
