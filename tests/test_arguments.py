@@ -88,8 +88,8 @@ CALLS = {
 #: Public names that take no arrays, or only through those above.
 WITHOUT = {
     "FreeImpact", "FreeObliqueImpact", "Foundation", "Impact", "Indentation", "Motion", "ObliqueImpact",
-    "Profile", "ScalingLaw", "Scene", "Smooth", "TimedIndentation", "UnknownColumns", "abel",
-    "chain_impact", "read_curve", "read_curves", "sweep",
+    "Profile", "Remark", "Remedy", "ScalingLaw", "Scene", "Smooth", "TimedIndentation", "UnknownColumns",
+    "abel", "chain_impact", "read_curve", "read_curves", "sweep",
 }  # fmt: skip
 
 
