@@ -29,7 +29,7 @@ from mdr_core.show.units import written
 from ..tip import read_tip
 from .asked import Asked, Each, refuse_range, samples
 from .judged import judged
-from .refusals import changed, refusal
+from .refusals import changed, deflection, refusal
 
 #: Most characters of the name of a column, and of a remark, which may quote the file, that are shown.
 _HEAD, _REMARK = 80, 500
@@ -168,7 +168,11 @@ def fit_all(path: str, given: dict[str, Any], each: dict[str, Any]) -> Iterator[
     curves, asked = opened(path, given), Each(**each)
     for number in range(len(curves)):
         try:
-            quoted = fit(vars(asked.of(curves[number])))[1]["quoted"]
+            curve = curves[number]
+            if doubt := deflection(curve.remarks):
+                yield number, None, None, doubt.text
+                continue
+            quoted = fit(vars(asked.of(curve)))[1]["quoted"]
             yield number, quoted.value, quoted.standard_error, quoted.reason
         except ValueError as error:
             yield number, None, None, refusal(error)[0]

@@ -37,6 +37,11 @@ def refusal(error: Exception) -> tuple[str, tuple[Remedy, ...]]:
     return without_folders(text[:_MOST]), getattr(error, "remedy", ())
 
 
+def deflection(remarks: tuple[Remark, ...]) -> Remark | None:
+    """The remark that depths have the deflection of a cantilever of unknown stiffness in them, or None."""
+    return next((each for each in remarks if each.kind == "deflection"), None)
+
+
 def changed(remark: Remark, change: Callable[[str], str]) -> Remark:
     """A remark with its sentence and its text changed."""
     return Remark(change(remark), remark.kind, change(remark.text), remark.remedy)

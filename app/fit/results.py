@@ -253,7 +253,7 @@ class Results:
         if not several:
             return
         show(self.number, end=page.count, value=page.setting.curve + 1, label=f"Curve, of {page.count}")
-        ready = not page.setting.missing and not page.busy
+        ready = not (page.setting.missing or page.busy or page.lacks)
         show(self.all, label=f"Fit all {page.count}", disabled=not ready)
         self.show_progress()
         done = bool(page.rows) and not page.busy

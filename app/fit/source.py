@@ -15,7 +15,7 @@ from ..tip import in_line
 from .asked import Samples, samples
 from .folders import NOT_KEPT, Files
 from .measurement import Question
-from .refusals import NOTHING, Message, changed
+from .refusals import NOTHING, Message, changed, deflection
 from .samples import EXAMPLES
 from .setting import Setting
 from .worker import Here, Worker
@@ -108,8 +108,7 @@ class Source:
     @property
     def lacks(self) -> Remark | Message:
         """The remark that the depth of the curve lacks the stiffness of the cantilever, or nothing."""
-        remarks = () if self.curve is None else self.curve.remarks
-        return next((each for each in remarks if each.kind == "deflection"), NOTHING)
+        return (self.curve is not None and deflection(self.curve.remarks)) or NOTHING
 
     @property
     def wants(self) -> set[str]:

@@ -262,6 +262,26 @@ def test_an_afm_file_without_a_stiffness_is_asked_for_it_and_not_fitted(tmp_path
     assert Setting.read(page.setting.query()).spring_constant == 0.05
 
 
+def test_a_map_without_a_stiffness_is_not_fitted(tmp_path):
+    """Nor is one of its curves, where others have it."""
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "map.h5", "w") as file:
+        for k in range(2):
+            made = heights()
+            made.metadata["enum"] = k
+            made.export_data(file, fmt="hdf5")
+    page = opened((tmp_path / "map.h5").read_bytes(), "gel", "paraboloid", "map.h5", radius=5e-6)
+    assert page.count == 2
+    assert page.results.all.disabled
+    page.fit_all()
+    assert [row[1] for row in page.rows] == [None, None]
+    assert all("includes the deflection" in row[3] for row in page.rows)
+    page.reread(spring_constant=0.05)
+    assert not page.results.all.disabled
+    page.fit_all()
+    assert [row[1] for row in page.rows] == approx([20e3, 20e3], rel=1e-3)
+
+
 # Buttons that do a remedy.
 
 
