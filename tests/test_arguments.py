@@ -105,7 +105,7 @@ def arrays_in(thing, seen):
         parts = list(thing.values())
     elif isinstance(thing, list | tuple):
         parts = list(thing)
-    elif type(thing).__module__.startswith("mdr_core"):
+    elif type(thing).__module__.startswith("mdr_core") and not isinstance(thing, str):
         parts = list(vars(thing).values())
         parts += list(thing.to_dict().values()) if hasattr(thing, "to_dict") else []
     return [array for part in parts for array in arrays_in(part, seen)]

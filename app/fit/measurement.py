@@ -135,7 +135,8 @@ def fit(given: dict[str, Any]) -> tuple[IndentationFit, dict[str, Any]]:
     if quoted.source == "unloading":
         told["unloading"], _ = unloading(found)
         remarks += told["unloading"].remarks
-        above += tuple(each for each in told["unloading"].remarks if each.kind == "units")
+        # The modulus is asked about once.
+        above = above or tuple(each for each in told["unloading"].remarks if each.kind == "units")
     below += tuple(each for each in remarks if each.kind in _OF_THE_NUMBER.get(quoted.source, ()))
     # Classes are kept in the object that is sent.
     told |= {"above": above, "below": below, "remarks": remarks, "of_class": found.class_of_hardness}

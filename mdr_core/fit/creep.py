@@ -63,6 +63,8 @@ def hold(time, force):
     They lie between the times at which straight lines through the force before and after meet the median
     of their forces. At the tip of a triangle each such median is nearer to the tip, until none are left.
     """
+    if force.max() <= 0:
+        return None
     noise = roughness(force[None])[0, 0]
     high = np.flatnonzero(force >= _HELD * force.max() - _NOISE * noise)
     run = slice(high[0], high[-1] + 1)
@@ -133,6 +135,8 @@ def share_of_compliance(rate, stiffness, force, time, end):
 
 def rise_of_depth(depth, force):
     """How far (m) the depth grows while the force falls, 0 where it does not beyond its noise."""
+    if force.max() <= 0:
+        return 0.0
     noise = roughness(force[None])[0, 0]
     last = int(np.flatnonzero(force >= _HELD * force.max() - _NOISE * noise)[-1])
     top = last_at_top(depth)

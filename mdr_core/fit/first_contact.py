@@ -49,8 +49,7 @@ def first_contact(profile, depth, force):
     top = int(np.argmax(force))
     seen, level, noise = _first_seen(force[: top + 1])
     length = depth[top] - depth[0]
-    long = seen >= LEAST_SAMPLES and depth[seen] - depth[0] > LEAST_LENGTH * length
-    if not long or top - seen < _FEW:
+    if seen < LEAST_SAMPLES or top - seen < _FEW or depth[seen] - depth[0] <= LEAST_LENGTH * length:
         return None, 0
     # The last of the samples before may be in contact already, below the noise.
     quiet = slice(max(LEAST_SAMPLES, seen // 2))

@@ -112,8 +112,11 @@ class OliverPharr(Record):
         for i in range(len(self) if self.shape else 0):
             texts = texts_of(self[i])
             texts.pop("contact_point", None)
-            symbols = (f"{OLIVER_PHARR[name].symbol} {text}" for name, text in texts.items())
-            yield f"unloading {self.unloading[i]}", ", ".join(symbols)
+            standard = {name: texts.pop(name) for name in ISO_14577 if name in texts}
+            for label, group in ((f"unloading {self.unloading[i]}", texts), ("", standard)):
+                if group:
+                    symbols = (f"{OLIVER_PHARR[name].symbol} {text}" for name, text in group.items())
+                    yield label, ", ".join(symbols)
         if self.shape and "contact_point" in self.standard_errors and len(self):
             quantity = OLIVER_PHARR["contact_point"]
             yield f"{quantity.long_name} {quantity.symbol}", texts_of(self[0])["contact_point"]

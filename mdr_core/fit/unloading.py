@@ -88,12 +88,16 @@ class Laws:
 def laws_of(depth, force):
     """`Laws` of an unloading."""
     solution, deviations = _power_law(*_part(depth, force, *_SHARES[0]))
-    others, further = [], []
-    for laws, parts in ((others, _SHARES[1:]), (further, _FURTHER)):
-        for shares in parts:
-            with suppress(ValueError):
-                laws.append(_power_law(*_part(depth, force, *shares))[0])
-    return Laws(solution, deviations, others, further)
+    further = _FURTHER if solution[2] > _BENT else ()
+    others = [list(_laws_of_parts(depth, force, parts)) for parts in (_SHARES[1:], further)]
+    return Laws(solution, deviations, *others)
+
+
+def _laws_of_parts(depth, force, parts):
+    """Yields force, stiffness and exponent of parts of an unloading, of those that are power laws."""
+    for shares in parts:
+        with suppress(ValueError):
+            yield _power_law(*_part(depth, force, *shares))[0]
 
 
 def _part(depth, force, upper, lower):

@@ -69,8 +69,9 @@ def zero_of(profile, depth, force):
     point = with_error(*_rounded(depth, contact.depth, contact.depth_error), "m")
     level = with_error(*_rounded(force, contact.baseline, contact.baseline_error), "N")
     where = f"is in the air after its first {begin} samples" if begin else "begins in the air"
-    text = f"the record {where} ({samples} samples): first contact at {point} is subtracted from the depth"
-    return begin, contact, Remark(f"{text}, {level} from the force", "first contact"), None
+    text = f"the record {where}: first contact at {point} is subtracted from the depth"
+    text = f"{text}, {level} from the force; {samples} samples are before it"
+    return begin, contact, Remark(text, "first contact"), None
 
 
 def _end_of_loading(force):

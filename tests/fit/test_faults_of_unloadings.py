@@ -220,3 +220,14 @@ def test_a_soft_medium_that_keeps_an_imprint_is_asked_about():
     assert "units" in kinds(mdr.oliver_pharr(TIP, 1e3 * depth, force))
     assert "units" not in kinds(mdr.oliver_pharr(TIP, depth, force))
     assert "units" not in kinds(mdr.oliver_pharr(TIP, *pressed(TIP, mdr.Medium(70e3))))
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("count", [1, 4, 6, 9])
+def test_records_of_few_samples_are_refused_in_words(count, sign):
+    """Noise about a force, which may be negative, and no loading: with times and without."""
+    random = np.random.default_rng(count)
+    depth, force = 1e-8 * random.normal(size=count), sign * (1e-3 + 1e-5 * random.normal(size=count))
+    for time in (None, np.arange(count)):
+        with pytest.raises(ValueError, match="unloading"):
+            mdr.oliver_pharr(TIP, depth, force, time=time)
