@@ -16,10 +16,11 @@ from unittest.mock import patch
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core import _check, hardness
+from mdr_core import _check
 from mdr_core.contact import adhesion, creep_retreat, indentation, integrals, quadrature
 from mdr_core.impacts import contact_time, energy_balance, motion
-from mdr_core.numerics import collocation, gauss
+from mdr_core.numerics import gauss
+from mdr_core.own import law
 from mdr_core.profiles import radius_table
 from mdr_core.profiles.power import PowerLaw, kappa
 
@@ -106,7 +107,7 @@ def without_coefficient():
 
 def sharp():
     """The module and name of radii where a law changes fast, and the function without its cache."""
-    return hardness, "_sharp_radii", hardness._sharp_radii.__wrapped__
+    return law, "_sharp_radii", law._sharp_radii.__wrapped__
 
 
 @contextmanager
@@ -243,8 +244,6 @@ PATHS = (
     ("_rule kept, a contact time", lambda: uncached(contact_time, "_rule"), lambda: times(ROUND, 0.1)),
     ("tanh_sinh kept, a reduced height", lambda: uncached_everywhere(gauss.tanh_sinh),
      lambda: SMOOTH.reduced(1e-6)),
-    ("_collocation kept, a viscous impact", lambda: uncached_everywhere(collocation._collocation),
-     lambda: times(ROUND, 0.1, WET)),
     ("Retreat.states kept, elements in creep", lambda: recomputed(creep_retreat.Retreat, "states"),
      lambda: crept(ROUND, WET).elements(np.linspace(0, 1e-6, 50))),
     ("Retreat.length kept, creep", lambda: recomputed(creep_retreat.Retreat, "length"),

@@ -97,7 +97,7 @@ def test_pull_off_forces_are_jkrs_and_kendalls():
     for profile in (mdr.Paraboloid(R), mdr.Cone(SLOPE), mdr.Sphere(R)):
         deep = mdr.indent(profile, YIELDING, 20 * D_C)
         kendall = math.sqrt(8 * math.pi * W * E_STAR * deep.plastic_radius**3)
-        assert deep.pull_off_force == approx(kendall, rel=1e-13)
+        assert deep.pull_off_force == approx(kendall, rel=1e-13), profile
 
 
 @pytest.mark.parametrize("medium", [ELASTIC, YIELDING], ids=["elastic", "yielding"])
@@ -160,10 +160,10 @@ def test_without_adhesion_nothing_changes():
     path = PATH[2:]
     for profile in (mdr.Cone(SLOPE), mdr.Sphere(R)):
         plain = mdr.indent(profile, mdr.Medium(E_STAR, Q_C), path)
-        assert (mdr.indent(profile, none, path).force == plain.force).all()
+        assert (mdr.indent(profile, none, path).force == plain.force).all(), profile
         # Δl is √(w/E*): of 1e-30 J/m² it is 1e-14 of the depths.
         faint = mdr.indent(profile, mdr.Medium(E_STAR, Q_C, work_of_adhesion=1e-36), path)
-        assert faint.force == approx(plain.force, rel=1e-9, abs=1e-12 * plain.force.max())
+        assert faint.force == approx(plain.force, rel=1e-9, abs=1e-12 * plain.force.max()), profile
     assert none == mdr.Medium(E_STAR, Q_C)
 
 

@@ -250,17 +250,19 @@ def test_results_can_be_pickled(shape):
     np.testing.assert_allclose(pickle.loads(pickle.dumps(result)).force, force, rtol=ULPS)
 
 
-def test_forces_of_any_size_are_found():
+@pytest.mark.parametrize(
+    "shape",
+    [shape for shape in (*SHAPES, mdr.Sphere(1e-6), mdr.PowerLaw(4e-9, 0.1)) if shape.wall == np.inf],
+    ids=str,
+)
+def test_forces_of_any_size_are_found(shape):
     """Every force of a dense range has its depth, however noisy its last digits are."""
-    for shape in (*SHAPES, mdr.Sphere(1e-6), mdr.PowerLaw(4e-9, 0.1)):
-        if shape.wall < np.inf:
-            continue
-        deepest = 3e-6 if isinstance(shape, mdr.Sphere) else 1e3 * D_C
-        force = mdr.indent(shape, MEDIUM, np.geomspace(0.3 * D_C, deepest, 400)[:, None]).force[:, 0]
-        # The last ones under a cusp are beyond the bound of forces.
-        force = force[force <= 1e25]
-        back = mdr.indent_to_force(shape, MEDIUM, force[:, None])
-        np.testing.assert_allclose(back.force[:, 0], force, rtol=1e-12)
+    deepest = 3e-6 if isinstance(shape, mdr.Sphere) else 1e3 * D_C
+    force = mdr.indent(shape, MEDIUM, np.geomspace(0.3 * D_C, deepest, 400)[:, None]).force[:, 0]
+    # The last ones under a cusp are beyond the bound of forces.
+    force = force[force <= 1e25]
+    back = mdr.indent_to_force(shape, MEDIUM, force[:, None])
+    np.testing.assert_allclose(back.force[:, 0], force, rtol=1e-12)
 
 
 def test_force_that_no_depth_is_enough_for():

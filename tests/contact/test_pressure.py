@@ -28,10 +28,10 @@ def test_pressure_is_infinite_only_where_it_is():
             s = state(shape, history)
             a, c = s.contact_radius, s.plastic_radius
             r = np.array([0, 1e-300, 0.3e-6, 1e-6, c, a, np.nextafter(a, 0), np.nextafter(a, 1), 2 * a])
-            assert not np.isnan(s.pressure(r)).any()
-            assert not np.isnan(s.surface(r)).any()
-            assert not np.isnan(s.imprint(r)).any()
-            assert s.pressure(2 * a) == 0.0
+            assert not np.isnan(s.pressure(r)).any(), (shape, history)
+            assert not np.isnan(s.surface(r)).any(), (shape, history)
+            assert not np.isnan(s.imprint(r)).any(), (shape, history)
+            assert s.pressure(2 * a) == 0.0, (shape, history)
     assert state(SHAPES[0], (0.4 * D_C,)).pressure(0.0) == np.inf
     assert np.isfinite(state(SHAPES[0], (3 * D_C,)).pressure(0.0))
     assert mdr.indent(mdr.FlatPunch(1e-6), MEDIUM, D_C).pressure(1e-6) == np.inf

@@ -222,22 +222,20 @@ def test_against_many_digits(shape):
             assert np.abs(got - expected).max() <= bound * largest, (r, z)
 
 
-def test_infinite_only_where_the_pressure_is():
-    for shape in SHAPES:
-        for history in HISTORIES:
-            s = state(shape, history)
-            a, c = s.contact_radius, s.plastic_radius
-            r = np.array(
-                [0, 1e-300, 0.3e-6, 1e-6, c, a, np.nextafter(a, 0), np.nextafter(a, 1), 2 * a, 1e60]
-            )
-            stress = s.stress(r, np.array([0, 1e-320, 1e-100, 1e-14, 1e-9, 1e60])[:, None] * a)
-            infinite = np.isinf(s.pressure(r))
-            for part in (*COMPONENTS[:3], "max_shear", "von_mises"):
-                values = getattr(stress, part)
-                np.testing.assert_array_equal(np.isinf(values[0]), infinite)
-                assert np.isfinite(values[1:][:, ~infinite]).all()
-            assert np.isfinite(stress.rz).all()
-            assert not np.isnan(stress.principal).any()
+@pytest.mark.parametrize("shape", SHAPES, ids=str)
+def test_infinite_only_where_the_pressure_is(shape):
+    for history in HISTORIES:
+        s = state(shape, history)
+        a, c = s.contact_radius, s.plastic_radius
+        r = np.array([0, 1e-300, 0.3e-6, 1e-6, c, a, np.nextafter(a, 0), np.nextafter(a, 1), 2 * a, 1e60])
+        stress = s.stress(r, np.array([0, 1e-320, 1e-100, 1e-14, 1e-9, 1e60])[:, None] * a)
+        infinite = np.isinf(s.pressure(r))
+        for part in (*COMPONENTS[:3], "max_shear", "von_mises"):
+            values = getattr(stress, part)
+            np.testing.assert_array_equal(np.isinf(values[0]), infinite, err_msg=f"{part} {history}")
+            assert np.isfinite(values[1:][:, ~infinite]).all(), (part, history)
+        assert np.isfinite(stress.rz).all(), history
+        assert not np.isnan(stress.principal).any(), history
 
 
 def test_no_stress_without_contact():

@@ -70,8 +70,8 @@ def test_depths_of_metres_at_the_threshold_of_yield():
     for shape in (mdr.Hyperboloid(0.2, 0.9), mdr.ParabolicPunch(2.8, 0.005), mdr.TruncatedCone(0.15, 5.5)):
         hit = mdr.impact(shape, mdr.Medium(1e9, 1e13), 200.0, 1e5)
         elastic = mdr.impact(shape, mdr.Medium(1e9), 200.0, 1e5)
-        assert hit.plastic_work == 0.0
-        assert hit.contact_time == approx(elastic.contact_time, rel=1e-13)
+        assert hit.plastic_work == 0.0, shape
+        assert hit.contact_time == approx(elastic.contact_time, rel=1e-13), shape
 
 
 KINKED = (
