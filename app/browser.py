@@ -30,10 +30,23 @@ class Browser(Sliced):
     """One page in its browser, which is drawn and pressed between slices of what is searched."""
 
     def __init__(self) -> None:
-        self.linked = False
+        self._shows = False
+        self._waiting: list[Callable[[], None]] = []
 
     def shows(self) -> bool:
-        return self.linked
+        return self._shows
+
+    def once_shown(self, act: Callable[[], None]) -> None:
+        if self._shows:
+            act()
+        else:
+            self._waiting.append(act)
+
+    def shown(self) -> None:
+        """The browser shows the page from now on."""
+        self._shows = True
+        for act in self._waiting:
+            act()
 
     def later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
         return asyncio.get_running_loop().call_later(milliseconds / 1000, act).cancel
@@ -64,4 +77,4 @@ async def start(query: str, dark: bool) -> None:
     answer = document.apply_json_patch
     document.apply_json_patch = lambda patch, setter=None: host.soon(partial(answer, patch, setter=setter))
     await browser.write_doc(document)
-    host.linked = True
+    host.shown()

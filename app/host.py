@@ -35,6 +35,10 @@ class Host:
         """Whether a browser shows the page, so that slow updates wait until the input rests."""
         return False
 
+    def once_shown(self, act: Callable[[], None]) -> None:
+        """Do something once a browser shows the page."""
+        act()
+
     def later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
         """Do something later, and return what prevents it."""
         act()

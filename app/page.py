@@ -192,7 +192,7 @@ class Page:
         """Show a notice, once the browser is ready; its text may contain user input."""
         if pn.state.notifications is not None:
             tell = partial(pn.state.notifications.error, notice(text), duration=7000)
-            pn.state.onload(tell)
+            self.host.once_shown(tell)
 
     def refusal(self, error: Exception, state: State | None = None) -> str:
         """Message for an error; a fault is logged with its state."""

@@ -25,6 +25,9 @@ class Server(Sliced):
     def shows(self) -> bool:
         return bool(pn.state.loaded)
 
+    def once_shown(self, act: Callable[[], None]) -> None:
+        pn.state.onload(act)
+
     def later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
         waiting = self._document.add_timeout_callback(act, milliseconds)
         return partial(self._document.remove_timeout_callback, waiting)

@@ -404,9 +404,9 @@ def test_the_page_in_a_browser_by_pyodide(hosted, browser, tmp_path):
         explorer.wait("location.search.includes('samples=')")
 
         # The link that was shared, in another page; what is served beside the explorer is a file.
-        page.goto(link)
+        page.goto(link + "&foo=1")
         page.wait_for_function(STARTED)
-        assert "e over v" in page.inner_text("body") or explorer.row("sweep", "this scene")
+        page.locator(".notyf__message", has_text="Unknown names in this link are ignored: foo").wait_for()
         assert explorer.chosen("Fourth plot") == "Sweep"
         assert page.locator("#start").count() == 0
         page.goto(hosted + "?theory=eq-11")

@@ -175,7 +175,13 @@ def write(starts, rows, served, static_page):
         here, there, first, first_there = (f"{each:.2g} ms" for each in (*sides, *firsts))
         lines.append(f"| {name} | {here} | {there} | {sides[1] / sides[0]:.1f} | {first}, {first_there} |")
     here, there, ratio = f"{served:.0f} ms", f"{static_page:.0f} ms", f"{static_page / served:.1f}"
-    lines += [f"| key press to all plots painted, from a server | {here} | {there} | {ratio} | |", ""]
+    lines += [
+        f"| key press to all plots painted, from a server | {here} | {there} | {ratio} | |",
+        "",
+        "The first time a case imports modules and makes tables of its shape; a browser besides compiles",
+        "each function of NumPy when it is first called, and better when it has been called often.",
+        "",
+    ]
     path = Path(__file__).parents[2] / "assets" / "benchmarks.md"
     text = "\n".join(lines)
     print(text)
