@@ -92,7 +92,7 @@ def of_library(name: str, version: str) -> Licensed:
 #: Scripts of others that come with Panel, by the folders in which it has them.
 SCRIPTS = {
     "es-module-shims": ("MIT", "Copyright (C) 2018-2021 Guy Bedford"),
-    "notyf": ("MIT", "Copyright (c) Carlos Roso"),
+    "notyf": ("MIT", "Copyright (c) 2016 Carlos Roso"),
     "katex": ("MIT", "Copyright (c) 2013-2020 Khan Academy and other contributors"),
 }
 

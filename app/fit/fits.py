@@ -1,6 +1,7 @@
 """Fits of a page: of the curve that is shown, once everything is told, and of all curves of a file."""
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,12 +10,13 @@ from bokeh.document import Document
 
 from mdr_core.fit.indentation import IndentationFit
 
+from ..server import host_of
 from .asked import Each, first_and_last
 from .measurement import Told, modulus_of_sample
 from .refusals import NOTHING, Message, refusal
 from .setting import Setting
 from .source import Source
-from .worker import Here, Worker, in_session, waiting
+from .worker import Here, Worker, waiting
 
 
 class Fits(Source):
@@ -25,6 +27,7 @@ class Fits(Source):
     def __init__(self, setting: Setting, worker: Worker | Here):
         super().__init__(setting, worker)
         self.document = pn.state.curdoc or Document()
+        self.host = host_of(self.document)
         self.fit: IndentationFit | None = None
         self.told: Told | None = None
         #: Young's modulus of the sample and its error (Pa).
@@ -148,4 +151,4 @@ class Fits(Source):
             elif job == self._job:
                 heard(kind, answer)
 
-        return in_session(self.document, told)
+        return lambda kind, answer: self.host.soon(partial(told, kind, answer))

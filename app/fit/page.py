@@ -13,7 +13,6 @@ from markupsafe import Markup
 
 from mdr_core.numerics.results import Remark
 
-from ..server import host_of
 from ..tip import in_line
 from ..ui import JS, WIDE, html, landmarks
 from . import words
@@ -46,7 +45,7 @@ class Measurement(Fits):
         super().__init__(Setting.read(query), Worker() if worker is None else worker)
         # What is said below the file of the tip, and why it is refused.
         self.of_tip, self.tip_refused = "", NOTHING
-        self._tips = Tips(host_of(self.document))
+        self._tips = Tips(self.host)
         self.form, self.results = Form(self), Results(self)
         self._address = pn.widgets.TextInput(visible=False)
         self._address.jscallback(value="history.replaceState(null, '', source.value)")
@@ -68,8 +67,7 @@ class Measurement(Fits):
         over.on_change("tags", lambda attr, old, new: self.worker.start())
         self.document.add_root(over)
         self.document.js_on_event(DocumentReady, CustomJS(args={"over": over}, code=_OVER))
-        if self.document.session_context is not None:
-            self.document.on_session_destroyed(lambda context: self.close())
+        self.host.at_end(self.close)
         self._begin()
 
     def __panel__(self) -> Any:
@@ -80,7 +78,7 @@ class Measurement(Fits):
         """Show what a link asks for: an example once the page is there, another file by its name."""
         asked = self.setting
         name = example_named(asked.file)
-        if name and self.document.session_context is None:
+        if name and not self.host.processes:
             self._open_example(name)
             return
         if name:

@@ -15,13 +15,10 @@ from contextlib import suppress
 from functools import partial
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import folders
 from .refusals import Message, refusal
-
-if TYPE_CHECKING:
-    from bokeh.document import Document
 
 
 def _given(name: str, default: int) -> int:
@@ -266,13 +263,6 @@ def waiting(before: int) -> str:
     """How many people wait for a process before this one."""
     who = {0: "nobody is", 1: "one person is"}.get(before, f"{before} people are")
     return f"Waiting for a free process, {who} before you"
-
-
-def in_session(document: "Document", heard: Tell) -> Tell:
-    """What a worker calls in its thread: `heard` is called where the page may be changed."""
-    if document.session_context is None:
-        return heard
-    return lambda kind, answer: document.add_next_tick_callback(partial(heard, kind, answer))
 
 
 class Here:
