@@ -6,7 +6,7 @@ from ..courses import Course
 from ..draw import drawn, in_legend
 from ..extra import Extra, Service
 from ..parts import Part
-from ..plot import Plot, View
+from ..plot import Plot, View, rows_of
 from ..plots import visible
 from ..quantities import lowered
 from ..shared.summary import file_name, summary
@@ -36,7 +36,10 @@ class Legends(Service):
         self._legends["file"] = file_name(view.state, "")
         for plot in visible(view):
             called = drawn(view, plot)
-            rows = [lowered(called[row.name]) for row in in_legend(plot, called)]
+            labelled = {name for row in rows_of(plot) for name in row.names}
+            # What a search finds is drawn before the next rest: a picture names the rows seen in it.
+            later = {row.name: row.name for row in rows_of(plot) if row.name not in labelled | set(called)}
+            rows = [lowered((called | later)[row.name]) for row in in_legend(plot, called | later)]
             self._legends[plot.name] = {"rows": rows, "title": plot.title}
 
 
