@@ -69,11 +69,13 @@ class Results:
         left = pn.Column(
             self.above.view, self.headline, self.below.view, self.not_fitted.view, self.tools, **WIDE
         )
+        # Side by side: the plots are in sight below them.
+        folds = pn.Row(self.of_unloading, self.folded, css_classes=["folds"], **WIDE)
         right = pn.Column(self.classes, self.verdict, self.take, width=370, margin=0)
         self._right = right
         self.view = pn.Column(
             pn.Row(left, right, css_classes=["top-of-found"], **WIDE),
-            self.why, self.of_unloading, self.folded, self.several, self.range, self.curve,
+            self.why, folds, self.several, self.range, self.curve,
             css_classes=["found"], **_BOTH,
         )  # fmt: skip
 
