@@ -35,11 +35,9 @@ class Legends(Service):
         self._legends["scene"] = summary(view.state)
         self._legends["file"] = file_name(view.state, "")
         for plot in visible(view):
-            called = drawn(view, plot)
-            labelled = {name for row in rows_of(plot) for name in row.names}
-            # What a search finds is drawn before the next rest: a picture names the rows seen in it.
-            later = {row.name: row.name for row in rows_of(plot) if row.name not in labelled | set(called)}
-            rows = [lowered((called | later)[row.name]) for row in in_legend(plot, called | later)]
+            # While a plot is searched, all that it will draw: a picture names what is seen in it.
+            called = drawn(view, plot) or {row.name: row.name for row in rows_of(plot)}
+            rows = [lowered(called[row.name]) for row in in_legend(plot, called)]
             self._legends[plot.name] = {"rows": rows, "title": plot.title}
 
 

@@ -177,6 +177,9 @@ def test_a_zoomed_window_begins_with_a_plot(phone):
 def test_plots_and_the_path_are_told_in_words(phone):
     """In the accessibility tree a plot has a name and the present numbers, and the slider its state."""
     phone.change(phone.type, "d_max", "6 nm")
+    # Moves of the drag before may still be drawn.
+    phone.page.locator('output[data-name="depth"]', has_text="6.000 nm").wait_for()
+    phone.wait("explorer.idle()")
     numbers = {name: phone.readout(name) for name in ("force", "depth", "plastic_radius", "plastic_work")}
     assert numbers["depth"] == "6.000 nm"
     force = "Bokeh.index.find_one(explorer.model('force')).el"
