@@ -377,8 +377,8 @@ def _collected(profile, results, iso, contact, epsilon, numbers, remarks):
     values |= {"contact_point": _check.frozen(np.full(shape, contact.depth)), "unloading": numbers}
     if contact.depth_error:
         errors["contact_point"] = _check.frozen(np.full(shape, contact.depth_error))
-    columns = zip(ISO_14577, np.array(iso if numbers.ndim else iso[0]).T, strict=True)
-    values |= {name: _check.frozen(each) for name, each in columns if not np.all(np.isnan(each))}
+    of_standard = zip(ISO_14577, np.array(iso if numbers.ndim else iso[0]).T, strict=True)
+    values |= {name: _check.frozen(each) for name, each in of_standard if not np.all(np.isnan(each))}
     S, h_c, E, H, m = (values[name] for name in names)
     remains = remaining(profile, h_c, S, H, m, epsilon)
     remarks = [*remarks, *doubts(E, H, remains), *profile.remarks]
