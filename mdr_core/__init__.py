@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from .impacts.scaling import ScalingLaw, hardness_class
     from .medium import Medium
     from .numerics.motions import Motion
-    from .numerics.results import Remark, Remedy
+    from .numerics.remark import Remark, Remedy
     from .oblique.ball import Ball, at_angle
     from .oblique.oblique_impact import ObliqueImpact, oblique_impact
     from .profiles.power import Cone, FlatPunch, Paraboloid, PowerLaw
@@ -140,7 +140,7 @@ _MODULES = {
     ),
     "medium": ("Medium",),
     "numerics.motions": ("Motion",),
-    "numerics.results": (
+    "numerics.remark": (
         "Remark",
         "Remedy",
     ),

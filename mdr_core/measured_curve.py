@@ -10,7 +10,8 @@ import scipy
 from numpy.typing import NDArray
 
 from ._check import Array, frozen, number, positive_number
-from .numerics.results import Record, Remark
+from .numerics.remark import Remark
+from .numerics.results import Record
 from .show.quantities import engineering
 from .show.report import rows
 from .show.units import KINDS

@@ -15,7 +15,7 @@ from .files.split import WORDS
 from .files.table import decoded
 from .files.workbook import from_workbook
 from .measured_curve import MeasuredCurve, MeasuredCurves
-from .numerics.results import Remark, Remedy, refused
+from .numerics.remark import Remark, Remedy, refused
 
 __all__ = ["SIZES", "WORDS", "UnknownColumns", "read_curve", "read_curves"]
 

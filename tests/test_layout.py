@@ -47,6 +47,7 @@ BEHIND_BOTH = {
     "hardness": "laws of hardness, the paper's sum among them",
     "medium": "Medium",
     "numerics.gauss": "quadrature",
+    "numerics.remark": "remarks on a shape, and refusals",
     "numerics.results": "base classes of results",
     "numerics.roots": "depths and radii are roots",
     "profiles.profile": "Profile",

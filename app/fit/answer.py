@@ -5,7 +5,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from mdr_core.numerics.results import Remark
+from mdr_core.numerics.remark import Remark
 
 from . import words
 from .refusals import Message

@@ -10,7 +10,7 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core.fit.quoted import Quoted
-from mdr_core.numerics.results import Remark, Remedy
+from mdr_core.numerics.remark import Remark, Remedy
 from mdr_core.show.units import written
 
 from .asked import Asked

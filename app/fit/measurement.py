@@ -22,7 +22,7 @@ from mdr_core.fit.indentation import IndentationFit
 from mdr_core.fit.oliver_pharr_result import OliverPharr
 from mdr_core.fit.quoted import Quoted, unloading
 from mdr_core.measured_curve import MeasuredCurves
-from mdr_core.numerics.results import Remark
+from mdr_core.numerics.remark import Remark
 from mdr_core.reading import UnknownColumns
 from mdr_core.show.units import written
 

@@ -11,7 +11,7 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import ColumnDataSource, CustomJS
 from markupsafe import Markup
 
-from mdr_core.numerics.results import Remark
+from mdr_core.numerics.remark import Remark
 
 from ..tip import in_line
 from ..ui import JS, WIDE, html, landmarks

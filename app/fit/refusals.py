@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from mdr_core.numerics.results import Remark, Remedy
+from mdr_core.numerics.remark import Remark, Remedy
 
 from ..quantities import in_words
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from mdr_core.numerics.results import Remedy
+from mdr_core.numerics.remark import Remedy
 from mdr_core.show.units import written
 
 from . import words

@@ -5,7 +5,7 @@ from typing import Any
 import panel as pn
 from markupsafe import Markup
 
-from mdr_core.numerics.results import Remark, Remedy
+from mdr_core.numerics.remark import Remark, Remedy
 
 from ..ui import WIDE, html, show
 from . import words

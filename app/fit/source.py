@@ -9,7 +9,7 @@ from typing import Any
 from markupsafe import Markup
 
 from mdr_core.measured_curve import MeasuredCurve
-from mdr_core.numerics.results import Remark
+from mdr_core.numerics.remark import Remark
 
 from ..tip import in_line
 from .asked import Samples, samples

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _check
 from ..measured_curve import MODALITIES, MeasuredCurves
-from ..numerics.results import Remark, Remedy, refused
+from ..numerics.remark import Remark, Remedy, refused
 from ..show.report import imported
 from .cantilever import Cantilever
 from .curve import curve_of

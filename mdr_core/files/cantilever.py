@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ..numerics.results import Remark, Remedy, refused
+from ..numerics.remark import Remark, Remedy, refused
 from .names import normal, parted
 from .question import UnknownColumns
 from .table import LONGEST_HEADER

@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import _check
 from ..measured_curve import MeasuredCurve, named_segments, segments_of
-from ..numerics.results import Remark, Remedy, refused
+from ..numerics.remark import Remark, Remedy, refused
 from .cantilever import constants
 from .columns import ask_for_parts, ask_for_results, plain_beside, taken, told
 from .split import WORDS, joined, parts, place_of, several

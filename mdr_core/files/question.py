@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from ..numerics.results import Remedy
+from ..numerics.remark import Remedy
 
 #: Most columns that a question shows, and columns of words.
 _SHOWN, _WORDS = 14, 3

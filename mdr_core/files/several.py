@@ -4,7 +4,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 
-from ..numerics.results import Remark, Remedy, refused
+from ..numerics.remark import Remark, Remedy, refused
 from .columns import taken, told
 from .curve import curve_maker, curves_of
 from .formats import format_of

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..numerics.results import Remedy, refused
+from ..numerics.remark import Remedy, refused
 from .question import UnknownColumns
 
 #: Jump of the depth back to its beginning, and the rise after it, as shares of the range; in median steps.

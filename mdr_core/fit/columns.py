@@ -8,7 +8,7 @@ import numpy as np
 
 from .._check import ArrayLike
 from ..measured_curve import MeasuredCurve, MeasuredCurves
-from ..numerics.results import Remark
+from ..numerics.remark import Remark
 
 #: What is given as times: ... is those of the curve.
 Times = ArrayLike | EllipsisType | None

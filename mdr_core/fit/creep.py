@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..numerics.results import Remark, Remedy
+from ..numerics.remark import Remark, Remedy
 from ..show.quantities import engineering
 from .errors import roughness
 from .unloading import last_at_top

@@ -4,7 +4,7 @@ import numpy as np
 
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
-from ..numerics.results import Remark, Remedy
+from ..numerics.remark import Remark, Remedy
 from .first_contact import elastic_exponents
 from .unloading import laws_of
 

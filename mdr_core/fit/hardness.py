@@ -13,7 +13,7 @@ from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..impacts.scaling import class_of
 from ..medium import Medium, yield_constant
-from ..numerics.results import Remark, Remedy
+from ..numerics.remark import Remark, Remedy
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..show.quantities import engineering

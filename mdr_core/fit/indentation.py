@@ -13,7 +13,7 @@ from ..contact.yielding import yield_rule
 from ..hardness import HardnessLaw
 from ..measured_curve import MeasuredCurve, MeasuredCurves
 from ..medium import Medium
-from ..numerics.results import Remark, Remedy, refused
+from ..numerics.remark import Remark, Remedy, refused
 from ..profiles.profile import Profile
 from ..show.progress import progress
 from ..show.quantities import engineering

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..numerics.results import Remark, Remedy
+from ..numerics.remark import Remark, Remedy
 from ..show.quantities import engineering
 from .errors import SIGNIFICANT, SINGULAR, block_length, roughness
 

@@ -5,7 +5,7 @@ They may follow a curve, have outliers, be correlated over a large part of the c
 
 import numpy as np
 
-from ..numerics.results import Remark, Remedy
+from ..numerics.remark import Remark, Remedy
 from ..show.quantities import engineering
 from .errors import SIGNIFICANT, autocorrelation, roughness
 from .parameters import BACKGROUND, CLASSES, symbols

@@ -10,7 +10,7 @@ from .._errors import Refusal
 from ..applicability import check_pair
 from ..measured_curve import MeasuredCurve
 from ..medium import Medium
-from ..numerics.results import Remark, Remedy
+from ..numerics.remark import Remark, Remedy
 from ..profiles.profile import Profile
 from ..show.quantities import engineering
 from . import creep as creeping

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..numerics.results import Record, Remark
+from ..numerics.remark import Remark
+from ..numerics.results import Record
 from ..profiles.profile import Profile
 from ..show.quantities import QUANTITIES, Quantity, described, engineering
 from ..show.report import limit_rows, rows

@@ -5,7 +5,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..numerics.results import Remark, Remedy
+from ..numerics.remark import Remark, Remedy
 from .creep import COUNTS
 from .errors import SIGNIFICANT, roughness
 from .oliver_pharr import oliver_pharr

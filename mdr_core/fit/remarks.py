@@ -4,7 +4,7 @@ from itertools import chain
 
 import numpy as np
 
-from ..numerics.results import KINDS, Remark, Remedy
+from ..numerics.remark import KINDS, Remark, Remedy
 from ..show.quantities import engineering
 from .errors import SIGNIFICANT
 from .materials import UNITS, is_modulus

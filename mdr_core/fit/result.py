@@ -11,7 +11,8 @@ from .._check import Array, ArrayLike
 from ..contact.indentation import Indentation
 from ..contact.live_interval import LiveInterval
 from ..medium import Medium
-from ..numerics.results import Remark, check_single
+from ..numerics.remark import Remark
+from ..numerics.results import check_single
 from ..show.quantities import engineering
 from .classes import ClassFit, HardnessVerdict, class_of_hardness, fit_again, fits_of_classes, verdict
 from .dataset import SAMPLES, dataset_of

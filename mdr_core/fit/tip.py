@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..numerics.results import Remark, Remedy
+from ..numerics.remark import Remark, Remedy
 from ..profiles.power import Cone
 from ..show.quantities import engineering
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._errors import Refusal
-from ..numerics.results import Remark, Remedy
+from ..numerics.remark import Remark, Remedy
 from ..show.quantities import engineering
 from .errors import roughness
 from .least_squares import least_squares

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..numerics.results import Remark
+from ..numerics.remark import Remark
 from ..show.quantities import engineering
 from .errors import SIGNIFICANT, roughness
 from .first_contact import LEAST_LENGTH, LEAST_SAMPLES, FirstContact, contact_before, first_contact

@@ -9,7 +9,7 @@ import numpy as np
 from .. import _check, _read_only
 from .._check import Array, ArrayLike
 from .._door import above
-from ..numerics.results import Remark
+from ..numerics.remark import Remark
 from ..numerics.roots import increasing_root
 
 #: Names that functions of a shape had before, and those that they have now.

@@ -4,7 +4,7 @@ import numpy as np
 import scipy
 
 from .. import _check
-from ..numerics.results import Remark
+from ..numerics.remark import Remark
 
 #: Sizes (m) of units of length.
 LENGTHS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "Å": 1e-10, "cm": 1e-2}

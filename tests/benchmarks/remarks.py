@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.numerics.results import KINDS
+from mdr_core.numerics.remark import KINDS
 
 from ..fit import families
 from ..fit.test_creep import record

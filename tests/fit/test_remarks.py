@@ -12,7 +12,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.fit.parameters import PARAMETERS
 from mdr_core.fit.result import IndentationFit
-from mdr_core.numerics.results import ACTIONS, KINDS, Refusal
+from mdr_core.numerics.remark import ACTIONS, KINDS, Refusal
 
 from ..benchmarks.remarks import GEL, beside_fits, of_a_kind, of_unloadings
 from .families import KINDS as MEDIA
