@@ -6,7 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from .. import _check
 from .._check import ArrayLike
+from .._errors import Refusal
 from ..measured_curve import MeasuredCurve, MeasuredCurves
 from ..numerics.remark import Remark
 
@@ -80,3 +82,54 @@ def _of_many(curves, time, skip):
     return Columns(
         column("depth"), column("force"), column("time") if time is ... else time, remarks, unread
     )
+
+
+def remarks_of_one(remarks):
+    """The remarks of one curve that was read from a file."""
+    if len(remarks) > 1:
+        raise ValueError(f"{len(remarks)} curves: an evaluation is of one, as of curves[0]")
+    return remarks[0] if remarks else ()
+
+
+def measured_stiffness(given, stiffness):
+    """The measured stiffness that is given, or that of a curve."""
+    if stiffness is not True:
+        return None if stiffness is False else stiffness
+    if given.stiffness is None:
+        raise ValueError(
+            "stiffness = True takes that of a MeasuredCurve, and there is none: give its values, or leave "
+            "it out to evaluate the unloading"
+        )
+    return given.stiffness
+
+
+def finite_columns(depth, force, time, stiffness):
+    """Arrays by name of the samples in which all that is given is finite, but the stiffness."""
+    given = {
+        "depth": (depth, "m"),
+        "force": (force, "N"),
+        "time": (time, "s"),
+        "stiffness": (stiffness, "N/m"),
+    }
+    arrays = {
+        name: _check.finite_array(name, values, unit=unit, most=_check.LONGEST, missing=True)
+        for name, (values, unit) in given.items()
+        if values is not None
+    }
+    shapes = {array.shape for array in arrays.values()}
+    if len(shapes) > 1 or arrays["depth"].ndim != 1:
+        shown = " and ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        raise ValueError(f"{shown} must have the same shape, (N,) for one curve")
+    used = np.logical_and.reduce(
+        [np.isfinite(array) for name, array in arrays.items() if name != "stiffness"]
+    )
+    arrays = {name: array[used] for name, array in arrays.items()}
+    if not arrays["depth"].size:
+        text = "depth and force have no samples: an unloading needs five or more"
+        raise Refusal(Remark(text, "no unloading"))
+    if "time" in arrays:
+        # Segments of a file may share the time at which one ends and the next begins.
+        back = np.diff(arrays["time"], prepend=-np.inf) < 0
+        advice = "sort the samples by time"
+        _check.refuse("time", arrays["time"], back, "does not increase", unit="s", advice=advice)
+    return arrays

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from .._errors import Refusal
+from ..numerics.remark import Remark
 from ..numerics.roots import increasing_root
 
 
@@ -24,3 +26,10 @@ def _radius_at_height(profile, height):
     # Without a slope the search is by bisection.
     radius = increasing_root(lambda r: (profile.height_at(r), np.inf), height, np.abs(height), known)
     return np.maximum(np.minimum(radius, profile.wall), profile.face_radius)
+
+
+def not_from_contact(text):
+    """A refusal of depths and forces that may count from elsewhere."""
+    sentence = f"{text}: give depth from first contact, and force from the baseline"
+    words = f"{text}: depths have to count from first contact, and forces from the baseline"
+    return Refusal(Remark(sentence, "no unloading", words))

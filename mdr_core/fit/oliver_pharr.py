@@ -14,13 +14,13 @@ from ..numerics.remark import Remark, Remedy
 from ..profiles.profile import Profile
 from ..show.quantities import engineering
 from . import creep as creeping
-from .columns import Times, columns_of
-from .errors import roughness
+from .columns import Times, columns_of, finite_columns, measured_stiffness, remarks_of_one
+from .continuous import over_depth
 from .exponent import doubt
 from .iso_14577 import iso_numbers
 from .materials import doubts
-from .moduli import moduli, remaining
-from .oliver_pharr_result import ISO_14577, OliverPharr, OverDepth
+from .moduli import moduli, not_from_contact, remaining
+from .oliver_pharr_result import ISO_14577, OliverPharr
 from .tip import of_ideal_tip
 from .unloading import last_at_top, laws_of, parts_of
 from .zero import zero_of
@@ -144,86 +144,29 @@ def oliver_pharr(
     check_pair(profile, Medium(1.0), "an unloading")
     constants = _check.positive_number("epsilon", epsilon, zero=True), _check.positive_number("beta", beta)
     given = columns_of(depth, force, None if stiffness is not None and time is ... else time)
-    time, read = given.time, _one(given.remarks)
-    stiffness = _stiffness(given, stiffness)
+    time = given.time
+    read = remarks_of_one(given.remarks)
+    stiffness = measured_stiffness(given, stiffness)
     if stiffness is not None and (time is not None or cycles):
         raise ValueError("stiffness is measured at each sample: give it without time and cycles")
-    columns = _columns(given.depth, given.force, time, stiffness)
-    begin, contact, begins, in_contact = zero_of(profile, columns["depth"], columns["force"])
-    columns = {name: values[begin:] for name, values in columns.items()}
+    columns = finite_columns(given.depth, given.force, time, stiffness)
+    first, contact, found, in_contact = zero_of(profile, columns["depth"], columns["force"])
+    columns = {name: values[first:] for name, values in columns.items()}
     depth, force = columns["depth"] - contact.depth, columns["force"] - contact.baseline
-    begins = () if begins is None else (begins,)
+    found = () if found is None else (found,)
     if stiffness is not None:
-        values, errors, remarks = _over_depth(
-            profile, depth, force, columns["stiffness"], constants, contact
-        )
-        # Near first contact single samples may be far off.
-        middle = [np.nanmedian(values[name]) for name in ("E_star", "hardness")]
-        remarks = (*remarks, *begins, *doubts(*middle), *profile.remarks)
-        remarks = (*remarks, *of_ideal_tip(profile, values["contact_depth"]))
-        result = OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
+        result = over_depth(profile, depth, force, columns["stiffness"], constants, contact, found)
         return _with_other_readings(result, read, in_contact, constants)
     parts, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
     numbers, triples = zip(*parts.items(), strict=True)
     corrected, uncorrected, iso = zip(*triples, strict=True)
     numbers = _check.frozen(numbers if cycles else numbers[0])
-    result = _collected(profile, corrected, iso, contact, constants[0], numbers, (*remarks, *begins))
+    result = _collected(profile, corrected, iso, contact, constants[0], numbers, (*remarks, *found))
     result = _with_other_readings(result, read, in_contact, constants)
     if time is None:
         return result
     before = _collected(profile, uncorrected, iso, contact, constants[0], numbers, ())
     return replace(result, uncorrected=before)
-
-
-def _one(remarks):
-    """The remarks of one curve that was read from a file."""
-    if len(remarks) > 1:
-        raise ValueError(f"{len(remarks)} curves: an evaluation is of one, as of curves[0]")
-    return remarks[0] if remarks else ()
-
-
-def _stiffness(given, stiffness):
-    """The measured stiffness that is given, or that of a curve."""
-    if stiffness is not True:
-        return None if stiffness is False else stiffness
-    if given.stiffness is None:
-        raise ValueError(
-            "stiffness = True takes that of a MeasuredCurve, and there is none: give its values, or leave "
-            "it out to evaluate the unloading"
-        )
-    return given.stiffness
-
-
-def _columns(depth, force, time, stiffness):
-    """Arrays by name of the samples in which all that is given is finite, but the stiffness."""
-    given = {
-        "depth": (depth, "m"),
-        "force": (force, "N"),
-        "time": (time, "s"),
-        "stiffness": (stiffness, "N/m"),
-    }
-    arrays = {
-        name: _check.finite_array(name, values, unit=unit, most=_check.LONGEST, missing=True)
-        for name, (values, unit) in given.items()
-        if values is not None
-    }
-    shapes = {array.shape for array in arrays.values()}
-    if len(shapes) > 1 or arrays["depth"].ndim != 1:
-        shown = " and ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise ValueError(f"{shown} must have the same shape, (N,) for one curve")
-    used = np.logical_and.reduce(
-        [np.isfinite(array) for name, array in arrays.items() if name != "stiffness"]
-    )
-    arrays = {name: array[used] for name, array in arrays.items()}
-    if not arrays["depth"].size:
-        text = "depth and force have no samples: an unloading needs five or more"
-        raise Refusal(Remark(text, "no unloading"))
-    if "time" in arrays:
-        # Segments of a file may share the time at which one ends and the next begins.
-        back = np.diff(arrays["time"], prepend=-np.inf) < 0
-        advice = "sort the samples by time"
-        _check.refuse("time", arrays["time"], back, "does not increase", unit="s", advice=advice)
-    return arrays
 
 
 def _of_parts(profile, depth, force, time, constants, contact, cycles):
@@ -303,7 +246,7 @@ def _values_and_errors(profile, depth, laws, constants, contact):
     if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
         contact_depth = engineering(values[1], "m")
         text = f"the contact depth h − ε F/S = {contact_depth} must be positive and within the profile"
-        raise _not_from_contact(text)
+        raise not_from_contact(text)
     others, further = (
         [part for part in (results(*each) for each in group) if np.isfinite(part).all()]
         for group in (laws.others, laws.further)
@@ -316,53 +259,6 @@ def _values_and_errors(profile, depth, laws, constants, contact):
         shifted = results(*solution, shift=-contact.depth_error)
         errors = np.hypot(errors, np.where(np.isfinite(shifted), shifted - values, np.inf))
     return np.array([values, errors])
-
-
-def _not_from_contact(text):
-    """A refusal of depths and forces that may count from elsewhere."""
-    sentence = f"{text}: give depth from first contact, and force from the baseline"
-    words = f"{text}: depths have to count from first contact, and forces from the baseline"
-    return Refusal(Remark(sentence, "no unloading", words))
-
-
-def _over_depth(profile, depth, force, stiffness, constants, contact):
-    """Values and errors by name at each sample with a measured stiffness, and remarks."""
-    epsilon, beta = constants
-    with np.errstate(divide="ignore", invalid="ignore"):
-        contact_depth = depth - epsilon * force / stiffness
-    used = (stiffness > 0) & (force > 0) & (contact_depth > 0)
-    used &= contact_depth < profile.known_depth
-    if not used.any():
-        raise _not_from_contact(
-            "no sample has a positive stiffness (N/m), force and contact depth h − ε F/S"
-        )
-
-    def at(shift):
-        h = np.where(used, np.maximum(contact_depth + shift, 0.0), np.nan)
-        E, H = np.full((2, depth.size), np.nan)
-        E[used], H[used] = moduli(profile, h[used], force[used], stiffness[used], beta)
-        return {"contact_depth": h, "E_star": E, "hardness": H}
-
-    values, shifted = at(0.0), at(-contact.depth_error)
-    errors = {
-        name: np.hypot(roughness(value[used][None])[0, 0], shifted[name] - value)
-        for name, value in values.items()
-    }
-    noise = np.where(used, roughness(stiffness[used][None])[0, 0], np.nan)
-    values = {"depth": depth, "stiffness": np.where(used, stiffness, np.nan), **values}
-    values["contact_point"] = np.full(depth.size, contact.depth)
-    without = np.count_nonzero(~used)
-    text = f"{without} of {used.size} samples have no contact or no stiffness: "
-    remarks = (
-        [Remark(f"{text}their results are NaN", "missing", f"{text}they have no results")]
-        if without
-        else []
-    )
-    frozen = {name: _check.frozen(value) for name, value in values.items()}
-    errors = {"stiffness": noise} | errors
-    if contact.depth_error:
-        errors["contact_point"] = np.full(depth.size, contact.depth_error)
-    return frozen, {name: _check.frozen(error) for name, error in errors.items()}, remarks
 
 
 def _collected(profile, results, iso, contact, epsilon, numbers, remarks):
