@@ -80,11 +80,16 @@ def _guesses(curve, turning_depth, table):
         values = {name: parameter.start(trials) for name, parameter in MEDIUM.items() if name in curve.free}
         values |= background(best) | {"contact_point": points}
         least = squares[place]
-        around = np.concatenate([[np.inf], least, [np.inf]])
-        minima = (least <= around[:-2]) & (least < around[2:]) & (least <= _CLOSE * least.min())
-        found = sorted(np.flatnonzero(minima), key=lambda i: least[i])[:_STARTS]
-        chosen += [(least[i], {name: float(values[name][i]) for name in curve.free}) for i in found]
+        for i in _minima(least):
+            chosen.append((least[i], {name: float(values[name][i]) for name in curve.free}))
     return [start for _, start in sorted(chosen, key=lambda pair: pair[0])]
+
+
+def _minima(squares):
+    """Indices of the smallest minima of the sums of squares over the contact points, the best first."""
+    around = np.concatenate([[np.inf], squares, [np.inf]])
+    minima = (squares <= around[:-2]) & (squares < around[2:]) & (squares <= _CLOSE * squares.min())
+    return sorted(np.flatnonzero(minima), key=lambda i: squares[i])[:_STARTS]
 
 
 def _kinds(curve, media, depth):
@@ -173,6 +178,18 @@ def _adhesive_force(depth, points, kappa, table):
     return force
 
 
+def _held_modulus(curve, held, media):
+    """E* (Pa) of trial media where it, or a constant of the hardness, is held; None where it is free."""
+    if "E_star" in held:
+        return np.full_like(media["tau"], held["E_star"])
+    if held.get("work_of_adhesion"):
+        return held["work_of_adhesion"] / media["kappa"]
+    for name in curve.constants:
+        if held.get(name, np.inf) < np.inf:
+            return held[name] / media[name]
+    return None
+
+
 def _regression(curve, held, samples, unit_force, media):
     """The lines E* × unit force + background that are nearest to the force, for each trial (Z, M).
 
@@ -186,17 +203,12 @@ def _regression(curve, held, samples, unit_force, media):
     used = np.reshape([weight * columns[name] for name in free], (len(free), samples.size))
     basis, triangle = np.linalg.qr(used.T)
     weighted = weight * unit_force
-    deviation, projected = weight * force - basis @ (basis.T @ (weight * force)), weighted
+    deviation = weight * force - basis @ (basis.T @ (weight * force))
+    projected = weighted
     if free:
         projected = weighted - (weighted @ basis) @ basis.T
-    given = [name for name in curve.constants if held.get(name, np.inf) < np.inf]
-    if "E_star" in held:
-        E_star = np.full_like(media["tau"], held["E_star"])
-    elif held.get("work_of_adhesion"):
-        E_star = held["work_of_adhesion"] / media["kappa"]
-    elif given:
-        E_star = held[given[0]] / media[given[0]]
-    else:
+    E_star = _held_modulus(curve, held, media)
+    if E_star is None:
         power = np.einsum("zmn,zmn->zm", projected, projected)
         smallest = 1e-6 * np.ptp(force) / np.maximum(np.ptp(unit_force), 1e-300)
         E_star = np.maximum(projected @ deviation / np.maximum(power, 1e-300), smallest)
