@@ -31,6 +31,9 @@ ANGLES = 2, 5, 10, 15, 20, 25, 30, 40, 50, 60
 OPTIONS = "mindlin", "mindlin/force", "mindlin_rescale", "mindlin_rescale/force"
 #: Coefficients of restitution that are asked for, and the dampings that take them.
 ASKED, DAMPINGS = (0.1, 0.3, 0.5, 0.7, 0.9), ("tsuji", "coeff_restitution")
+#: The same ball on an incompressible medium of viscosity η (Pa·s), and its speeds (m/s).
+VISCOUS = mdr.Medium.from_bodies(YOUNG, 0.5, YOUNG, 0.5, eta=1e5)
+SPEEDS = 0.04, 0.4, 4.0, 40.0
 #: Cells of the chain, and steps of LAMMPS in the contact time.
 CELLS, STEPS = 2000, 32_000
 
@@ -133,6 +136,14 @@ def restitution(asked, damping, limited, steps=STEPS):
     return float(velocity[2] / SPEED)
 
 
+def viscous_restitution(speed, limited, steps=STEPS):
+    """Coefficient of restitution of LAMMPS with the force 8 η a v of the dashpots under a contact."""
+    prefactor = 8 * VISCOUS.eta / BALL.mass
+    law = f"hertz/material {YOUNG} {prefactor} 0.5 tangential linear_nohistory 0 0 damping viscoelastic"
+    velocity, _ = collide(law + " limit_damping" * limited, speed, 0.0, steps)
+    return float(velocity[2] / speed)
+
+
 def coefficient(asked, damping):
     """α of the damping force α √(m k) d^(1/4) v of a Hertzian contact k d^(3/2)."""
     if damping == "tsuji":
@@ -178,6 +189,12 @@ def collect():
                 given = {"asked": asked, "damping": damping, "limited": limited}
                 by_scipy = rebound(coefficient(asked, damping), limited)
                 dampings.append(given | {"lammps": restitution(**given), "scipy": by_scipy})
+    by_impact = mdr.impact(mdr.Paraboloid(RADIUS), VISCOUS, BALL.mass, SPEEDS).restitution
+    viscous = [
+        {"speed": speed, "impact": float(own)}
+        | {name: viscous_restitution(speed, name == "limited") for name in ("attracting", "limited")}
+        for speed, own in zip(SPEEDS, by_impact, strict=True)
+    ]
     return {
         "date": datetime.now(UTC).date().isoformat(),
         "version": metadata.version("lammps"),
@@ -188,6 +205,7 @@ def collect():
         "bound": max(bounds),
         "change": max(changes),
         "dampings": dampings,
+        "viscous": viscous,
     }
 
 

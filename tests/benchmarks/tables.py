@@ -22,6 +22,9 @@ _DAMPINGS = """The same ball hits the plane along the normal under `hertz/materi
 above each column. Columns "limited" have `limit_damping`: the contact force never attracts. SciPy's
 `solve_ivp` of the same equation of motion differs by {scipy} at most."""
 
+_VISCOUS = """The same ball on an incompressible medium of η = 10⁵ Pa·s: the coefficient of restitution by
+`impact`, and by LAMMPS with `damping viscoelastic` of the prefactor 8 η/m:"""
+
 #: Problems of the statement of need: title, setting, question, and what they are called there.
 _NEEDED = (
     ("elastic cone, field on a grid", "128²", "pressure", "pressure of an elastic cone, 128² points"),
@@ -95,7 +98,10 @@ def beside_lammps(found):
     ]
     head = (f"`{damping}`" + ", limited" * limited for damping, limited in columns)
     lines += ["### Restitution that is asked for", "", _DAMPINGS.format(scipy=f"{scipy:.0e}"), ""]
-    return "\n".join([*lines, *_table(("asked", *head), rows)])
+    lines += [*_table(("asked", *head), rows), _VISCOUS, ""]
+    names = "impact", "attracting", "limited"
+    rows = [_row(f"{r['speed']:g} m/s", *(f"{r[name]:.4f}" for name in names)) for r in found["viscous"]]
+    return "\n".join([*lines, *_table(("speed", "`impact`", "LAMMPS", "limited"), rows)])
 
 
 def off(found, method):
