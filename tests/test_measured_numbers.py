@@ -2,7 +2,11 @@
 
 import re
 
+import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
+
+from .approx import approx
 
 # The report imports what it measures with.
 pytest.importorskip("mpmath")
@@ -64,3 +68,32 @@ def test_the_page_for_dem_has_the_deviations_of_viscoelastic_damping():
     for name, words in (("limited", "{} below ours with"), ("attracting", "and {} without")):
         less = [row["impact"] - row[name] for row in LAMMPS["viscous"]]
         assert words.format(f"{min(less):.2f} to {max(less):.2f}") in text
+
+
+def test_the_stiffnesses_of_the_page_for_dem_give_restitution_and_contact_time():
+    """Laws with constant stiffnesses, integrated to their end; the tolerance is of the integration."""
+    m, e, T = 2.0, 0.6, 3.0
+    k_n, eta = m * (np.pi**2 + np.log(e) ** 2) / T**2, -2 * np.log(e) / T
+    k_1 = m * (np.pi * (1 + e) / (2 * T)) ** 2
+    k_2 = k_1 / e**2
+    assert "k_n = m (π² + ln² e)/T², η_n0 = −2 ln e/T" in FOR_DEM
+    assert "k₁ = m (π(1 + e)/(2T))², k₂ = k₁/e²" in FOR_DEM
+    # The largest depth of a loading at speed 1, under the stiffer spring on the way back.
+    deepest = np.sqrt(m / k_1)
+
+    def dashpot(_, state):
+        return state[1], -k_n / m * state[0] - eta * state[1]
+
+    def walton_braun(_, state):
+        d, v = state
+        return v, -(k_1 * d if v > 0 else k_2 * (d - deepest) + k_1 * deepest) / m
+
+    for law, left in ((dashpot, 0.0), (walton_braun, deepest * (1 - e**2))):
+
+        def end(_, state, left=left):
+            return state[0] - left if state[1] < 0 else 1.0
+
+        end.terminal = True
+        motion = solve_ivp(law, (0, 2 * T), (0.0, 1.0), events=end, rtol=1e-8, atol=1e-10, max_step=0.01)
+        assert motion.t[-1] == approx(T, rel=1e-4)
+        assert -motion.y[1, -1] == approx(e, rel=1e-4)

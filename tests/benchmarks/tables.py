@@ -1,6 +1,7 @@
 """The report in words and tables."""
 
 import math
+import re
 from itertools import groupby
 
 _COMMAND = "python -m tests.benchmarks.report"
@@ -15,8 +16,8 @@ _LAMMPS = """A ball of aluminium oxide (E = 380 GPa, ν = 0.23, radius 2.5 mm, �
 same material at 3.9 m/s, at an angle to the normal: test 4 of Chung and Ooi (Granular Matter 13, 2011)
 without damping. `oblique_impact` and a brute-force chain of {cells} cells share no solver; they differ by
 {differ} at most, and the sum of their stated errors is {bound}. LAMMPS takes {steps} steps in the contact
-time; with half as many no speed changes by more than {change}. Columns of LAMMPS are named by its
-tangential option, with stiffnesses from the material (`NULL`). Speeds are those of the centre."""
+time; with half as many no speed changes by more than {change}. Its columns are its tangential options,
+with "…" for `mindlin`, and with stiffnesses from the material (`NULL`). Speeds are those of the centre."""
 
 _DAMPINGS = """The same ball hits the plane along the normal under `hertz/material`, with the damping named
 above each column. Columns "limited" have `limit_damping`: the contact force never attracts. SciPy's
@@ -88,7 +89,8 @@ def beside_lammps(found):
         ("energy of the motion along the surface with that of the spin, after over before", "energy"),
     ):
         rows = [_row(f"{a}°", *(f"{values[a, each][name]:.4f}" for each in options)) for a in angles]
-        lines += [f"The {title}:", "", *_table(("angle", *options), rows)]
+        head = (re.sub("^mindlin(?=.)", "…", each) for each in options)
+        lines += [f"The {title}:", "", *_table(("angle", *head), rows)]
     dampings = {(row["asked"], row["damping"], row["limited"]): row for row in found["dampings"]}
     columns = list(dict.fromkeys(key[1:] for key in dampings))
     scipy = max(abs(row["lammps"] - row["scipy"]) for row in found["dampings"])
