@@ -22,10 +22,12 @@ ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "assets" / "docs"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.rglob("*.md"))]
 EXAMPLES = sorted((DOCS / "examples").glob("[0-9]*.py"))
+#: Blocks of code, each with what the block of text below it says that it prints.
+CODE = re.compile(r"```python\n(.*?)```(?:\n\n```text\n(.*?)```)?", re.DOTALL)
 BLOCKS = [
-    pytest.param(block, id=f"{page.stem}-{number}")
+    pytest.param(block, printed, id=f"{page.stem}-{number}")
     for page in PAGES[1:]
-    for number, block in enumerate(re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), re.DOTALL))
+    for number, (block, printed) in enumerate(CODE.findall(page.read_text("utf-8")))
     if ">>>" not in block
 ]
 ROWS = [row for row in (DOCS / "equations.md").read_text("utf-8").splitlines() if re.match(r"\| \(\d", row)]
@@ -95,12 +97,13 @@ def test_examples_in_the_readme():
     assert result.failed == 0
 
 
-@pytest.mark.parametrize("block", BLOCKS)
-def test_blocks_of_code(block, tmp_path, monkeypatch):
+@pytest.mark.parametrize(("block", "printed"), BLOCKS)
+def test_blocks_of_code(block, printed, tmp_path, monkeypatch, capsys):
     """In a folder with the measured curve that pages give to download."""
     shutil.copy(ROOT / "assets" / "silica.csv", tmp_path)
     monkeypatch.chdir(tmp_path)
     run(block)
+    assert not printed or capsys.readouterr().out == printed
 
 
 def test_blocks_that_need_a_file_of_a_reader_import_what_they_use():

@@ -21,7 +21,7 @@ from mdr_explorer import static
 from tests.app.conftest import CHROMIUM, FLAGS, SCRIPT, Server
 
 from .page_latency import FIGURES, HOOK, cpu_seconds
-from .report import IN_BROWSER
+from .report import IN_BROWSER, write_section
 
 ROUNDS, PRESSES = 8, 40
 #: What is timed on both sides: milliseconds of a case, the first time, and the shortest later.
@@ -182,12 +182,9 @@ def write(starts, rows, served, static_page):
         "each function of NumPy when it is first called, and better when it has been called often.",
         "",
     ]
-    path = Path(__file__).parents[2] / "assets" / "benchmarks.md"
     text = "\n".join(lines)
     print(text)
-    path.write_text(
-        path.read_text(encoding="utf-8").split(IN_BROWSER)[0] + IN_BROWSER + text, encoding="utf-8"
-    )
+    write_section(IN_BROWSER, text)
 
 
 if __name__ == "__main__":

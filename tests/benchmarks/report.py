@@ -2,14 +2,16 @@
 
     python -m tests.benchmarks.report
 
-writes assets/benchmarks.json, assets/benchmarks.md, assets/speed_against_error.svg and the table in
-README.md; with --quick it measures small sizes in less than a minute and only prints.
+writes assets/benchmarks.json, assets/benchmarks.md, assets/speed_against_error.svg and the tables in
+README.md and the statement of need; with --quick it measures small sizes in less than a minute and only
+prints. `beside_lammps` and `in_browser` write their sections by themselves, and these stay.
 """
 
 import argparse
 import json
 import os
 import platform
+import re
 import tomllib
 from datetime import UTC, datetime
 from importlib import metadata
@@ -19,11 +21,14 @@ from . import peers, speed, streams
 from .chart import figure
 from .harness import measure
 from .problems import problems
-from .tables import document, summary
+from .tables import document, need, summary
 
 ROOT = Path(__file__).parents[2]
-#: Where the section of `in_browser` begins, which is measured by itself.
-IN_BROWSER = "<!-- in a browser -->\n"
+ASSETS = ROOT / "assets"
+#: Where the sections begin that are measured by themselves, in their order.
+BESIDE_LAMMPS, IN_BROWSER = SECTIONS = "<!-- beside LAMMPS -->\n", "<!-- in a browser -->\n"
+#: Pages with a table between two marks, and what makes it of the results.
+TABLES = {ROOT / "README.md": summary, ASSETS / "docs" / "statement_of_need.md": need}
 _BEGIN, _END = "<!-- benchmarks: begin -->\n", "<!-- benchmarks: end -->"
 
 
@@ -51,22 +56,42 @@ def _versions():
     return found | {name: metadata.version(name) for name in ("numpy", "scipy", "mpmath")}
 
 
-def write_assets(results):
-    """Figures and tables, from what `collect` gives."""
-    assets = ROOT / "assets"
-    text = json.dumps(results, indent=1, ensure_ascii=False)
-    (assets / "benchmarks.json").write_text(text + "\n", encoding="utf-8")
-    tables = assets / "benchmarks.md"
-    kept = "".join(tables.read_text(encoding="utf-8").partition(IN_BROWSER)[1:])
-    tables.write_text(document(results) + kept, encoding="utf-8")
-    (assets / "speed_against_error.svg").write_text(figure(results), encoding="utf-8")
+def stored():
+    """What was measured last, from assets/benchmarks.json."""
+    return json.loads((ASSETS / "benchmarks.json").read_text(encoding="utf-8"))
 
 
-def write_readme(results):
-    """The README's table."""
-    readme = ROOT / "README.md"
-    head, rest = readme.read_text(encoding="utf-8").split(_BEGIN)
-    readme.write_text(head + _BEGIN + summary(results) + _END + rest.split(_END)[1], encoding="utf-8")
+def sections():
+    """The parts of assets/benchmarks.md by the marks before them; the first has none."""
+    text = (ASSETS / "benchmarks.md").read_text(encoding="utf-8")
+    first, *others = re.split("(" + "|".join(SECTIONS) + ")", text)
+    return {"": first} | dict(zip(others[::2], others[1::2], strict=True))
+
+
+def table(page):
+    """The table on a page."""
+    return page.read_text(encoding="utf-8").split(_BEGIN)[1].split(_END)[0]
+
+
+def write_results(results):
+    """Put results beside those that are stored, in the place of earlier ones of the same name."""
+    text = json.dumps(stored() | results, indent=1, ensure_ascii=False)
+    (ASSETS / "benchmarks.json").write_text(text + "\n", encoding="utf-8")
+
+
+def write_section(mark, text):
+    """Put a section into its place in assets/benchmarks.md."""
+    found = sections() | {mark: text}
+    text = "".join(each + found[each] for each in ("", *SECTIONS) if each in found)
+    (ASSETS / "benchmarks.md").write_text(text, encoding="utf-8")
+
+
+def write_tables():
+    """Put the tables of what is stored on their pages."""
+    for page, make in TABLES.items():
+        head, rest = page.read_text(encoding="utf-8").split(_BEGIN)
+        text = head + _BEGIN + make(stored()) + _END + rest.split(_END)[1]
+        page.write_text(text, encoding="utf-8")
 
 
 def main():
@@ -76,8 +101,10 @@ def main():
     results = collect(quick, say=lambda line: print(line, flush=True))
     print(document(results))
     if not quick:
-        write_assets(results)
-        write_readme(results)
+        write_results(results)
+        write_section("", document(results))
+        (ASSETS / "speed_against_error.svg").write_text(figure(results), encoding="utf-8")
+        write_tables()
 
 
 if __name__ == "__main__":
