@@ -213,11 +213,11 @@ class FreeObliqueImpact:
     mass, speed : float
         Mass m (kg), and normal speed v₀ (m/s) at first contact, positive.
     tangential_speed : float
-        Speed v_t0 (m/s) of the contact point along the surface, of any sign.
+        Speed v_t0 (m/s) of the point of contact along the surface, of any sign.
     friction : float
         Coefficient of friction μ, not negative.
     tangential_mass : float, optional
-        Mass m_t (kg) at the contact point along the surface; by default m. See `Ball.tangential_mass`.
+        Mass m_t (kg) at the point of contact along the surface; by default m. See `Ball.tangential_mass`.
 
     Examples
     --------

@@ -34,9 +34,9 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
 
 @dataclass(frozen=True)
 class Ball:
-    """Ball that may spin, with the speed of its contact point and the change of its spin in an impact.
+    """Ball that may spin, with the speed of its point of contact and the change of its spin in an impact.
 
-    With spin Ω (rad/s) and the speed V of the centre, the contact point has the speed v_t = V + RΩ:
+    With spin Ω (rad/s) and the speed V of the centre, the point of contact has the speed v_t = V + RΩ:
     backspin is positive, and the ball rolls if V = −RΩ.
 
     Parameters
@@ -75,11 +75,11 @@ class Ball:
 
     @property
     def tangential_mass(self) -> Array:
-        """Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I."""
+        """Effective mass m_t (kg) at the point of contact along the surface, 1/m_t = 1/m + R²/I."""
         return 1 / (1 / self.mass + self.radius**2 / self.inertia)
 
     def contact_speed(self, tangential_speed: ArrayLike, spin: ArrayLike) -> Array:
-        """Speed v_t (m/s) of the contact point, from that of the centre (m/s) and a spin (rad/s)."""
+        """Speed v_t (m/s) of the point of contact, from that of the centre (m/s) and a spin (rad/s)."""
         speed = _check.finite_array("tangential_speed", tangential_speed, unit="m/s")
         return (speed + self.radius * _check.finite_array("spin", spin, unit="rad/s"))[()]
 

@@ -97,7 +97,7 @@ def test_each_unloading_has_it():
 
 
 def test_a_fit_of_another_class_quotes_it_from_the_air():
-    """The contact point of a fit of class (b) to a glass is 12 nm off, and is not used."""
+    """First contact of a fit of class (b) to a glass is 12 nm off, and is not used."""
     force = mdr.indent(TIP, MEDIA["glass, class (a)"], LOADED).force
     expected = mdr.oliver_pharr(TIP, LOADED, force).E_star
     fit = mdr.fit_indentation(TIP, *with_air(LOADED, force, 90e-9, 70))

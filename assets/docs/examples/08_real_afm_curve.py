@@ -3,7 +3,7 @@ A real AFM curve
 ================
 
 The approach of an AFM force–distance curve of a gel (afmformats, MIT licence, in ``tests/data``), fitted
-with a nominal paraboloid of 10 µm. The medium is held elastic by ``q_c=inf``; the contact point and the
+with a nominal paraboloid of 10 µm. The medium is held elastic by ``q_c=inf``; first contact and the
 baseline are free.
 """
 
@@ -23,7 +23,7 @@ figure, (top, bottom) = plt.subplots(
 )
 top.plot(depth * 1e6, force * 1e9, ".", markersize=3, label="measured")
 top.plot(depth * 1e6, (force - fit.residuals) * 1e9, label="fit")
-top.axvline(fit.contact_point * 1e6, color="gray", linestyle=":", label="contact point")
+top.axvline(fit.contact_point * 1e6, color="gray", linestyle=":", label="first contact")
 top.set(ylabel="F (nN)")
 top.legend()
 bottom.plot(depth * 1e6, fit.residuals * 1e9)
