@@ -35,7 +35,7 @@ class _Path:
 
 @dataclass(frozen=True)
 class DepthPath(_Path):
-    """Press along prescribed depths.
+    """Drive of a `Scene`: a path of prescribed depths.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class DepthPath(_Path):
 
 @dataclass(frozen=True)
 class ForcePath(_Path):
-    """Press with prescribed forces.
+    """Drive of a `Scene`: a path of prescribed forces.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def _on_chain(solve, profile, medium, path, time):
 
 @dataclass(frozen=True)
 class FreeImpact:
-    """Impact of a free body.
+    """Drive of a `Scene`: the impact of a free body.
 
     Parameters
     ----------
@@ -206,7 +206,7 @@ class FreeImpact:
 
 @dataclass(frozen=True)
 class FreeObliqueImpact:
-    """Oblique impact of a free body with friction.
+    """Drive of a `Scene`: the oblique impact of a free body with friction.
 
     Parameters
     ----------

@@ -46,7 +46,7 @@ def _poisson(quantity, ratio):
 
 @dataclass(frozen=True, eq=False)
 class Medium(_check.Parameters):
-    """A visco-elastic half-space with a hardness that is a function of the contact radius.
+    """A half-space: elastic or viscoelastic, with a hardness that is a function of the contact radius.
 
     The mean pressure under a contact of radius a that has yielded throughout is the hardness
 

@@ -44,7 +44,7 @@ _EXPECTED = {
 
 @dataclass(frozen=True)
 class Scene:
-    """An indenter, a medium, and a drive.
+    """A whole calculation as one value: an indenter, a medium and a drive.
 
     Parameters
     ----------

@@ -11,10 +11,27 @@ from .oblique_impact import ObliqueImpact
 
 
 def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
-    """Compute the normal and tangential speed (m/s) from the speed (m/s) and the angle of incidence (rad).
+    """Compute the normal and the tangential speed of a body from its speed and its angle of incidence.
 
-    The angle is that to the normal, π/2 less the angle of attack, between −π/2 and π/2. Use as in
-    `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
+    Use as in `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
+
+    Parameters
+    ----------
+    speed : float or array_like
+        Speed (m/s), positive.
+    angle : float or array_like
+        Angle (rad) to the normal, between −π/2 and π/2. It is π/2 less the angle of attack.
+
+    Returns
+    -------
+    tuple of float or numpy.ndarray
+        Normal speed, speed · cos(angle), and tangential speed, speed · sin(angle), both in m/s, of the
+        shape to which the arguments broadcast.
+
+    Raises
+    ------
+    ValueError
+        If the speed is not positive, or the angle not within −π/2 … π/2, as for an angle in degrees.
 
     Examples
     --------

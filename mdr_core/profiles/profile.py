@@ -27,7 +27,7 @@ def is_own(profile):
 
 
 class Profile(_check.Parameters, ABC):
-    """Profile of a rigid axisymmetric indenter, with its tip at the origin and its height growing outward.
+    """Base class of shapes: rigid axisymmetric indenters, from the tip at the origin outward.
 
     A profile of your own is a frozen dataclass with the first three functions below. They are not checked:
     they take an array of lengths (m), none negative, which they must not change, and return an array of its
