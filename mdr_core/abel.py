@@ -1,4 +1,6 @@
-"""Abel transforms between 3D and 1D: Popov (2015), Eqs. (3), (7) and (10).
+"""Abel transforms between the 3D and the 1D problem, for functions and samples.
+
+Popov (2015), Eqs. (3), (7) and (10).
 
 An example:
 

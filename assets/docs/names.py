@@ -57,6 +57,8 @@ def index():
 def _write_index(app, docname, source):
     if docname == "reference/index":
         source[0] = source[0].replace(_PLACE, index())
+        # It changes with docstrings and with the other pages, too.
+        app.env.note_reread()
 
 
 def _bases(app, name, owner, options, bases):

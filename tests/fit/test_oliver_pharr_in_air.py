@@ -113,7 +113,7 @@ def test_a_fit_that_does_not_fit_has_no_first_contact():
     force = mdr.indent(TIP, MEDIA["glass, class (a)"], LOADED).force
     fit = mdr.fit_indentation(TIP, LOADED + 50e-9, force)
     assert fit.quoted.value is None
-    assert "not first contact" in fit.quoted.reason
+    assert "first contact is not known" in fit.quoted.reason
     assert "Oliver" not in repr(fit)
 
 
