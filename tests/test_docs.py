@@ -223,15 +223,15 @@ class Links(HTMLParser):
             self.loaded.append(address)
 
 
-@pytest.fixture
-def site(tmp_path):
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
     """The folder of the site: of `MDR_SITE`, which the README's command has built, or without pictures."""
     if built := os.environ.get("MDR_SITE"):
         return Path(built)
     for package in ("sphinx", "numpydoc", "myst_parser", "pydata_sphinx_theme", "sphinx_gallery", "panel"):
         pytest.importorskip(package)
-    folder = tmp_path / "site"
-    build = ("-m", "sphinx", "-W", "-q", "-D", "plot_gallery=0", "-d", tmp_path / "tree", DOCS, folder)
+    folder, tree = (tmp_path_factory.mktemp(name) for name in ("site", "tree"))
+    build = ("-m", "sphinx", "-W", "-q", "-D", "plot_gallery=0", "-d", tree, DOCS, folder)
     done = subprocess.run([sys.executable, *map(str, build)], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return folder
@@ -259,7 +259,7 @@ def test_the_site_is_built_without_warnings_and_its_links_lead_somewhere(site):
 
 
 @pytest.mark.slow
-def test_the_reference_begins_with_an_index_of_all_public_names(site):
+def test_the_reference_of_the_site_begins_with_an_index_of_all_public_names(site):
     """Each with a link to its own description and with what it does."""
     index = site / "reference" / "index.html"
     linked = {link.partition("#")[2].removeprefix("module-") for link in Links(index).links}
@@ -273,7 +273,7 @@ def test_the_reference_begins_with_an_index_of_all_public_names(site):
 
 
 @pytest.mark.slow
-def test_the_reference_has_no_machinery(site):
+def test_the_reference_of_the_site_has_no_machinery(site):
     """What only solvers ask for: of shapes and drives it is said once, in the base class or not at all."""
     described = set().union(*(Links(page).anchors for page in (site / "reference").glob("*.html"))) - {None}
     for shape in (mdr.Cone, mdr.Sphere, mdr.Sampled, mdr.Smooth):
