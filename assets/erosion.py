@@ -98,9 +98,9 @@ def picture(kept, particles, name):
 def at_all_angles(radius=25e-6, speed=30.0, friction=0.2, number=90):
     """Plastic and friction work (J) over the angle of attack, of the composite and at constant hardness.
 
-    Without rebound, the contact point slips until the normal motion ends, or sticks before: with its speed
-    W and m_t = 2m/7, W_f = μ m v (W − μ (m/m_t) v/2), at most ½ m_t W². Where it slips throughout, this
-    is largest at tan 2α = 2 m_t/(μ m).
+    Without rebound, the point of contact slips until the normal motion ends, or sticks before: with its
+    speed W and m_t = 2m/7, W_f = μ m v (W − μ (m/m_t) v/2), at most ½ m_t W². Where it slips throughout,
+    this is largest at tan 2α = 2 m_t/(μ m).
     """
     attack = xr.DataArray(np.radians(np.linspace(1.0, 90.0, number)), dims="attack")
     mass = DENSITY * 4 / 3 * np.pi * radius**3

@@ -89,7 +89,7 @@ def in_unit(quantity, value, unit):
         advice = "give its .values, transposed as needed"
         raise InvalidArgument(f"{quantity} {bound}; {advice}", quantity, value, bound, unit, advice)
     if hasattr(type(value), "__dask_graph__") and not _carries_unit(value):
-        bound = "is a lazy array, which would be taken into memory as a whole"
+        bound = "is a lazy array, which would be loaded into memory as a whole"
         advice = ".compute() it, or give it to mdr_core.sweep, which keeps it lazy"
         raise InvalidArgument(f"{quantity} {bound}: {advice}", quantity, value, bound, unit, advice)
     if isinstance(value, list | tuple) and any(map(_carries_unit, value)):
@@ -184,7 +184,7 @@ def finite_array(quantity, value, *, unit="", most=FARTHEST, missing=False):
     array = _real_array(quantity, in_unit(quantity, value, unit), unit=unit).copy()
     large = np.isfinite(array) & (np.abs(array) > most)
     refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, advice="give it in SI units")
-    advice = "leave it out, or mend the data it comes from"
+    advice = "leave it out, or correct the data it comes from"
     bad = np.isinf(array) if missing else ~np.isfinite(array)
     return refuse(quantity, array, bad, "must be finite", unit=unit, advice=advice)
 

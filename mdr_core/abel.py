@@ -1,4 +1,6 @@
-"""Abel transforms between 3D and 1D: Popov (2015), Eqs. (3), (7) and (10).
+"""Abel transforms between the 3D and the 1D problem, for functions and samples.
+
+Popov (2015), Eqs. (3), (7) and (10).
 
 An example:
 
@@ -25,10 +27,10 @@ _MAX_DIFFERENCE = 1e-9
 
 
 def reduce_slope(slope: Callable[[Array], Array], x: ArrayLike) -> Array:
-    """Reduced profile g(x) (m) of the profile with slope dz/dr, Popov (2015), Eq. (3).
+    """Reduced profile g(x) (m) of the profile with slope dz/dr.
 
-    g(x) = x ∫ z′(x sin t) dt over 0 < t < π/2, by a tanh-sinh rule that is refined until it converges. The
-    accuracy is spectral for smooth slopes, and for any power of r at r = 0.
+    Popov (2015), Eq. (3): g(x) = x ∫ z′(x sin t) dt over 0 < t < π/2, by a tanh-sinh rule that is refined
+    until it converges. The accuracy is spectral for smooth slopes, and for any power of r at r = 0.
 
     Parameters
     ----------
@@ -106,12 +108,13 @@ def _slope_integral(slope, x, factor):
 
 
 def stress_from_line_load(x: ArrayLike, q: ArrayLike, r: ArrayLike) -> Array:
-    """Normal stress σ_zz(r) (Pa) from samples of the line load q(x), Popov (2015), Eq. (10).
+    """Normal stress σ_zz(r) (Pa) from samples of the line load q(x).
 
-    σ_zz = (1/π) ∫ q′(x)/√(x² − r²) dx over x > r, exact for a q that is linear between the samples,
-    constant before the first and 0 after the last one. A coordinate given twice is a jump; so is a last q
-    that is not 0. Between x = 0 and the next sample q is an even parabola, with a finite stress on the
-    axis, if the first two slopes extrapolate to zero there within 5 % of the second one.
+    Popov (2015), Eq. (10): σ_zz = (1/π) ∫ q′(x)/√(x² − r²) dx over x > r, exact for a q that is linear
+    between the samples, constant before the first and 0 after the last one. A coordinate given twice is a
+    jump; so is a last q that is not 0. Between x = 0 and the next sample q is an even parabola, with a
+    finite stress on the axis, if the first two slopes extrapolate to zero there within 5 % of the second
+    one.
 
     Parameters
     ----------

@@ -34,20 +34,20 @@ def refuse_adhesion(medium, what):
 
 
 def refuse_own_law(medium, what, instead):
-    """Refuses a medium with a law of hardness of its own for something, `what`, that cannot have one."""
+    """Refuses a medium with a `HardnessLaw` for something, `what`, that cannot have one."""
     if medium.has_own_law:
         law = shown(medium.hardness)
-        raise ValueError(f"{what} does not support the law of hardness {law}; {instead}")
+        raise ValueError(f"{what} does not support {law}; {instead}")
 
 
 def check_reached(profile, medium, depth):
-    """Refuses a shape or a law of a user's own that is none at the contact radii of depths (m)."""
+    """Refuses a shape or a law of a user's own that is invalid at the contact radii of depths (m)."""
     check_shape(profile, depth)
     check_hardness(profile, medium, depth)
 
 
 def check_shape(profile, depth):
-    """Refuses a shape of a user's own that is none at the contact radii of depths (m)."""
+    """Refuses a shape of a user's own that is invalid at the contact radii of depths (m)."""
     if is_own(profile):
         above("own.shape").check_shape(profile, depth)
 
@@ -59,7 +59,7 @@ def check_slopes(profile, depth):
 
 
 def check_hardness(profile, medium, depth):
-    """Refuses a medium whose law of hardness is none at the contact radii of depths (m)."""
+    """Refuses a medium whose law of hardness is invalid at the contact radii of depths (m)."""
     if medium.has_own_law:
         above("own.law").check_law(medium.hardness, profile, depth)
 

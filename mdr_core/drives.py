@@ -35,7 +35,7 @@ class _Path:
 
 @dataclass(frozen=True)
 class DepthPath(_Path):
-    """Press along prescribed depths.
+    """Drive of a `Scene`: a path of prescribed depths.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class DepthPath(_Path):
 
 @dataclass(frozen=True)
 class ForcePath(_Path):
-    """Press with prescribed forces.
+    """Drive of a `Scene`: a path of prescribed forces.
 
     Parameters
     ----------
@@ -145,7 +145,7 @@ def _on_chain(solve, profile, medium, path, time):
 
 @dataclass(frozen=True)
 class FreeImpact:
-    """Impact of a free body.
+    """Drive of a `Scene`: the impact of a free body.
 
     Parameters
     ----------
@@ -206,18 +206,18 @@ class FreeImpact:
 
 @dataclass(frozen=True)
 class FreeObliqueImpact:
-    """Oblique impact of a free body with friction.
+    """Drive of a `Scene`: the oblique impact of a free body with friction.
 
     Parameters
     ----------
     mass, speed : float
         Mass m (kg), and normal speed v₀ (m/s) at first contact, positive.
     tangential_speed : float
-        Speed v_t0 (m/s) of the contact point along the surface, of any sign.
+        Speed v_t0 (m/s) of the point of contact along the surface, of any sign.
     friction : float
         Coefficient of friction μ, not negative.
     tangential_mass : float, optional
-        Mass m_t (kg) at the contact point along the surface; by default m. See `Ball.tangential_mass`.
+        Mass m_t (kg) at the point of contact along the surface; by default m. See `Ball.tangential_mass`.
 
     Examples
     --------

@@ -43,7 +43,7 @@ MODALITIES = {
 class MeasuredCurve(Record):
     """A measured curve, returned by `read_curve`, and how its file was understood.
 
-    `approach` and `retract` are parts of it. A drift and the compliance of a frame are subtracted from the
+    `approach` and `retract` are parts of it. A drift and frame compliance are subtracted from the
     depth by `minus_drift` and `minus_frame`, each of which returns a new curve.
 
     Examples
@@ -189,15 +189,15 @@ class MeasuredCurve(Record):
         return self._minus(rate * (time - time[0]), text)
 
     def minus_frame(self, compliance: float) -> Self:
-        """The curve without the give of the instrument's frame: depth minus compliance times force.
+        """The curve without frame compliance: depth minus compliance times force.
 
         Parameters
         ----------
         compliance : float
-            Compliance of the frame (m/N), 0 or positive.
+            Frame compliance (m/N), 0 or positive.
         """
         compliance = positive_number("compliance", compliance, unit="m/N", zero=True)
-        text = f"the compliance of a frame, {engineering(compliance, 'm/N')},"
+        text = f"a frame compliance of {engineering(compliance, 'm/N')}"
         return self._minus(compliance * self.force, text)
 
     def _times(self):

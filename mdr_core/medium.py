@@ -46,7 +46,7 @@ def _poisson(quantity, ratio):
 
 @dataclass(frozen=True, eq=False)
 class Medium(_check.Parameters):
-    """A visco-elastic half-space with a hardness that is a function of the contact radius.
+    """A half-space: elastic or viscoelastic, with a hardness that is a function of the contact radius.
 
     The mean pressure under a contact of radius a that has yielded throughout is the hardness
 
@@ -153,7 +153,7 @@ class Medium(_check.Parameters):
     def from_hardness(
         cls, E_star: ArrayLike, hardness: ArrayLike, radius: ArrayLike, **other: ArrayLike
     ) -> "Medium":
-        """The medium of class (b) whose fully yielded contact of a radius has a hardness: q_c = σ_c a.
+        """The medium of class (b) with a hardness that was measured at one contact radius: q_c = σ_c a.
 
         For a hardness that is the same at every radius take `Medium(E_star, hardness=…)`.
 
@@ -167,6 +167,11 @@ class Medium(_check.Parameters):
             Contact radius a (m) at which it was measured.
         **other
             `eta`, `poisson` and `work_of_adhesion`, as in `Medium`.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of its range, or `q_c` or `f_c` is given too.
 
         Examples
         --------
@@ -196,6 +201,11 @@ class Medium(_check.Parameters):
             Indentation depth d_c (m) at which yield starts; also the depth that is recovered on unloading.
         **other
             `eta`, `poisson` and `work_of_adhesion`, as in `Medium`.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of its range, or `q_c`, `hardness` or `f_c` is given too.
 
         Examples
         --------
@@ -241,6 +251,11 @@ class Medium(_check.Parameters):
         q_c, eta, work_of_adhesion, hardness, f_c : float
             As in `Medium`.
 
+        Raises
+        ------
+        ValueError
+            If a parameter is out of its range, or both bodies are rigid.
+
         Examples
         --------
         >>> from mdr_core import Medium
@@ -273,9 +288,9 @@ class Medium(_check.Parameters):
         eta: ArrayLike = 0.0,
         work_of_adhesion: ArrayLike = 0.0,
     ) -> "Medium":
-        """The medium that is isotropic in the plane of its surface: a laminate, a ply, wood, a crystal.
+        """The medium of a laminate, a ply, wood or a crystal that is isotropic in the plane of its surface.
 
-        Pressed along its axis of symmetry by a rigid indenter it is described by the exact
+        It is pressed along its axis of symmetry by a rigid indenter, and has the exact
         E* = 2 √((C₁₁C₃₃ − C₁₃²)/C₁₁ / (1/C₄₄ + 2/(√(C₁₁C₃₃) + C₁₃))) with its stiffnesses C (Hanson 1992;
         Delafargue and Ulm 2004). Its `poisson` is None: the stress below the surface and friction need more
         constants than E*, and are refused.
@@ -296,6 +311,11 @@ class Medium(_check.Parameters):
             Dynamic viscosity η (Pa·s). All elastic constants relax with the same time τ = 4η/E*.
         q_c, hardness, f_c, work_of_adhesion : float, optional
             As in `Medium`.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of its range, or no material has these constants together.
 
         Examples
         --------
@@ -358,8 +378,8 @@ class Medium(_check.Parameters):
         _check.common_shape("hardness_at", radius=a, medium=np.empty(self.shape))
         law = self.law
         hardness = above("own.law").law_numbers(law, "at", a) if self.has_own_law else law.at(a)
-        bound = "is no hardness: it must be above 0"
-        _check.refuse("hardness", hardness, ~(hardness > 0), bound, unit="Pa", advice="mend the law")
+        bound = "must be above 0"
+        _check.refuse("hardness", hardness, ~(hardness > 0), bound, unit="Pa", advice="correct the law")
         return _check.frozen(hardness + np.zeros(np.shape(a)))
 
     @property

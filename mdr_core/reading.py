@@ -100,7 +100,7 @@ def read_curves(
         or blanks; an Excel file (.xls, .xlsx), of which each sheet with a curve is read, by pandas; or an
         AFM file (.jpk-…, .h5, .ibw, .zip, .tab; text of AFM Workshop, Optics11 and NT-MDT), by
         `afmformats`. Of AFM files the depth is minus the position of the tip, −(height + F/k) with the
-        stiffness k of the cantilever, and its zero is not the contact point.
+        stiffness k of the cantilever, and its zero is not first contact.
     spring_constant : float, optional
         Stiffness k of the cantilever (N/m); the header of a text may have it, but this one goes first. The
         deflection F/k is subtracted from the position of a piezo, and a deflection (m or V) gives the
@@ -132,7 +132,7 @@ def read_curves(
         a stiffness or a sensitivity is needed. It is a ValueError.
     ValueError
         If most lines are no rows of numbers; if a stiffness or a sensitivity is given that nothing uses, or
-        `by` parts nothing; if a file is too large; if it is binary and not read, with the export to make.
+        `by` separates nothing; if a file is too large; if it is binary and not read.
     OSError
         If there is no such file (FileNotFoundError), whatever its name ends with, or it may not be read.
     ImportError

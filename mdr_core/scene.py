@@ -35,11 +35,16 @@ _INFINITE = {Medium: ("q_c",), Structure: ("impedance", "stiffness")}
 #: Remedy for a law of hardness, whose class is not in a file.
 _NOT_KEPT = "keep the script that makes the law, or pickle the scene where its class can be imported"
 _FORMAT, _VERSION = "mdr-scene", 1
+_EXPECTED = {
+    "profile": "Profile",
+    "medium": "Medium",
+    "drive": "DepthPath, ForcePath, FreeImpact or FreeObliqueImpact",
+}
 
 
 @dataclass(frozen=True)
 class Scene:
-    """An indenter, a medium, and a drive.
+    """A whole calculation as one value: an indenter, a medium and a drive.
 
     Parameters
     ----------
@@ -47,6 +52,13 @@ class Scene:
         The indenter, a `Profile`, and the `Medium`.
     drive : DepthPath, ForcePath, FreeImpact or FreeObliqueImpact
         Path of the indenter, or impact.
+
+    Raises
+    ------
+    TypeError
+        If one of them is of another type.
+    ValueError
+        If parameters of profile or medium are arrays: a scene is a single problem.
 
     Examples
     --------
@@ -63,7 +75,9 @@ class Scene:
     def __post_init__(self):
         for name, kind in (("profile", Profile), ("medium", Medium), ("drive", _DRIVES)):
             if not isinstance(getattr(self, name), kind):
-                raise TypeError(f"scene {name} is of the wrong type: {shown(getattr(self, name))}")
+                raise TypeError(
+                    f"scene {name} must be a {_EXPECTED[name]}, got {shown(getattr(self, name))}"
+                )
         check_pair(self.profile, self.medium, "a scene")
 
     @property
@@ -140,6 +154,13 @@ class Scene:
         ------
         ValueError
             If the text is not JSON, not a scene, or has a value outside its range.
+
+        Examples
+        --------
+        >>> from mdr_core import Cone, DepthPath, Medium, Scene
+        >>> scene = Scene(Cone(slope=1.0), Medium(E_star=1.0), DepthPath(2.0))
+        >>> Scene.from_json(scene.to_json()) == scene
+        True
         """
         if isinstance(text, os.PathLike) or (isinstance(text, str) and text.strip().endswith(".json")):
             name, remedy = shown(str(text)), "Scene.from_json(pathlib.Path(name).read_text())"

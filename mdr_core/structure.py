@@ -24,7 +24,7 @@ from ._check import ArrayLike, Parameter
 
 @dataclass(frozen=True, eq=False)
 class Structure(_check.Parameters):
-    """What carries the medium: a plate or a rod by its impedance, or a support by its stiffness.
+    """What carries the medium: a plate or a rod, by its impedance, or a support, by its stiffness.
 
     Give one of the two. In series they are not a plate on its support: under a constant force an endless
     plate would go on for ever. Take the plate for a light and fast body, whose contact is over before the

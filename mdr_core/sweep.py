@@ -182,8 +182,10 @@ def oblique_impacts(
 ) -> "xarray.Dataset":
     """Oblique impacts (`mdr_core.oblique_impact`) over named dimensions.
 
-    As in `impacts`, with the Poisson ratio, and the further arguments and quantities of `oblique_impact`;
-    viscous ones are solved one by one.
+    Parameters, result and errors are those of `impacts`. In addition there are Poisson's ratio of the
+    `Medium`, and of `oblique_impact` the tangential speed (m/s), the coefficient of friction, the
+    tangential mass (kg), `tolerance`, and the quantities of `ObliqueImpact`. Viscous impacts are solved one
+    by one.
 
     Examples
     --------
@@ -221,8 +223,9 @@ def indentations(
 ) -> "xarray.Dataset":
     """First loadings (`mdr_core.indent`) over named dimensions: each depth on a virgin medium.
 
-    Parameters and result as in `impacts`, with depths (m), negative above the surface, and with quantities
-    of `Indentation`: "force", "contact_radius", "mean_pressure", …
+    Parameters, result and errors are those of `impacts`, with depths (m), negative above the surface,
+    instead of mass and speed, and with quantities of `Indentation`: "force", "contact_radius",
+    "mean_pressure", …
 
     Examples
     --------

@@ -91,7 +91,7 @@ def test_a_depth_with_the_deflection_in_it_is_not_quoted(tmp_path):
 
 
 def test_a_height_without_a_stiffness_has_a_remark(tmp_path):
-    """The deflection is then that of a frame of the compliance 1/k."""
+    """The deflection is then that of a frame compliance of 1/k."""
     curve().export_data(tmp_path / "run.tab", fmt="tab")
     read = mdr.read_curve(tmp_path / "run.tab")
     assert read.spring_constant is None

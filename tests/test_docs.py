@@ -21,7 +21,7 @@ import mdr_core as mdr
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "assets" / "docs"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.rglob("*.md"))]
-EXAMPLES = sorted((DOCS / "examples").glob("[0-9]*.py"))
+EXAMPLES = sorted((DOCS / "examples").rglob("[0-9]*.py"))
 #: Blocks of code, each with what the block of text below it says that it prints.
 CODE = re.compile(r"```python\n(.*?)```(?:\n\n```text\n(.*?)```)?", re.DOTALL)
 BLOCKS = [
@@ -226,15 +226,15 @@ class Links(HTMLParser):
             self.loaded.append(address)
 
 
-@pytest.fixture
-def site(tmp_path):
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
     """The folder of the site: of `MDR_SITE`, which the README's command has built, or without pictures."""
     if built := os.environ.get("MDR_SITE"):
         return Path(built)
     for package in ("sphinx", "numpydoc", "myst_parser", "pydata_sphinx_theme", "sphinx_gallery", "panel"):
         pytest.importorskip(package)
-    folder = tmp_path / "site"
-    build = ("-m", "sphinx", "-W", "-q", "-D", "plot_gallery=0", "-d", tmp_path / "tree", DOCS, folder)
+    folder, tree = (tmp_path_factory.mktemp(name) for name in ("site", "tree"))
+    build = ("-m", "sphinx", "-W", "-q", "-D", "plot_gallery=0", "-d", tree, DOCS, folder)
     done = subprocess.run([sys.executable, *map(str, build)], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return folder
@@ -259,6 +259,31 @@ def test_the_site_is_built_without_warnings_and_its_links_lead_somewhere(site):
             path = (page.parent / target.partition("?")[0]).resolve() if target else page
             assert path.exists(), f"{page.name}: {link}"
             assert not anchor or path not in pages or anchor in pages[path].anchors, f"{page.name}: {link}"
+
+
+@pytest.mark.slow
+def test_the_reference_of_the_site_begins_with_an_index_of_all_public_names(site):
+    """Each with a link to its own description and with what it does."""
+    index = site / "reference" / "index.html"
+    linked = {link.partition("#")[2].removeprefix("module-") for link in Links(index).links}
+    names = {*mdr.__all__, *(f"sweep.{name}" for name in mdr.sweep.__all__)}
+    assert {f"mdr_core.{name}" for name in names} <= linked
+    rows = re.findall(r"<tr.*?</tr>", index.read_text(encoding="utf-8"), re.DOTALL)
+    said = [re.sub(r"<[^>]+>", "", row.rpartition("<td>")[2]).strip() for row in rows]
+    assert len(said) >= len(mdr.__all__)
+    # A sentence, which an abbreviation such as "Eq." does not cut.
+    assert all(len(text.split()) >= 3 and not re.search(r"\b(Eqs?|Fig)\.$", text) for text in said)
+
+
+@pytest.mark.slow
+def test_the_reference_of_the_site_has_no_machinery(site):
+    """What only solvers ask for: of shapes and drives it is said once, in the base class or not at all."""
+    described = set().union(*(Links(page).anchors for page in (site / "reference").glob("*.html"))) - {None}
+    for shape in (mdr.Cone, mdr.Sphere, mdr.Sampled, mdr.Smooth):
+        assert not {f"mdr_core.{shape.__name__}.{name}" for name in dir(mdr.Profile)} & described
+    hidden = ("Profile.sound", "DepthPath.solve", "numerics.results.Record", "numerics.results.Model")
+    assert not {f"mdr_core.{name}" for name in hidden} & described
+    assert "mdr_core.Cone.from_half_angle" in described
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.split("|")[1].strip())

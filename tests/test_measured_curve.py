@@ -11,7 +11,7 @@ from .approx import approx
 
 DATA = Path(__file__).parent / "data"
 TIP, GLASS = mdr.Cone.berkovich(), mdr.Medium(E_star=80e9, hardness=14e9)
-#: Rate of a drift (m/s), and compliance of a frame (m/N).
+#: Rate of a drift (m/s), and frame compliance (m/N).
 DRIFT, FRAME = 0.05e-9, 2e-8
 
 
@@ -100,7 +100,7 @@ def test_drift_and_frame_are_the_inverse_of_what_they_add(tmp_path, labelled):
     np.testing.assert_allclose(corrected.depth, DEPTH, atol=1e-11 * DEPTH.max() + 1e-19)
     np.testing.assert_array_equal(corrected.force, curve.force)
     assert [remark.split(" is ")[0] for remark in corrected.remarks[-2:]] == [
-        "depth: a drift of 50 pm/s", "depth: the compliance of a frame, 20 nm/N,"
+        "depth: a drift of 50 pm/s", "depth: a frame compliance of 20 nm/N"
     ]  # fmt: skip
     fit = mdr.fit_indentation(TIP, corrected.depth, corrected.force, hardness=None, contact_point=0.0)
     assert fit.medium.E_star == approx(GLASS.E_star, rel=1e-6)

@@ -62,7 +62,7 @@ REFUSALS = {
     ),
     "not finite": (
         lambda: mdr.indent(CONE, MEDIUM, np.inf),
-        ("depth", np.inf, "must be finite", "m", "leave it out, or mend the data it comes from"),
+        ("depth", np.inf, "must be finite", "m", "leave it out, or correct the data it comes from"),
     ),
     "negative force": (
         lambda: mdr.indent_to_force(CONE, MEDIUM, -2.0),
@@ -102,7 +102,7 @@ REFUSALS = {
         (
             "E_star",
             LAZY,
-            "is a lazy array, which would be taken into memory as a whole",
+            "is a lazy array, which would be loaded into memory as a whole",
             "Pa",
             ".compute() it, or give it to mdr_core.sweep, which keeps it lazy",
         ),

@@ -114,7 +114,7 @@ def test_bad_scenes_are_refused(text, says):
 
 
 def test_wrong_parts_are_refused():
-    with pytest.raises(TypeError, match="scene medium is of the wrong type"):
+    with pytest.raises(TypeError, match="scene medium must be a Medium, got"):
         mdr.Scene(mdr.Cone(1.0), 1e9, mdr.DepthPath(1.0))
 
 

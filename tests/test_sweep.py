@@ -202,7 +202,7 @@ class TestInvalid:
         depth = xr.DataArray([1e-9, np.inf], dims="depth")
         table = sweep.indentations(mdr.Cone(0.3), E_star=1e9, depth=depth, invalid="nan")
         assert table.attrs["invalid"] == [
-            "depth[1] = inf m must be finite; leave it out, or mend the data it comes from"
+            "depth[1] = inf m must be finite; leave it out, or correct the data it comes from"
         ]
         friction = xr.DataArray([0.1, -0.1], dims="particle")
         given = {"E_star": 1e9, "mass": 1e-12, "speed": 1.0, "tangential_speed": 10.0, "friction": friction}

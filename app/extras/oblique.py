@@ -47,7 +47,7 @@ class ObliqueCourse(Course):
 
     @cached_property
     def rebound(self) -> SimpleNamespace:
-        """Results (SI) of an oblique impact, of the contact point and of the body."""
+        """Results (SI) of an oblique impact, of the point of contact and of the body."""
         drive, hit, motion = self.scene.drive, self.motion.impact, self.motion
         after = float(motion.tangential_velocity[-1] if hit is None else hit.tangential_velocity)
         largest = np.max(np.abs(motion.tangential_force)) if hit is None else hit.max_tangential_force

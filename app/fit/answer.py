@@ -40,7 +40,7 @@ def answer_of(page: Any) -> Answer:
             _HEAD.format("The curve is not read yet", "Give the missing information on the left.")
         )
     if page.refused:
-        todo = "The reason is on the left. Drop another file, or mend this one."
+        todo = "The reason is on the left. Drop another file, or correct this one."
         return Answer(_HEAD.format("This file cannot be read", todo))
     return Answer(_ONE.format("No fit")) if page.not_fitted else Answer(Markup(""))
 

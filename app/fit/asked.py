@@ -51,7 +51,7 @@ class Samples:
 
 
 def samples(curve: MeasuredCurve, drift: float = 0.0, frame: float = 0.0) -> Samples:
-    """Samples of a curve without a drift (m/s) and the compliance of a frame (m/N)."""
+    """Samples of a curve without a drift (m/s) and the frame compliance (m/N)."""
     if drift and curve.time is not None:
         curve = curve.minus_drift(drift)
     if frame:
@@ -144,6 +144,6 @@ def refuse_range(asked: Asked) -> None:
     origin = arguments.get("contact_point")
     if origin is not None and origin >= depth[used].max():
         raise ValueError(
-            f"the contact point z₀ = {written(origin, 'length')} is held, and the samples reach only to "
+            f"first contact z₀ = {written(origin, 'length')} is held, and the samples reach only to "
             f"{written(within, 'length')}: let the fit find z₀, or type a smaller z₀"
         )

@@ -56,7 +56,7 @@ def _withheld(quoted: Quoted, doubt: Remark) -> Quoted:
 
 
 def _of_other_half(asked: Asked) -> float | None:
-    """E* (Pa) of the other segment by the same fit, with a contact point of its own; None for others.
+    """E* (Pa) of the other segment by the same fit, with a first contact of its own; None for others.
 
     Of a range that a person has chosen, or of a contact that is held, there is no other half.
     """

@@ -116,7 +116,7 @@ CLASS_NAMES = {"a": "constant hardness", "b": "hardness ∝ 1/a", "c": "hardness
 #: What is subtracted from the depth before a fit, and the noise of the depth: typed, never free.
 CORRECTIONS = {
     "drift": Number("v_d", "drift of the depth", "speed", -1.0, 1.0),
-    "frame": Number("C_f", "compliance of the frame", "compliance", 0.0, 1e6),
+    "frame": Number("C_f", "frame compliance", "compliance", 0.0, 1e6),
     "depth_noise": Number("σ_d", "noise of the depth", "length", 0.0, 1e-3),
 }
 #: Corrections and parameters that need the times of the samples.

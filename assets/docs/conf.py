@@ -1,6 +1,7 @@
 """Configuration of the documentation, which the README has the command for."""
 
 import os
+import sys
 from pathlib import Path
 
 from docutils import nodes
@@ -13,6 +14,8 @@ from app.page import Page
 from mdr_core.numerics.remark import KINDS
 from mdr_explorer import static
 
+sys.path.insert(0, str(Path(__file__).parent))
+
 project = "mdr-core"
 author = "The mdr-core authors"
 copyright = author
@@ -24,10 +27,18 @@ extensions = [
     "sphinx.ext.autosummary",
     "numpydoc",
     "sphinx_gallery.gen_gallery",
+    "names",
+    "thumbnails",
 ]
 exclude_patterns = ["examples"]
 html_theme = "pydata_sphinx_theme"
-html_theme_options = {"show_prev_next": False, "header_links_before_dropdown": 5}
+html_theme_options = {
+    "show_prev_next": False,
+    "header_links_before_dropdown": 5,
+    "logo": {"text": f"{project} {version}"},
+}
+html_static_path = ["static"]
+html_css_files = ["site.css"]
 html_context = {"default_mode": "auto"}
 html_sidebars = {"index": [], "install": [], "**": ["sidebar-nav-bs"]}
 html_title = project
@@ -55,6 +66,8 @@ sphinx_gallery_conf = {
     "within_subsection_order": "FileNameSortKey",
     "show_signature": False,
     "capture_repr": (),
+    "image_scrapers": ("thumbnails.scraper",),
+    "min_reported_time": float("inf"),
     "write_computation_times": False,
     "abort_on_example_error": True,
 }
@@ -75,6 +88,13 @@ PAGES = {
     "CONTRIBUTING.md": "contributing",
     "CHANGELOG.md": "changelog",
 }
+
+
+def drop_download_notes(app, doctree):
+    """Remove the box on top of each example, which leads to the end of a page that is short."""
+    for note in list(doctree.findall(nodes.note)):
+        if "sphx-glr-download-link-note" in note["classes"]:
+            note.parent.remove(note)
 
 
 def link_pages(app, doctree):
@@ -101,5 +121,6 @@ def write_explorer(app, error):
 def setup(app):
     app.add_html_math_renderer("mathml", (mathml, None), (mathml, None))
     app.connect("doctree-read", link_pages)
+    app.connect("doctree-read", drop_download_notes)
     app.connect("build-finished", save_scene)
     app.connect("build-finished", write_explorer)

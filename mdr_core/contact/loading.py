@@ -31,11 +31,10 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     medium : Medium
         The medium.
     depth : float or array_like
-        Indentation depth d (m), one number or a path along the last axis; negative out of contact, or
-        where adhesion holds the contact. Contact begins at d_p, the bottom of the imprint, also on
-        reloading, and with adhesion is lost at the pull-off. Each
-        row of a larger array is a path of its own on a virgin medium. Parameters of medium and profile may
-        be arrays of shape (…, 1), for one path each.
+        Indentation depth d (m): one number, or a path along the last axis. It is negative out of contact,
+        and where adhesion holds the contact. Contact begins at the bottom of the imprint, d_p, also on
+        reloading; with adhesion it is lost at the pull-off. Each row of a larger array is a path of its own
+        on a virgin medium. Parameters of medium and profile may have the shape (…, 1), for one path each.
 
     Returns
     -------
@@ -45,8 +44,8 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     Raises
     ------
     ValueError
-        If a depth is not finite, or larger than the known depth of the profile, or if a law of hardness is
-        none up to the contact radius there (`HardnessLaw`).
+        If a depth is not finite or exceeds the known depth of the profile; if a `HardnessLaw` is invalid
+        (negative, jumps) below the contact radius reached.
 
     Examples
     --------
@@ -95,8 +94,8 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     ValueError
         If a force is not finite, negative without adhesion, larger than a flat face carries before all of
         it yields (π b² σ_c(b), Popov 2015, Eq. (11)) or than f_c carries alone (π f_c), or presses deeper
-        than the known depth of the profile; or if a law of hardness is not valid up to the contact radius
-        there.
+        than the known depth of the profile; or if a `HardnessLaw` is invalid (negative, jumps) below the
+        contact radius reached.
 
     Examples
     --------

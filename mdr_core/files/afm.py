@@ -33,7 +33,7 @@ _CURES = {
     ),
     "NotImplementedError": (
         " Its forces are in N: give neither. minus_frame(1 / k) subtracts a deflection",
-        " Its forces are in N: give neither. A deflection is subtracted as a frame of the compliance 1/k",
+        " Its forces are in N: give neither. A deflection is subtracted as a frame compliance of 1/k",
         (),
     ),
     "UnicodeDecodeError": ("; if it is packed, unpack it and read its files",) * 2 + ((),),

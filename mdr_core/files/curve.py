@@ -27,7 +27,7 @@ def curves_of(table, file, columns=None, by=None, given=None):
         return _side_by_side(table, file, [told(table, name, each) for each in columns], by, given)
     if by == "segments":
         raise refused(
-            f"by = 'segments' parts nothing in {name}: give a list of columns, one dict for each part",
+            f"by = 'segments' finds no parts in {name}: give a list of columns, one dict for each part",
             f"{name} has no second columns or tables that are parts of a curve",
             Remedy("give", "by"),
         )

@@ -13,7 +13,7 @@ class NoCurve(ValueError):
 
 
 class UnknownColumns(ValueError):
-    """A table of which a person has to say what it is, with a suggestion to confirm.
+    """Raised for a table that does not say what its columns are, with a suggestion to confirm.
 
     ``read_curves(path, **error.suggestion)`` reads the file as suggested, where that is right and complete.
 

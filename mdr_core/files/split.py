@@ -174,8 +174,8 @@ def parts(table, by, columns):
     if not rows:
         what = "the depth does not start anew" if by == "restart" else "there are no gaps between the rows"
         raise refused(
-            f"by = {by!r} parts nothing: {what}; leave it out, or give by='whole'",
-            f"nothing parts the rows: {what}; take them as one curve",
+            f"by = {by!r} separates nothing: {what}; leave it out, or give by='whole'",
+            f"nothing separates curves: {what}; take the rows as one curve",
             Remedy("give", "by", "whole"),
         )
     edges = [0, *rows, len(table.lines)]
@@ -192,8 +192,8 @@ def _grouped(table, by):
     group, heads = group.ravel(), " and ".join(repr(head) for head, _ in chosen)
     if first.size < 2:
         raise refused(
-            f"by = {by!r} parts nothing: {heads} has one value; leave it out",
-            f"{heads} does not part the rows, as it has one value",
+            f"by = {by!r} separates nothing: {heads} has one value; leave it out",
+            f"{heads} has one value in all rows and separates no curves",
             Remedy("give", "by", "whole"),
         )
     counts = np.bincount(group)

@@ -87,7 +87,9 @@ def _of_many(curves, time, skip):
 def remarks_of_one(remarks):
     """The remarks of one curve that was read from a file."""
     if len(remarks) > 1:
-        raise ValueError(f"{len(remarks)} curves: an evaluation is of one, as of curves[0]")
+        raise ValueError(
+            f"oliver_pharr takes one curve, got {len(remarks)}: give one of them, as in curves[0]"
+        )
     return remarks[0] if remarks else ()
 
 

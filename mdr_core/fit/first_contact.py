@@ -20,10 +20,10 @@ _SHARES = (1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01)
 #: The exponent of the loading may be so much smaller or larger than that of an elastic contact; in a second
 #: search also as small as with a hardness that falls with the radius, and never below a number.
 _SOFTER, _SOFTEST, _STIFFER = (0.5, 1.2), 0.3, 1.0
-#: Trial contact points, as shares of the depth between the first sample and the first force that is seen.
+#: Trial first contacts, as shares of the depth between the first sample and the first force that is seen.
 _STARTS = np.linspace(0.1, 1.0, 4)
 #: Least number of samples of a part that is fitted, standard deviations of noise that its force exceeds,
-#: and within which two contact points agree.
+#: and within which two first contacts agree.
 _FEW, _SEEN, _AGREE = 10, 10.0, 2.0
 
 
@@ -157,7 +157,7 @@ def _power_law(depth, force, seen, least, most):
 
     z = np.minimum(_STARTS * x[min(seen, x.size - 1)], 0.98) if seen else -_STARTS
     start = np.column_stack([0 * z, 0 * z + y[-1], z, 0 * z + (least + most) / 2])
-    # Of the baseline and the range of force in units of that of the samples, and of the contact point.
+    # Of the baseline and the range of force in units of that of the samples, and of first contact.
     lower, upper = ([-1.0, 1e-3, -2.0 if seen else -50.0, least], [1.0, 10.0, 1.0, most])
     lower, upper = (np.tile(each, (z.size, 1)) for each in (lower, upper))
     minimum = least_squares(function, start, lower, upper, steps=60, tolerance=1e-8)

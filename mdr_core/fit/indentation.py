@@ -58,7 +58,7 @@ def fit_indentation(
     depth, force : array_like
         Measured depths (m) and forces (N) in the order of time, of the same shape: one curve (N,), or many
         (R, N) with one indenter, each on a virgin medium; or lists of R arrays of different lengths.
-        Samples with NaN are left out. A drift and the compliance of a frame are subtracted before, by
+        Samples with NaN are left out. A drift and frame compliance are subtracted before, by
         `MeasuredCurve.minus_drift` and `minus_frame`. With `q_c=inf`, without `time` and without adhesion
         the order does not matter. In the place of depth and force a `MeasuredCurve`, as of `read_curve`, or
         `MeasuredCurves`, whose remarks come first in those of the fit.

@@ -15,7 +15,7 @@ from .. import _check
 from ..medium import Medium
 from ..show.quantities import QUANTITIES, Quantity
 
-#: The contact point is searched down to so many ranges of depth below the record.
+#: First contact is searched down to so many ranges of depth below the record.
 REACH = 30.0
 _ADHESION = QUANTITIES["work_of_adhesion"]
 _TILT, _DRAG = Quantity("F₁", "N/m", "tilt of the baseline"), Quantity("ζ", "N·s/m", "drag")
@@ -155,7 +155,7 @@ TOGETHER = {
     "f_c": Addend(_F_C, unit=lambda curves: curves.load),
 }
 #: All parameters, in the order of a fit.
-PARAMETERS = MEDIUM | {"contact_point": ContactPoint(Quantity("z₀", "m", "contact point"))} | BACKGROUND
+PARAMETERS = MEDIUM | {"contact_point": ContactPoint(Quantity("z₀", "m", "first contact"))} | BACKGROUND
 
 
 def symbols(names):

@@ -131,9 +131,7 @@ def unloading(fit) -> tuple[OliverPharr | None, Remark]:
         if _begins_at_contact(fit.depth, force):
             return _evaluated(fit, fit.depth, force), _first("is at depth 0")
         if doubt := _doubt(fit, DOUBTS):
-            return None, doubt.after(
-                "the model does not fit, so that its contact point is not first contact: "
-            )
+            return None, doubt.after("the model does not fit, so that first contact is not known: ")
         shift = fit.standard_errors["contact_point"]
         shifted = _evaluated(fit, fit.path.depth + shift, force)
     except ValueError as error:

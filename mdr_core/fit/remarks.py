@@ -13,7 +13,7 @@ from .noise import tests_of_noise
 from .parameters import TOGETHER, symbols
 from .tip import of_ideal_tip
 
-#: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
+#: Those that say that the model does not fit, and its first contact may be wrong by more than its error.
 DOUBTS = {
     "units", "order", "no contact", "undetermined", "tilt", "drag", "drift", "misfit", "jitter", "noisy",
 }  # fmt: skip

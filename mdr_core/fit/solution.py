@@ -121,7 +121,7 @@ def problems(profile, measured, held, depth_noise):
 
 
 def table_depth(profile, depth, held):
-    """Depth (m) to which the profile is tabulated: that of the farthest contact point."""
+    """Depth (m) to which the profile is tabulated: that of the farthest first contact."""
     top = np.nanmax(depth, axis=1)
     limit = (1 + REACH) * float((top - np.nanmin(depth, axis=1)).max())
     if "contact_point" in held:
@@ -157,7 +157,7 @@ def solved(rows, curves, noise_known):
 
 
 def _best_minimum(curves):
-    """The best minimum, and the second-best one that differs in E* or contact point."""
+    """The best minimum, and the second-best one that differs in E* or first contact."""
     (_, start), *others = first_guesses(curves)
     best = curves.search(start)
     rival, rival_squares = best.x.copy(), np.full(len(start), np.inf)

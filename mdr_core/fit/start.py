@@ -1,6 +1,6 @@
-"""Starts of the search for a curve: the best of a grid of contact points and media.
+"""Starts of the search for a curve: the best of a grid of first contacts and media.
 
-The force is E* times a function of the contact point, the constants of the hardness over E*, and the
+The force is E* times a function of first contact, the constants of the hardness over E*, and the
 relaxation time or the work of adhesion, and a background: E* and the parameters of the background follow by
 linear regression.
 """
@@ -37,7 +37,7 @@ _STARTS, _CLOSE = 4, 20.0
 def first_guesses(curves):
     """Starts of a search, the best first, each with its rows and their scaled parameters.
 
-    They are the minima over the trial contact points.
+    They are the minima over the trial first contacts.
     """
     largest = min((1 + REACH) * float(curves.length.max()), curves.profile.known_depth)
     depths = largest * np.append(0.0, np.geomspace(1e-7, 1, 600))
@@ -53,7 +53,7 @@ def first_guesses(curves):
 
 
 def _guesses(curve, turning_depth, table):
-    """Free parameters of one curve by name at the minima over its contact points, the best first."""
+    """Free parameters of one curve by name at the minima over its first contacts, the best first."""
     held = {name: float(value[0]) for name, value in curve.held.items()}
     depth = curve.depth[0]
     top, length = float(curve.top[0, 0]), float(curve.length[0, 0])

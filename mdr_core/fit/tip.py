@@ -16,7 +16,7 @@ _BLUNT = 200e-9
 def of_ideal_tip(profile, contact_depth, held=False):
     """Yields a remark on contact depths (m) under an ideal cone, if they are small; NaN is none.
 
-    `held` says whether it is of a fit with its contact point held. A fitted one takes the rounding up: with
+    `held` says whether it is of a fit with first contact held. A fitted one takes the rounding up: with
     R = 0.3 µm and 100 nm of depth E* is then within 2 %, z₀ 20 nm off; with the right z₀ it is 37 % off.
     """
     depths = np.ravel(contact_depth)

@@ -74,7 +74,7 @@ def chain_impact(
     ------
     ValueError
         If mass or speed is not positive, `start` has another profile or medium, the largest depth exceeds
-        the known depth of the profile, or a law of hardness is none up to the largest contact radius.
+        the known depth of the profile, or a `HardnessLaw` is invalid below the largest contact radius.
 
     Examples
     --------

@@ -49,7 +49,8 @@ def indent_in_time(
 ) -> "TimedIndentation":
     """Press an indenter into a viscous medium along a path of depth in time.
 
-    Solved by the chain, because contact may return to elements that are still relaxing.
+    Solved by the chain, because contact may return to elements that are still relaxing (Popov 2015, Eq. (1)
+    for each element).
 
     Parameters
     ----------

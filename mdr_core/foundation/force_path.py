@@ -31,11 +31,11 @@ def check_creep(profile, medium, force, time, tolerance):
     """Checked arrays of forces (N) and times (s) of a path of force in time, and its tolerance."""
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
-    refuse_own_law(medium, "a path of force in time", "take indent_in_time, a path of depth in time")
+    refuse_own_law(medium, "creep()", "use indent_in_time(), which takes depths over time")
     if medium.f_c > 0:
         raise ValueError(
-            "a path of force in time is not computed with f_c above 0: the force that a contact carries "
-            "may then fall by itself, and the indenter jumps; take indent_in_time, or set f_c = 0"
+            "creep() does not support f_c above 0: the force may fall while the depth grows, and the "
+            "indenter jumps; use indent_in_time(), which takes depths over time, or set f_c = 0"
         )
     force = _check.force("force", force)
     time = check_times(time, force, "force")

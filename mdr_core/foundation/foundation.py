@@ -18,13 +18,13 @@ from .row import Row
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Foundation:
-    """The 1D foundation of Popov (2015), Fig. 1, as a row of independent elements.
+    """The 1D foundation as a row of independent springs and dashpots, which yield.
 
-    Each of the n elements between −half_width and half_width is a spring Δk = E*Δx, which carries at most
-    π q_c/2 per length, in parallel with a dashpot Δγ = 4ηΔx (Eqs. (1), (12)); with another hardness at most
-    π a σ_c(a)/2, where a is the contact radius at the largest depth. A foundation is immutable: `advance`
-    returns a new one, exact for a straight ramp of depth (plastic work to second order). Independent of
-    `indent` and `impact`.
+    It is that of Popov (2015), Fig. 1. Each of the n elements between −half_width and half_width is a
+    spring Δk = E*Δx, which carries at most π q_c/2 per length, in parallel with a dashpot Δγ = 4ηΔx (Eqs.
+    (1), (12)); with another hardness at most π a σ_c(a)/2, where a is the contact radius at the largest
+    depth. A foundation is immutable: `advance` returns a new one, exact for a straight ramp of depth
+    (plastic work to second order). Independent of `indent` and `impact`.
 
     Parameters
     ----------

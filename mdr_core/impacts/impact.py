@@ -31,7 +31,8 @@ def impact(
     """Solve the impact of a free body of given mass and speed on a medium.
 
     Contact starts at the bottom of the imprint (depth 0 on a virgin medium), and ends at zero force, with
-    adhesion at the pull-off.
+    adhesion at the pull-off. Without viscosity the energy balance is solved, else the equation of motion.
+    Eqs. (23), (24) of Popov (2015) are its limit for fast impacts, `Impact.fast_limit`.
 
     Parameters
     ----------
@@ -46,8 +47,8 @@ def impact(
         `plastic_depth` of the previous one. 0 (the default) is a virgin medium.
     structure : Structure, optional
         The plate, rod or support that carries the medium; by default the body behind the surface is at
-        rest. An endless plate stays displaced and at rest, so that a further impact on an imprint is a
-        first one for it.
+        rest. A plate without edges is at rest again after an impact; the next one on the imprint starts
+        from there.
 
     Returns
     -------
@@ -57,10 +58,10 @@ def impact(
     Raises
     ------
     ValueError
-        If an argument is out of its range, or the indenter would go deeper than its profile is known, or if
-        a law of hardness is not valid up to the largest contact radius (`HardnessLaw`); on a structure if
-        the medium is viscous (`chain_impact` solves that) or adhesive, or if the contact snaps on a
-        support, because its force falls faster with depth than the support gives way.
+        If an argument is out of its range; if the indenter would go deeper than its profile is known; if a
+        `HardnessLaw` is invalid (negative, jumps) below the largest contact radius. On a structure if the
+        medium is viscous (`chain_impact` solves that) or adhesive, or if the contact snaps on a support:
+        its force falls with depth by more than the stiffness of the support.
 
     Examples
     --------

@@ -102,15 +102,26 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
     """Determine the class of hardness from the radii of imprints of fast impacts at several energies.
 
     The slope of ln(radius) over ln(energy) is compared with 1/(n + i). A class fits within two standard
-    errors, or within 10 %, because real impacts are only approximately fast. They hit a thick and massive
-    body: of a hit on a plate or a soft support the structure takes a part of the energy.
+    errors, or within 10 %, because real impacts are only approximately fast. The body
+    that is hit must be thick and massive: a plate or a soft support takes a part of the energy. The classes
+    are those of Popov (2015), section 1.
 
     Parameters
     ----------
     energy, radius : array_like
         Energies (J) dissipated by the impacts, at least two different ones, and radii (m) of the imprints.
     exponent : float
-        Exponent n of the indenter z = c rⁿ.
+        Exponent n of the indenter z = c rⁿ, positive: 1 for a cone, 2 for a paraboloid.
+
+    Returns
+    -------
+    HardnessClass
+        With the letter of the class, `hardness_class`, or None, and the reason in words.
+
+    Raises
+    ------
+    ValueError
+        If energies and radii are not positive or of different shapes, or all energies are the same.
 
     Examples
     --------

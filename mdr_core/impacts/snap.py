@@ -52,7 +52,7 @@ def depth_before_snap(rule, imprint, interval, increase, energy, give, structure
         fall = stiffness * np.reshape(1 - way(start + (end - start) * shares**3).min(axis=1), shape)
         bound = (
             f"is no more than the {fall[snaps].flat[0]:.6g} N/m by which the force falls with depth after "
-            "the onset of yield: the contact snaps, and loses energy that is in no term of the balance"
+            "the onset of yield: the contact snaps, and the energy that it loses is not computed"
         )
         advice = "give a stiffer support, less speed, or a hardness without f_c"
         _check.refuse("stiffness", stiffness, snaps, bound, unit="N/m", advice=advice)

@@ -88,7 +88,7 @@ class Remedy:
 
 
 class Remark(str):
-    """A doubt about a number, as the sentence that is printed for users of the library.
+    """A doubt about a number of a fit, an unloading or a file, as a sentence.
 
     Attributes
     ----------

@@ -11,10 +11,27 @@ from .oblique_impact import ObliqueImpact
 
 
 def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
-    """Compute the normal and tangential speed (m/s) from the speed (m/s) and the angle of incidence (rad).
+    """Compute the normal and the tangential speed of a body from its speed and its angle of incidence.
 
-    The angle is that to the normal, π/2 less the angle of attack, between −π/2 and π/2. Use as in
-    `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
+    Use as in `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
+
+    Parameters
+    ----------
+    speed : float or array_like
+        Speed (m/s), positive.
+    angle : float or array_like
+        Angle (rad) to the normal, between −π/2 and π/2. It is π/2 less the angle of attack.
+
+    Returns
+    -------
+    tuple of float or numpy.ndarray
+        Normal speed, speed · cos(angle), and tangential speed, speed · sin(angle), both in m/s, of the
+        shape to which the arguments broadcast.
+
+    Raises
+    ------
+    ValueError
+        If the speed is not positive, or the angle not within −π/2 … π/2, as for an angle in degrees.
 
     Examples
     --------
@@ -34,9 +51,9 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
 
 @dataclass(frozen=True)
 class Ball:
-    """Ball that may spin, with the speed of its contact point and the change of its spin in an impact.
+    """Ball that may spin, with the speed of its point of contact and the change of its spin in an impact.
 
-    With spin Ω (rad/s) and the speed V of the centre, the contact point has the speed v_t = V + RΩ:
+    With spin Ω (rad/s) and the speed V of the centre, the point of contact has the speed v_t = V + RΩ:
     backspin is positive, and the ball rolls if V = −RΩ.
 
     Parameters
@@ -75,11 +92,11 @@ class Ball:
 
     @property
     def tangential_mass(self) -> Array:
-        """Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I."""
+        """Effective mass m_t (kg) at the point of contact along the surface, 1/m_t = 1/m + R²/I."""
         return 1 / (1 / self.mass + self.radius**2 / self.inertia)
 
     def contact_speed(self, tangential_speed: ArrayLike, spin: ArrayLike) -> Array:
-        """Speed v_t (m/s) of the contact point, from that of the centre (m/s) and a spin (rad/s)."""
+        """Speed v_t (m/s) of the point of contact, from that of the centre (m/s) and a spin (rad/s)."""
         speed = _check.finite_array("tangential_speed", tangential_speed, unit="m/s")
         return (speed + self.radius * _check.finite_array("spin", spin, unit="rad/s"))[()]
 

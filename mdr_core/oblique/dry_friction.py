@@ -1,9 +1,9 @@
 """Friction along the surface without viscosity, for many impacts at a time: section 13 of the theory.
 
 Lengths along the surface are in units of μ/κ. An element at a depth g of the reduced profile that sticks at
-the origin O of the displacement U of the contact point has the load Q = U − O, and |Q| ≤ B = d − max(g, p)
-with the depth d and the plastic depth p. Slip moves its origin until |Q| = B. With C = 2κE*/m_t the
-velocity W = U̇ of the contact point follows Ẇ = −C ∫Q dx.
+the origin O of the displacement U of the point of contact has the load Q = U − O, and |Q| ≤ B =
+d − max(g, p) with the depth d and the plastic depth p. Slip moves its origin until |Q| = B. With C =
+2κE*/m_t the velocity W = U̇ of the point of contact follows Ẇ = −C ∫Q dx.
 
 1. Levels of depth are the edges of cells, with a pair of elements at Gauss's points in each. A step lies
    between two instants at which the edge of the contact passes a level: it covers or releases one cell.

@@ -43,7 +43,7 @@ def oblique_impact(
     Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff and as
     viscous (Mindlin; outlook of Popov 2015). It sticks while its load is at most μ times the normal load of
     spring and dashpot, and slips otherwise. Yield, of any hardness, limits the normal springs only. The
-    body behind the medium is at rest: there is no structure, as in `impact`, that gives way.
+    body behind the medium is at rest; the `structure` of `impact` is not supported.
 
     Parameters
     ----------
@@ -52,12 +52,12 @@ def oblique_impact(
     mass, speed : float or array_like
         Mass m (kg) and normal speed v₀ (m/s) at first contact, positive.
     tangential_speed : float or array_like
-        Speed v_t0 (m/s) of the contact point along the surface, of any sign: see `at_angle`, and for bodies
-        that spin `Ball.contact_speed`.
+        Speed v_t0 (m/s) of the point of contact along the surface, of any sign: see `at_angle`, and for
+        bodies that spin `Ball.contact_speed`.
     friction : float or array_like
         Coefficient of friction μ, the same for stick and slip; 0 and infinity are allowed.
     tangential_mass : float or array_like, optional
-        Effective mass m_t (kg) at the contact point along the surface, 1/m_t = 1/m + R²/I, as by
+        Effective mass m_t (kg) at the point of contact along the surface, 1/m_t = 1/m + R²/I, as by
         `Ball.tangential_mass`; by default m, that of a body that cannot turn.
     tolerance : float, optional
         Error allowed in the tangential velocity relative to the tangential speed and in the largest force
@@ -139,7 +139,7 @@ class ObliqueImpact(Entries, Result):
     """
 
     normal: Impact
-    #: Speed v_t0 (m/s) of the contact point along the surface; friction coefficient μ; mass m_t (kg).
+    #: Speed v_t0 (m/s) of the point of contact along the surface; friction coefficient μ; mass m_t (kg).
     tangential_speed: Array
     friction: Array
     tangential_mass: Array
@@ -240,12 +240,12 @@ class ObliqueImpact(Entries, Result):
 
     @property
     def velocity_change(self) -> Array:
-        """Change ΔW (m/s) of the contact point's velocity along the surface."""
+        """Change ΔW (m/s) of the velocity of the point of contact along the surface."""
         return (self._surface.relative_change * self.tangential_speed)[()]
 
     @property
     def tangential_velocity(self) -> Array:
-        """Velocity v_t′ (m/s) of the contact point along the surface after, with its sign."""
+        """Velocity v_t′ (m/s) of the point of contact along the surface after, with its sign."""
         return (self.tangential_speed + self.velocity_change)[()]
 
     @property
@@ -255,7 +255,7 @@ class ObliqueImpact(Entries, Result):
 
     @property
     def rebound_angle(self) -> Array:
-        """Angle (rad) from the normal at which the contact point leaves, with the sign of its velocity."""
+        """Angle (rad) to the normal at which the point of contact leaves, with the sign of its velocity."""
         return np.arctan2(self.tangential_velocity, self.normal.rebound_speed)[()]
 
     @property

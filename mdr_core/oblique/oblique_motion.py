@@ -25,7 +25,7 @@ class ObliqueMotion(MotionResult):
     time, depth, velocity, force, contact_radius, plastic_radius, plastic_work : ndarray
         As of the normal `Motion`.
     tangential_velocity, tangential_force : ndarray
-        Velocity v_t (m/s) of the contact point along the surface, and the force (N) against it.
+        Velocity v_t (m/s) of the point of contact along the surface, and the force (N) against it.
     stick_radius, slip_radius : ndarray
         Outer and inner radius (m) of the region that sticks, to within an element; both 0 if all slips.
     kinetic_energy, stored_energy, viscous_work, friction_work : ndarray

@@ -2,7 +2,7 @@
 
 Quantities along the surface are divided by the initial tangential speed. An element with the displacement s
 has the load Q = s + τṡ, and |Q| ≤ B, where B is μ/κ times its normal load. It sticks with ṡ = W, the
-velocity of the contact point, or slips with |Q| = B; once released, it relaxes with Q = 0. With
+velocity of the point of contact, or slips with |Q| = B; once released, it relaxes with Q = 0. With
 C = 2κE*/m_t the velocity follows Ẇ = −C ∫Q dx.
 
 1. Levels of depth are the edges of elements. A step lies between two instants at which the edge of the

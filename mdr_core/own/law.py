@@ -77,7 +77,7 @@ def _check_values(law, a):
     _refuse_radii(
         law, a, ~((hardness > 0) & (hardness < np.inf)),
         lambda i: f"σ_c = {hardness[i]:g} Pa at a = {a[i]:g} m is not finite and above 0",
-        "a contact of this calculation has that radius: mend its at(a)",
+        "a contact of this calculation has that radius: correct its at(a)",
     )  # fmt: skip
     # The difference of a step back from each radius, over the step, and the derivative in its middle.
     change = (hardness - law_values(law, "at", a * (1 - _STEP))) / _STEP
@@ -97,7 +97,7 @@ def _check_values(law, a):
                 law, a, ~(np.abs(own - made) <= 1e-6 * scale),
                 lambda i, name=name, own=own, made=made: f"{name}(a) = {own[i]:g} at a = {a[i]:g} m, "
                 f"but by at(a) and rate(a) it is {made[i]:g}",
-                "leave it out, or mend it",
+                "leave it out, or correct it",
             )  # fmt: skip
 
 

@@ -32,11 +32,11 @@ _SAME = 1e-3
 #: are checked at a time.
 _COUNT, _DECADES, _PAIRS, _STEP, _ROWS = 200, 6, 12, 0.01, 512
 #: What is wrong, and what to do about it.
-_ENDS = "mend its functions, or give known_depth and known_radius, or wall, where the shape ends"
-_RADIUS = "mend radius_at(depth), or leave it out"
+_ENDS = "correct its functions, or give known_depth and known_radius, or wall, where the shape ends"
+_RADIUS = "correct radius_at(depth), or leave it out"
 _FALLS = "g(x) has fallen to {value:g} m at x = {place:g} m, so that the contact would not be compact"
-_RISE = "mend reduced_at(x): g is 0 at the tip, and does not fall"
-_SLOPE = "mend reduced_slope_at(x): it is the derivative of reduced_at(x), not of the height z"
+_RISE = "correct reduced_at(x): g is 0 at the tip, and does not fall"
+_SLOPE = "correct reduced_slope_at(x): it is the derivative of reduced_at(x), not of the height z"
 #: Factor by which g′ may differ from the slope of g, and share of the radii at which it may differ by more.
 #: Tables of powers of x up to the fourth, whose g is interpolated in another way than g′, differ by more at
 #: half of the radii of a contact that is three cells wide, at a quarter of those of ten cells.

@@ -15,7 +15,7 @@ from .profile import Profile
 
 @dataclass(frozen=True, eq=False)
 class FlatPunch(Profile):
-    """Flat-ended cylinder: z = 0 for r ≤ b, and a wall at b.
+    """Flat punch, a cylinder: z = 0 for r ≤ b, and a wall at b.
 
     Parameters
     ----------
@@ -51,7 +51,9 @@ class FlatPunch(Profile):
 
 @dataclass(frozen=True, eq=False)
 class Cone(Profile):
-    """Cone z = s r, with g = (π/2) s x: Popov (2015), Eqs. (13), (14), (16).
+    """Cone z = s r, with g = (π/2) s x.
+
+    Popov (2015), Eqs. (13), (14), (16).
 
     Parameters
     ----------
@@ -177,7 +179,9 @@ class Paraboloid(Profile):
 
 @dataclass(frozen=True, eq=False)
 class PowerLaw(Profile):
-    """Power law z = c rⁿ, with g = κₙ c xⁿ: Popov (2015), Eqs. (4)–(7).
+    """Power law z = c rⁿ, with g = κₙ c xⁿ.
+
+    Popov (2015), Eqs. (4)–(7).
 
     Parameters
     ----------

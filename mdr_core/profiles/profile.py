@@ -27,7 +27,7 @@ def is_own(profile):
 
 
 class Profile(_check.Parameters, ABC):
-    """Profile of a rigid axisymmetric indenter, with its tip at the origin and its height growing outward.
+    """Base class of shapes: rigid axisymmetric indenters, from the tip at the origin outward.
 
     A profile of your own is a frozen dataclass with the first three functions below. They are not checked:
     they take an array of lengths (m), none negative, which they must not change, and return an array of its
@@ -163,7 +163,7 @@ class Profile(_check.Parameters, ABC):
         radius = self.radius_at(depth)
         bound, advice = "has a contact beyond double precision", "press less deep"
         _check.refuse("depth", depth, np.isinf(radius), bound, unit="m", advice=advice)
-        advice = f"mend radius_at of {type(self).__name__}"
+        advice = f"correct radius_at of {type(self).__name__}"
         _check.refuse("depth", depth, np.isnan(radius), "has no contact radius", unit="m", advice=advice)
         return radius[()]
 
@@ -183,7 +183,7 @@ class Profile(_check.Parameters, ABC):
         advice = "give a smaller radius"
         _check.refuse(quantity, r, r > self.known_radius, bound, unit="m", advice=advice)
         values = function(r)[()]
-        advice = f"mend {function.__name__} of {type(self).__name__}"
+        advice = f"correct {function.__name__} of {type(self).__name__}"
         _check.refuse(quantity, r, np.isnan(values), "has no height or slope", unit="m", advice=advice)
         return values
 
@@ -206,8 +206,8 @@ class Profile(_check.Parameters, ABC):
         end = self.sound.end if is_own(self) and not self.shape else None
         if end and end.fault and self.known_depth == end.depth:
             return (
-                f"deeper than {type(self).__name__} is valid, {end.depth:g} m, since {end.fault}: mend its "
-                "functions, or give known_depth and known_radius, or wall, where the shape ends"
+                f"deeper than {type(self).__name__} is valid, {end.depth:g} m, since {end.fault}: correct "
+                "its functions, or give known_depth and known_radius, or wall, where the shape ends"
             )
         deepest = np.min(self.known_depth)
         if deepest > _check.LONGEST:

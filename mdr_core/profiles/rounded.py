@@ -11,7 +11,9 @@ from .radius_table import OneLength
 
 @dataclass(frozen=True, eq=False)
 class Sphere(OneLength):
-    """Sphere z = R − √(R² − r²), with g = x artanh(x/R): Popov (2015), Eq. (3).
+    """Sphere z = R − √(R² − r²), with g = x artanh(x/R).
+
+    From Popov (2015), Eq. (3).
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ _MOST_SAMPLES = 5000
 
 @dataclass(frozen=True, repr=False)
 class Sampled(Profile):
-    """Polygon through samples of the height of a profile, solved exactly.
+    """A measured tip: the polygon through samples of its height, solved exactly.
 
     Its reduced height is x Σ sᵢ [arcsin(min(rᵢ₊₁, x)/x) − arcsin(rᵢ/x)] with slopes sᵢ, from Popov (2015),
     Eq. (3). It must be convex: outside a concave vertex g falls, and the contact would not be compact.

@@ -19,7 +19,9 @@ class _FlatFaced(OneLength):
 
 @dataclass(frozen=True, eq=False)
 class TruncatedCone(_FlatFaced):
-    """Truncated cone z = s (r − b)₊, with g = s x arccos(b/x) for x > b: Popov (2015), Eq. (3).
+    """Truncated cone z = s (r − b)₊, with g = s x arccos(b/x) for x > b.
+
+    From Popov (2015), Eq. (3).
 
     Parameters
     ----------
@@ -55,7 +57,9 @@ class TruncatedCone(_FlatFaced):
 
 @dataclass(frozen=True, eq=False)
 class TruncatedParaboloid(_FlatFaced):
-    """Truncated paraboloid z = (r² − b²)₊/(2R), with g = x √(x² − b²)/R for x > b: Popov (2015), Eq. (3).
+    """Truncated paraboloid z = (r² − b²)₊/(2R), with g = x √(x² − b²)/R for x > b.
+
+    From Popov (2015), Eq. (3).
 
     Parameters
     ----------

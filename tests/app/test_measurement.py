@@ -200,7 +200,7 @@ def test_what_is_held_stays_and_what_is_freed_is_found():
     assert "is not a number with one of the units" in page.form.held["contact_point"].said.object
     assert page.fit.contact_point == 4.5e-9
     page.hold("contact_point", 1e-3)
-    assert "contact point z₀ = 1.000 mm is held, and the samples reach only" in plain(page.not_fitted)
+    assert "first contact z₀ = 1.000 mm is held, and the samples reach only" in plain(page.not_fitted)
     assert page.fit is None
 
 
@@ -235,7 +235,7 @@ def test_adhesion_is_fitted_from_a_pull_off():
     assert page.fit.medium.E_star == approx(1e9, rel=1e-2)
 
 
-def test_a_drift_and_the_compliance_of_a_frame_are_subtracted():
+def test_a_drift_and_the_frame_compliance_are_subtracted():
     """E* of a curve with both is that of the curve without."""
     F = mdr.indent(TIP, GLASS, DEPTH).force
     t = 0.1 * np.arange(DEPTH.size)

@@ -55,7 +55,7 @@ SAYS = {
 
 
 def curve(kind, family, size, seed, noise=NOISE):
-    """Depth (m), force (N) and time (s) of one made curve, from a contact point of 100 nm."""
+    """Depth (m), force (N) and time (s) of one made curve, from a first contact at 100 nm."""
     count = int(size) if family == "few samples" else SAMPLES
     share, random = np.linspace(0.0, 1.0, count), np.random.default_rng(seed)
     depth = np.interp(share, [0.0, 0.5, 1.0], kind.depths)

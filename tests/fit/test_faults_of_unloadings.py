@@ -94,7 +94,7 @@ def test_a_depth_that_is_0_at_a_force_is_said_with_both_numbers(share, noise):
     before, first_E, first_H = re.search(
         r"contact is ([\d.]+) nm before, .*: E\* ([\d.]+) GPa and H ([\d.]+) GPa, in place of", remark
     ).groups()
-    # Of the noise: it is that of the contact point, and twice its share in H.
+    # Of the noise: it is that of first contact, and twice its share in H.
     assert float(before) == approx(1e9 * depth[start], rel=1e-3 + 40 * noise)
     assert float(first_E) == approx(expected.E_star / 1e9, rel=1e-3 + 10 * noise)
     assert float(first_H) == approx(expected.hardness / 1e9, rel=1e-3 + 20 * noise)

@@ -257,7 +257,7 @@ class TestRealCurves:
             assert squares == approx(reference["sum_of_squares"], rel=1e-3)
 
     def test_unloading_alone(self):
-        """The sum of squares is not larger than with any held contact point; E* is that of the best."""
+        """The sum of squares is not larger than with any held first contact; E* is that of the best."""
         depth, force, top = silica()
         depth, force, profile = depth[top:], force[top:], mdr.Cone.berkovich()
         fit = mdr.fit_indentation(profile, depth, force)
@@ -271,7 +271,7 @@ class TestRealCurves:
         assert abs(fit.contact_point - points[squares.argmin()]) < 5e-8
 
     def test_two_minima(self):
-        """In 10 % of noise two contact points 30 nm apart fit alike, with moduli of 16 and 1.9 kPa."""
+        """In 10 % of noise two first contacts 30 nm apart fit alike, with moduli of 16 and 1.9 kPa."""
         depth, force = measured("qi-noisy-2", "retract")
         fit = mdr.fit_indentation(HERTZ["hertz_para"], depth, force, q_c=np.inf, baseline=None)
         assert any("1.878 kPa" in remark and "fits about as well" in remark for remark in fit.remarks)

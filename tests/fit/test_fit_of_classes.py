@@ -93,7 +93,7 @@ def test_derivatives_are_those_of_the_force(profile, constants):
         depth_noise=0.0,
         held={parameter: np.array([value]) for parameter, value in held.items()},
     )
-    # Contact points on samples would have a kink there.
+    # First contacts on samples would have a kink there.
     values = {"E_star": 1.1 * E, "contact_point": 1.23e-9, "turning_depth": np.zeros((1, 0))} | constants
     x = curves.scaled({parameter: np.reshape(value, (1, -1)) for parameter, value in values.items()})
     _, jacobian = curves.residuals(x)
@@ -259,7 +259,7 @@ class TestVerdict:
         assert "fit again" not in repr(again)
 
     def test_of_the_fit_itself(self):
-        """With all that the fit was given: noise of force and depth, a held contact point, a baseline."""
+        """With all that the fit was given: noise of force and depth, a held first contact, a baseline."""
         force = made(self.PROFILE, ALONE["a"], 3, seed=8) + 1e-6
         depth = OUT + 2e-10 * np.random.default_rng(9).normal(size=force.shape)
         given = {

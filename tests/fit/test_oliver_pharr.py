@@ -103,7 +103,7 @@ def test_fused_silica():
 
 
 def test_the_report_of_a_fit_has_it_where_there_is_an_unloading():
-    """Of the contact: without contact point and background, which the fit knows."""
+    """Of the contact: without first contact and background, which the fit knows."""
     profile, F0 = mdr.Cone(0.3), 1e-6
     F = mdr.indent(profile, mdr.Medium(E), DEPTH).force
     depth, force = DEPTH + 7e-9, F + F0
@@ -147,7 +147,7 @@ def test_its_error_in_a_report_is_also_that_of_the_contact_point():
 
 
 def test_a_report_leaves_it_out_where_the_model_does_not_fit():
-    """On silica the fitted contact point, 106 ± 29 nm below that of the record, makes 75.6 GPa of 69.6."""
+    """On silica the fitted first contact, 106 ± 29 nm below that of the record, makes 75.6 GPa of 69.6."""
     depth, force, _ = silica()
     fit = mdr.fit_indentation(mdr.Cone(0.358), depth, force)
     assert any("not of class (b)" in remark for remark in fit.remarks)

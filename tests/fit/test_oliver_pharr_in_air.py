@@ -97,7 +97,7 @@ def test_each_unloading_has_it():
 
 
 def test_a_fit_of_another_class_quotes_it_from_the_air():
-    """The contact point of a fit of class (b) to a glass is 12 nm off, and is not used."""
+    """First contact of a fit of class (b) to a glass is 12 nm off, and is not used."""
     force = mdr.indent(TIP, MEDIA["glass, class (a)"], LOADED).force
     expected = mdr.oliver_pharr(TIP, LOADED, force).E_star
     fit = mdr.fit_indentation(TIP, *with_air(LOADED, force, 90e-9, 70))
@@ -113,7 +113,7 @@ def test_a_fit_that_does_not_fit_has_no_first_contact():
     force = mdr.indent(TIP, MEDIA["glass, class (a)"], LOADED).force
     fit = mdr.fit_indentation(TIP, LOADED + 50e-9, force)
     assert fit.quoted.value is None
-    assert "not first contact" in fit.quoted.reason
+    assert "first contact is not known" in fit.quoted.reason
     assert "Oliver" not in repr(fit)
 
 

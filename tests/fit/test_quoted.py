@@ -28,7 +28,7 @@ def test_of_an_elastic_medium_it_is_the_modulus_of_the_fit():
 
 
 def test_of_a_medium_that_yields_it_is_that_of_the_unloading():
-    """From the contact point of the fit: 5 nm here, which the depths do not have subtracted."""
+    """From first contact of the fit: 5 nm here, which the depths do not have subtracted."""
     F = force(mdr.Medium(E, hardness=1.5e9))
     fit = mdr.fit_indentation(CONE, DEPTH + 5e-9, F, hardness=None)
     expected = mdr.oliver_pharr(CONE, DEPTH, F).E_star
@@ -68,7 +68,7 @@ def test_silica_with_the_contact_of_its_file():
 
 
 def test_silica_in_any_class_has_one_number():
-    """Its own zero is first contact: the contact points of the fits, 106 and −27 nm, are not."""
+    """Its own zero is first contact: those of the fits, 106 and −27 nm, are not."""
     depth, F, _ = silica()
     for hardness in ({}, {"hardness": None}):
         quoted = mdr.fit_indentation(mdr.Cone.berkovich(), depth, F, **hardness).quoted

@@ -515,7 +515,7 @@ class TestExtremes:
 class TestBall:
     @pytest.mark.parametrize("hollow", [False, True])
     def test_spin_against_speed(self, hollow):
-        """Only the speed of the contact point counts; momentum about it is kept, and so is all energy."""
+        """Only the speed of the point of contact counts; momentum about it and energy are kept."""
         ball = mdr.Ball(MASS, 1e-5, hollow)
         for speed, spin in ((0.06, 0.0), (0.0, 6e3), (0.03, 3e3)):
             hit = mdr.oblique_impact(

@@ -394,7 +394,7 @@ class TestWhatIsNoLaw:
             mdr.indent(BALL, mdr.Medium(E, hardness=Scalar(1e9)), 1e-8)
         with pytest.raises(ValueError, match=r"line_load\(a\) = .* but by at\(a\) and rate\(a\)"):
             mdr.indent(BALL, mdr.Medium(E, hardness=Overridden(1e9)), 1e-8)
-        with pytest.raises(ValueError, match=r"hardness = -1e.09 Pa is no hardness"):
+        with pytest.raises(ValueError, match=r"hardness = -1e.09 Pa must be above 0"):
             mdr.Medium(E, hardness=Overridden(-1e9)).hardness_at(1e-6)
 
     def test_a_constant_may_be_a_number(self):

@@ -78,7 +78,7 @@ WRONG = [
     OtherUnit(SLOPE, RADIUS),
     ConeAlone(1e-3, RADIUS),
 ]
-WORDS = r"g′\(x\) is .* at x = .* m, but g\(x\) rises with the slope .*mend"
+WORDS = r"g′\(x\) is .* at x = .* m, but g\(x\) rises with the slope .*correct"
 
 
 @pytest.mark.parametrize("call", CALLS)

@@ -3,7 +3,7 @@ A real AFM curve
 ================
 
 The approach of an AFM force–distance curve of a gel (afmformats, MIT licence, in ``tests/data``), fitted
-with a nominal paraboloid of 10 µm. The medium is held elastic by ``q_c=inf``; the contact point and the
+with a nominal paraboloid of 10 µm. The medium is held elastic by ``q_c=inf``; first contact and the
 baseline are free.
 """
 
@@ -12,7 +12,7 @@ import numpy as np
 
 import mdr_core as mdr
 
-data = np.genfromtxt("../../../tests/data/spot3-0.csv", delimiter=",", names=True)
+data = np.genfromtxt("../../../../tests/data/spot3-0.csv", delimiter=",", names=True)
 approach = data["retract"] == 0
 depth, force = 1e-9 * data["depth_nm"][approach], 1e-9 * data["force_nN"][approach]
 fit = mdr.fit_indentation(mdr.Paraboloid(radius=1e-5), depth, force, q_c=np.inf, baseline=None)
@@ -23,7 +23,7 @@ figure, (top, bottom) = plt.subplots(
 )
 top.plot(depth * 1e6, force * 1e9, ".", markersize=3, label="measured")
 top.plot(depth * 1e6, (force - fit.residuals) * 1e9, label="fit")
-top.axvline(fit.contact_point * 1e6, color="gray", linestyle=":", label="contact point")
+top.axvline(fit.contact_point * 1e6, color="gray", linestyle=":", label="first contact")
 top.set(ylabel="F (nN)")
 top.legend()
 bottom.plot(depth * 1e6, fit.residuals * 1e9)

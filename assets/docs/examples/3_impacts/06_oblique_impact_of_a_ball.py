@@ -2,10 +2,10 @@ r"""
 Oblique impact of a ball
 ========================
 
-Maw's curve: the tangential velocity of the contact point after an elastic impact of a ball over its value
-before, as :math:`\psi = \kappa v_t/(\mu v)`. At small angles the contact sticks at first, and the contact
-point leaves backwards; at large angles it slips throughout, :math:`\psi_2 = \psi_1 - 4\chi` (Maw, Barber,
-Fawcett 1976).
+Maw's curve: the tangential velocity of the point of contact after an elastic impact of a ball over its
+value before, as :math:`\psi = \kappa v_t/(\mu v)`. At small angles the contact sticks at first, and the
+point of contact leaves backwards; at large angles it slips throughout, :math:`\psi_2 = \psi_1 - 4\chi`
+(Maw, Barber, Fawcett 1976).
 """
 
 import matplotlib.pyplot as plt

@@ -16,7 +16,7 @@ import numpy as np
 
 import mdr_core as mdr
 
-data = np.genfromtxt("../../silica.csv", delimiter=",", names=True)
+data = np.genfromtxt("../../../silica.csv", delimiter=",", names=True)
 depth, force = 1e-9 * data["depth_nm"], 1e-3 * data["force_mN"]
 top = np.argmax(force)
 stop = top + np.argmax(force[top:] < 0.12 * force[top])  # before the hold at the end, for the drift

@@ -1,0 +1,87 @@
+"""Index of the public names in the reference, and the base classes that it shows.
+
+The index is made of the reference pages and the first lines of the docstrings, in the place of the comment
+`% index of names` in `reference/index.md`.
+"""
+
+import re
+from importlib import import_module
+from pathlib import Path
+
+from docutils import nodes
+
+import mdr_core
+from mdr_core.fit.oliver_pharr_result import OliverPharr
+from mdr_core.fit.report import Fit
+from mdr_core.numerics.motions import ImpactResult
+from mdr_core.numerics.results import Record, Result
+
+_PAGES = Path(__file__).parent / "reference"
+_PLACE = "% index of names"
+#: Base classes that a reader finds in the reference. Of others the page says nothing.
+_BASES = mdr_core.Profile, Result, ImpactResult, Fit, OliverPharr, ValueError, str
+
+
+def public(documented):
+    """The name of a directive if it is public, with the functions of a module."""
+    name = documented.removeprefix("mdr_core.")
+    if name not in mdr_core.__all__:
+        return []
+    if documented == name:
+        return [name]
+    module = import_module(documented)
+    functions = getattr(module, "__all__", None) or re.findall(r"^def ([a-z]\w*)", _text(module), re.M)
+    return [name, *(f"{name}.{each}" for each in functions)]
+
+
+def _text(module):
+    return Path(module.__file__).read_text(encoding="utf-8")
+
+
+def index():
+    """Markdown with a heading and a table for each page of the reference that has public names."""
+    order = re.search(r"```{toctree}(.*?)```", (_PAGES / "index.md").read_text("utf-8"), re.DOTALL)[1]
+    parts = []
+    for page in re.findall(r"^[a-z]+$", order, re.M):
+        text = (_PAGES / f"{page}.md").read_text(encoding="utf-8")
+        documented = re.findall(r"^\.\. auto\w+:: (\S+)", text, re.M)
+        names = [name for each in documented for name in public(each)]
+        if names:
+            lines = "\n".join(f"   {name}" for name in names)
+            title = text.partition("\n")[0].removeprefix("# ")
+            table = f".. currentmodule:: mdr_core\n\n.. autosummary::\n   :nosignatures:\n\n{lines}"
+            parts.append(f"## [{title}]({page}.md)\n\n```{{eval-rst}}\n{table}\n```\n")
+    return "\n".join(parts)
+
+
+def _write_index(app, docname, source):
+    if docname == "reference/index":
+        source[0] = source[0].replace(_PLACE, index())
+        # It changes with docstrings and with the other pages, too.
+        app.env.note_reread()
+
+
+def _bases(app, name, owner, options, bases):
+    bases[:] = [next((each for each in owner.__mro__[1:] if each in _BASES), object)]
+
+
+def _signature(app, what, name, thing, options, signature, returns):
+    """No arguments of results, which nobody makes by hand."""
+    made_here = isinstance(thing, type) and issubclass(thing, Record)
+    return ("", None) if made_here else None
+
+
+def _tidy(app, doctree):
+    """Remove lines of base classes that say nothing."""
+    for line in list(doctree.findall(nodes.paragraph)):
+        if line.astext() == "Bases: object":
+            line.parent.remove(line)
+
+
+def setup(app):
+    app.connect("source-read", _write_index)
+    app.connect("autodoc-process-bases", _bases)
+    # Before numpydoc, at the usual priority of 500.
+    app.connect("autodoc-process-signature", _signature, priority=400)
+    app.connect("doctree-read", _tidy)
+    return {"parallel_read_safe": True}
