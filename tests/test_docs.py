@@ -250,6 +250,10 @@ def test_the_site_is_built_without_warnings_and_its_links_lead_somewhere(site):
     # A scene to play stands on the first page, with its plots and the frames of its slider.
     assert "scene.html" in pages[(site / "index.html").resolve()].loaded
     assert {"player", "readout"} <= pages[(site / "scene.html").resolve()].anchors
+    # What the README links has a page there, and is no file to download.
+    first = pages[(site / "index.html").resolve()].links
+    assert "gallery/first_hour.html" in first
+    assert not any("_downloads" in link for link in first)
     for page, found in pages.items():
         for link in found.links + found.loaded:
             target, _, anchor = unquote(link).partition("#")

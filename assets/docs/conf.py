@@ -80,11 +80,11 @@ def mathml(writer, node):
     raise nodes.SkipNode
 
 
-#: Pages of files that the README links where they are in the tree.
+#: Pages of files that the README links: texts by their place in the tree, a script by that in this folder.
 PAGES = {
     "assets/theory.md": "theory",
     "assets/accuracy.md": "accuracy",
-    "assets/docs/examples/first_hour.py": "gallery/first_hour",
+    "examples/first_hour.py": "gallery/first_hour",
     "CONTRIBUTING.md": "contributing",
     "CHANGELOG.md": "changelog",
 }
@@ -105,6 +105,12 @@ def link_pages(app, doctree):
             link.update_all_atts(
                 {"refdomain": "doc", "reftarget": PAGES[file], "reftargetid": anchor}, replace=True
             )
+    # A script of the gallery would be a file to download.
+    for link in list(doctree.findall(addnodes.download_reference)):
+        page = PAGES.get(link["reftarget"])
+        if page:
+            told = {"refdomain": "std", "reftype": "doc", "reftarget": f"/{page}", "refexplicit": True}
+            link.replace_self(addnodes.pending_xref("", *link.children, refdoc=link["refdoc"], **told))
 
 
 def save_scene(app, error):
