@@ -306,7 +306,21 @@ class Parameters:
         return np.broadcast_shapes(*(value.shape for value in arrays))
 
     def entries(self, index: Any, shape: tuple[int, ...] | None = None) -> Self:
-        """The profiles or media at an index, with parameters broadcast to `shape` first."""
+        """The profiles or media at an index, with parameters broadcast to `shape` first.
+
+        Parameters
+        ----------
+        index : int, slice, tuple or array_like
+            An index of a NumPy array of the shape of the parameters.
+        shape : tuple of int, optional
+            The shape, where it is not that of the parameters alone.
+
+        Examples
+        --------
+        >>> from mdr_core import Medium
+        >>> Medium(E_star=[1e9, 2e9], q_c=[10.0, 20.0]).entries(1).E_star
+        2000000000.0
+        """
         if not self.shape:
             return self
         shape = self.shape if shape is None else shape
