@@ -41,7 +41,7 @@ KINDS = {
     "missing": "samples without a number, contact or stiffness",
     "sign": "a sign is reversed",
     "cantilever": "from where a constant of the cantilever is taken",
-    "time": "times that do not ascend are left out",
+    "time": "times that do not ascend, or are not plainly the times of the curve, are left out",
     "left out": "columns, tables, unloadings or measurements that are left out",
     "several": "which one of several curves or unloadings was taken",
     "corrected": "what is subtracted from the depth",
