@@ -218,7 +218,7 @@ def _with_creep(profile, depth, force, time, constants, contact):
         elif remark := doubt(profile, depth.max(), laws, time is not None):
             notes.append(remark)
         if time is not None:
-            notes.append(creeping.NO_HOLD)
+            notes.append(creeping.no_hold(depth, force, time))
         return (uncorrected, uncorrected), notes
     depths = [creep.without(depth, time, n) for n in (0, 1)]
     laws = [laws_of(each, force) for each in depths]
