@@ -12,6 +12,7 @@ from .nested import nested_tests
 from .noise import tests_of_noise
 from .order import out_of_order
 from .parameters import TOGETHER, symbols
+from .tension import of_tension
 from .tip import of_ideal_tip
 
 #: Those that say that the model does not fit, and its contact point may be wrong by more than its error.
@@ -42,7 +43,9 @@ _PULL_OFF = 0.02
 
 def remarks_of(solved):
     """Remarks on each curve of a `Solution`."""
-    checks = _units, _order, _ambiguous, _adhesion, _undetermined, tests_of_noise, nested_tests, _tip
+    checks = (
+        _units, _order, _ambiguous, _adhesion, of_tension, _undetermined, tests_of_noise, nested_tests, _tip
+    )  # fmt: skip
     return [_consistent([*chain(*(check(solved, i) for check in checks))]) for i in range(len(solved.rows))]
 
 

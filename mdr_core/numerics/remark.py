@@ -14,7 +14,7 @@ KINDS = {
     "order": "samples are not in the order in which they were measured",
     "no contact": "the record shows no contact",
     "no unloading": "there is no unloading that can be evaluated",
-    "adhesion": "the forces hardly determine the work of adhesion",
+    "adhesion": "an adhesion that is left out, or that the forces hardly determine",
     "bound": "a parameter is at the bound of its range",
     "second minimum": "other values of the parameters fit about as well",
     "undetermined": "the data do not determine a parameter: the residuals have no minimum",

@@ -82,6 +82,7 @@ def of_a_kind(medium, seed):
         pulled = mdr.indent(medium.tip, sticky, depth - 1e-7).force
         pulled = pulled + 4e-3 * top * random.normal(size=count)
         yield fit(F=pulled, work_of_adhesion=None), {"contact"}
+        yield fit(F=pulled), {"adhesion"}
         yield fit(work_of_adhesion=None), {"adhesion", "contact"}
     else:
         shuffled = random.permutation(count)
