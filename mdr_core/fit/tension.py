@@ -46,8 +46,12 @@ def of_tension(solved, i):
     share = 100 * largest / np.ptp(curves.force[i])
     pull = engineering(float(f"{largest:.2g}"), "N")
     text = (
-        f"the force falls {pull} below that of the air, {share:.2g} % of its range: the medium sticks, and "
-        "E* without adhesion is too large; "
+        f"the force falls {pull} below that of the air, {share:.2g} % of its range: an adhesion that is "
+        "left out makes E* too large; "
     )
-    remedy = (Remedy("free", "work_of_adhesion"),)
-    yield Remark(f"{text}give work_of_adhesion=None", "adhesion", f"{text}fit the adhesion, too", remedy)
+    # That of a soft gel may be on the retract alone.
+    retracts = curves.depth.shape[1] - np.argmax(curves.depth[i]) > _BRANCH
+    alone = ", or compare with a fit of the loading alone" if retracts else ""
+    remedy = Remedy("free", "work_of_adhesion"), *[Remedy("part", "loading")] * retracts
+    sentence, words = (f"{text}{way}{alone}" for way in ("give work_of_adhesion=None", "fit it, too"))
+    yield Remark(sentence, "adhesion", words, remedy)
