@@ -13,7 +13,7 @@ from .files.question import UnknownColumns
 from .files.several import curves_of_text
 from .files.split import WORDS
 from .files.table import decoded
-from .files.workbook import from_workbook
+from .files.workbook import from_workbook, is_workbook
 from .measured_curve import MeasuredCurve, MeasuredCurves
 from .numerics.remark import Remark, Remedy, refused
 
@@ -89,7 +89,7 @@ def read_curves(
 
     Signs are found by the numbers, as force and depth are positive in compression. `remarks` of a curve
     lists reversed signs, constants that are taken from the file, and lines that are left out. Numbers of
-    10³⁰ and more (SI) are missing values. Depth counts as in the file. Layouts of JPK, NanoScope, Anton
+    10³⁰ and more are missing values. Depth counts as in the file. Layouts of JPK, NanoScope, Anton
     Paar and Optics11 and the files that this package writes are known exactly. Sheets without a curve, as
     of results, are left out, with a remark.
 
@@ -97,7 +97,7 @@ def read_curves(
     ----------
     path : path-like
         A table as text in UTF-8, UTF-16 or Windows-1252, with columns separated by commas, semicolons, tabs
-        or blanks; an Excel file (.xls, .xlsx), of which each sheet with a curve is read, by pandas; or an
+        or blanks; an Excel file (.xls, .xlsx), of which each sheet with a curve is read; or an
         AFM file (.jpk-…, .h5, .ibw, .zip, .tab; text of AFM Workshop, Optics11 and NT-MDT), by
         `afmformats`. Of AFM files the depth is minus the position of the tip, −(height + F/k) with the
         stiffness k of the cantilever, and its zero is not first contact.
@@ -162,7 +162,7 @@ def read_curves(
         given["sensitivity"] = _check.positive_number("sensitivity", sensitivity, unit="m/V")
     own = {"spring_constant": given.get("spring constant"), "sensitivity": given.get("sensitivity")}
     options = {"columns": columns or None, "by": by, "given": own}
-    if suffix in (".xls", ".xlsx", ".xlsm"):
+    if is_workbook(path):
         return MeasuredCurves(path.name, None, from_workbook(path, options))
     if suffix.startswith(SUFFIXES):
         if columns or by is not None:

@@ -166,9 +166,12 @@ def test_sheets_of_an_excel_file(tmp_path):
         mdr.read_curve(tmp_path / "tests.xlsx", 2)
     curves = mdr.read_curves(tmp_path / "tests.xlsx")
     assert [curve.name for curve in curves] == ["tests.xlsx, Test 1", "tests.xlsx, Test 2"]
-    (tmp_path / "words.xlsx").write_text("only words")
-    with pytest.raises(ValueError, match=r"words\.xlsx cannot be read as an Excel file: "):
-        mdr.read_curve(tmp_path / "words.xlsx")
+    (tmp_path / "page.xls").write_text("<html><table><tr><td>1</td></tr></table></html>")
+    with pytest.raises(ValueError, match=r"page\.xls is HTML or XML, and no Excel file: .* save it as"):
+        mdr.read_curve(tmp_path / "page.xls")
+    (tmp_path / "zeros.xlsx").write_bytes(bytes(99))
+    with pytest.raises(ValueError, match=r"zeros\.xlsx cannot be read as an Excel file: "):
+        mdr.read_curve(tmp_path / "zeros.xlsx")
 
 
 @pytest.mark.parametrize(
@@ -196,11 +199,8 @@ def test_missing_packages_are_named(monkeypatch, tmp_path):
         "jpk-force": ("afmformats", r'pip install "mdr-core\[afm\]"$'),
         "xlsx": ("openpyxl", "pip install openpyxl xlrd$"),
         "xls": ("xlrd", "pip install openpyxl xlrd$"),
-        "xlsm": ("pandas", "pip install pandas openpyxl xlrd$"),
     }
     for suffix, (package, install) in ways.items():
-        if package != "afmformats":
-            pytest.importorskip("pandas")
         path = tmp_path / f"run.{suffix}"
         path.write_bytes(b"")
         monkeypatch.setitem(sys.modules, package, None)

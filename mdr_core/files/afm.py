@@ -64,10 +64,10 @@ def refuse_binary(path, data):
     """Refuse a file that is no text, with the export to make."""
     suffix = path.suffix.lower()
     known = next((text for pattern, text in _EXPORTS.items() if re.fullmatch(pattern, suffix)), None)
-    if known is None and not _is_binary(data):
+    if known is None and not is_binary(data):
         return
     # Some programs give their text the suffix of their files.
-    if known is not None and not _is_binary(data) and data.strip():
+    if known is not None and not is_binary(data) and data.strip():
         return
     raise ValueError(
         f"{path.name} is a binary file in a format that cannot be read. Use {known or _EXPORT}"
@@ -80,7 +80,7 @@ def export_of(suffix):
     return f". Use {known}" if known else ""
 
 
-def _is_binary(data):
+def is_binary(data):
     """Whether the bytes are no text: zeros, which only UTF-16 has, or other control characters."""
     head = data[:4096]
     marked = head.startswith((b"\xff\xfe", b"\xfe\xff"))

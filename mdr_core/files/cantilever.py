@@ -40,10 +40,11 @@ class Cantilever:
         return self.stiffness * (self.sensitivity if volts else 1.0)
 
 
-def constants(table, name, layout, given):
+def constants(table, name, layout, given, asked):
     """The `Cantilever` of a curve with some columns; what lacks is asked for, what nothing uses is refused.
 
-    Raises `UnknownColumns` where a constant lacks, and ValueError where one is given for nothing.
+    `asked` is what a question suggests: the arguments that say what the columns are, {} if none do. Raises
+    `UnknownColumns` where a constant lacks, and ValueError where one is given for nothing.
     """
     unit = layout["force"][1].lstrip("−")
     volts = unit in COLUMN_UNITS["voltage"]
@@ -68,7 +69,7 @@ def constants(table, name, layout, given):
             remarks.append(Remark(sentence, "cantilever", words))
     lacking = [each for each in needed if needed[each] and known.get(each) is None]
     if lacking:
-        _ask(table, name, layout, lacking, deflection)
+        _ask(table, name, layout, lacking, deflection, asked)
     return Cantilever(known.get("spring_constant"), known.get("sensitivity"), tuple(remarks))
 
 
@@ -93,7 +94,7 @@ def _refuse_unused(name, given, needed, deflection, unit):
         raise refused(f"{what}: leave out sensitivity", f"{what}: leave out the sensitivity")
 
 
-def _ask(table, name, layout, lacking, deflection):
+def _ask(table, name, layout, lacking, deflection, asked):
     head = table.heads[layout["force" if deflection else "piezo"][0]]
     what = (
         f"{head!r} is a deflection in {layout['force'][1]}"
@@ -108,7 +109,7 @@ def _ask(table, name, layout, lacking, deflection):
         what,
         table,
         name.removesuffix(f", {table.name}") if table.name else name,
-        {"columns": dict(layout)},
+        asked,
         hint=f": give {give}{hint}",
         text=f"{what}: give {said}{words}",
         remedy=tuple(Remedy("give", each) for each in lacking),

@@ -3,6 +3,7 @@
 import numpy as np
 
 from .. import _check
+from ..numerics.remark import Remark, Remedy
 from . import guess
 from .names import DISPLACEMENT, TAKEN, is_result, is_variant
 from .question import NoCurve, UnknownColumns
@@ -80,6 +81,21 @@ def plain_beside(table, columns):
         for each in ("time", "stiffness")
         if each not in columns and len(found[each]) == 1
     }
+
+
+def time_left_out(table, columns):
+    """A remark on columns that may be the time of a curve without one, if there are any."""
+    used = [column[0] for column in columns.values() if column]
+    heads = [
+        repr(head)
+        for k, head in table.heads.items()
+        if k not in used and (table.parted(k)[1] == "time" or table.parted(k)[0] in TAKEN["time"][1])
+    ]
+    if not heads:
+        return ()
+    text = f"the curve has no time: the header does not say plainly that {' or '.join(heads)} is it"
+    sentence = f'{text}; give columns={{"time": …}}'
+    return (Remark(sentence, "time", text, (Remedy("give", "columns"),)),)
 
 
 def ask_for_parts(table, file, columns):

@@ -9,12 +9,9 @@ from .. import _check
 from ..measured_curve import MeasuredCurve, named_segments, segments_of
 from ..numerics.remark import Remark, Remedy, refused
 from .cantilever import constants
-from .columns import ask_for_parts, ask_for_results, plain_beside, taken, told
+from .columns import ask_for_parts, ask_for_results, plain_beside, taken, time_left_out, told
 from .split import WORDS, joined, parts, place_of, several
 from .units import COLUMN_UNITS, size_of
-
-#: Numbers (SI) from which on they are written where there is none, as 1.8e308.
-_NONE = 1e30
 
 
 def curves_of(table, file, columns=None, by=None, given=None):
@@ -33,10 +30,14 @@ def curves_of(table, file, columns=None, by=None, given=None):
         )
     layout, source = told(table, name, columns or {}), "as told" if columns else "by its header"
     by_person = "force" in layout and bool({"depth", "piezo"} & layout.keys())
+    without_time = "time" in layout and layout["time"] is None
     if by_person:
         layout = {each: column for each, column in (layout | plain_beside(table, layout)).items() if column}
     else:
         layout = taken(table, file, layout, given.get("spring_constant"))
+    options = {"asked": _said(layout, by)}
+    if "time" not in layout and not without_time:
+        options["remarks"] = time_left_out(table, layout)
     found = []
     for label, part in parts(table, by, layout):
         if not by_person:
@@ -44,8 +45,14 @@ def curves_of(table, file, columns=None, by=None, given=None):
         if by is None or (by not in [*WORDS] and several(part, layout)):
             # Also where a column does not tell all of them apart.
             ask_for_parts(table, file, layout)
-        found.append(curve_maker(part, f"{name}, {label}" if label else name, layout, given, source))
+        called = f"{name}, {label}" if label else name
+        found.append(curve_maker(part, called, layout, given, source, **options))
     return found
+
+
+def _said(columns, by):
+    """Arguments of `read_curves` that say the same."""
+    return {"columns": columns} | ({} if by is None else {"by": by})
 
 
 def _side_by_side(table, file, layouts, by, given):
@@ -61,15 +68,17 @@ def _side_by_side(table, file, layouts, by, given):
                 f"a curve of parts has two or more columns of depth and of force, {name} has one",
                 Remedy("give", "by"),
             )
+        asked = _said(layouts, by)
         table, layout = joined(table, layouts, file)
-        return [curve_maker(table, name, layout, given, "as told")]
+        return [curve_maker(table, name, layout, given, "as told", asked=asked)]
     if by is not None:
         raise ValueError(
             f"by = {by!r:.80}: a list of columns is a curve each; leave it out, or give by='segments' for "
             "parts of one curve"
         )
+    options = {"source": "as told", "asked": _said(layouts, by)}
     return [
-        curve_maker(trimmed(table, each), f"{name}, columns {_numbers(each)}", each, given, "as told")
+        curve_maker(trimmed(table, each), f"{name}, columns {_numbers(each)}", each, given, **options)
         for each in layouts
     ]
 
@@ -87,9 +96,13 @@ def trimmed(table, layout):
     return replace(table, values=values, lines=table.lines[rows], odd=odd, words={})
 
 
-def curve_maker(table, name, layout, given, source, **options):
-    """Function that makes the curve of a table; what a cantilever lacks is refused at once."""
-    return partial(curve_of, table, name, layout, constants(table, name, layout, given), source, **options)
+def curve_maker(table, name, layout, given, source, *, asked=None, **options):
+    """Function that makes the curve of a table; what a cantilever lacks is asked for at once.
+
+    `asked` are the arguments of `read_curves` that say what the columns are, None where a format does.
+    """
+    cantilever = constants(table, name, layout, given, asked or {})
+    return partial(curve_of, table, name, layout, cantilever, source, **options)
 
 
 def curve_of(table, name, layout, cantilever, source, *, turn=True, segment=None, remarks=()):
@@ -111,8 +124,9 @@ def curve_of(table, name, layout, cantilever, source, *, turn=True, segment=None
     if columns["force"][1].lstrip("−") not in COLUMN_UNITS["force"]:
         values["force"] = values["force"] * cantilever.force_per_deflection(columns["force"][1])
     for each in _turned(values[place], values["force"]) if turn else ():
-        values[each], (column, unit) = -values[each], columns[each]
-        columns[each] = column, unit[1:] if unit[0] == "−" else f"−{unit}"
+        key = place if each == "depth" else each
+        values[key], (column, unit) = -values[key], columns[key]
+        columns[key] = column, unit[1:] if unit[0] == "−" else f"−{unit}"
         text = f"the sign of {each} is reversed: {each} is positive in compression"
         remarks.append(Remark(text, "sign"))
     depth = values.pop(place)
@@ -129,10 +143,8 @@ def curve_of(table, name, layout, cantilever, source, *, turn=True, segment=None
 
 
 def _in_si(table, column):
-    """Numbers of a column in SI units, NaN for those of 10³⁰ and more."""
-    with np.errstate(over="ignore"):
-        values = table.values[column[0]] * size_of(column[1])
-    return np.where(np.abs(values) < _NONE, values, np.nan)
+    """Numbers of a column in SI units."""
+    return table.values[column[0]] * size_of(column[1])
 
 
 def _in_time(values, rows, columns, remarks):
@@ -163,7 +175,9 @@ def _omissions(table, rows, name, labels):
 def _turned(depth, force):
     """Names of the quantities that have the other sign."""
     # Depth and force grow to the farther one of the largest and the smallest force: adhesion is nearer.
-    apart = 0.2 * np.ptp(force)
+    # Forces of the air are none of these, by their noise of 10 standard deviations between extremes.
+    noise = np.median(np.abs(np.diff(force)))
+    apart = np.ptp(force) * np.clip(10 * noise / (np.ptp(force) or 1.0), 0.05, 0.2)
     ends = [end for end in (force.argmax(), force.argmin()) if abs(force[end] - force[0]) >= apart]
     peak = max(ends, key=lambda end: abs(depth[end] - depth[0]))
     turned = ["depth"] * bool(depth[peak] < depth[0]) + ["force"] * bool(force[peak] < force[0])

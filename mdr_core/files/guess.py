@@ -1,8 +1,10 @@
 """Suggestions for a table that has to be asked about: they may be wrong, as a person confirms them."""
 
+from itertools import pairwise
+
 import numpy as np
 
-from .names import TAKEN, normal
+from .names import DISPLACEMENT, TAKEN, normal
 from .split import at_gaps, goes_on_side, is_path, place_of, restarts, telling
 from .units import cleaned, size_of, unit_alone
 
@@ -40,6 +42,8 @@ _POSITION = [
     "ext", "stroke", "travel", "pos", "hub", "weg", "drive", "motor", "raw", "actuator", "lvdt", "verfahr",
     "stell", "déplac", "样品台", "ピエゾ", "压电",
 ]  # fmt: skip
+#: Parts of names of the depth of the tip, where there is a cantilever.
+_OF_TIP = "tip", "separ", "indent", "penetr", "sep "
 #: Labels of parts of one record.
 _OF_ONE = "cycle", "loop", "segment", "step", "zyklus", "zyklen", "schritt", "phase"
 #: Largest force (N) of an instrument that may have a cantilever.
@@ -62,11 +66,13 @@ def columns(table, stiffness=None):
         used |= {*found[each]}
     if not found["depth"] or not found["force"]:
         return {}
-    layouts = []
-    for d, f in _paired(table, found["depth"], found["force"]):
+    layouts, pairs = [], _paired(table, found["depth"], found["force"])
+    for d, f in pairs:
         layout = {_called(table, d, f, stiffness): (d, _unit(table, d, "depth"))}
         layout["force"] = f, _unit(table, f, "force")
         time = max((t for t in found["time"] if t < d), default=next(iter(found["time"]), None))
+        if len(found["time"]) == len(pairs):
+            time = sorted(found["time"])[sorted(pairs).index((d, f))]
         if time is not None and _unit(table, time, "time") != "?":
             layout["time"] = time, _unit(table, time, "time")
         layouts.append(layout)
@@ -109,6 +115,9 @@ def scaled(head):
     """Whether a number or a prefix in a header may scale its unit: any but that of a name, as "Test 2"."""
     words = _words(head)
     if any(_scales(word) or (word.lower().startswith(_SCALING) and not unit_alone(word)) for word in words):
+        return True
+    if any(a in "nµukp" and unit_alone(b) for a, b in pairwise(words[1:])):
+        # "Depth (n m)"
         return True
     # "Force (m N)", "Depth (nm) [µm]": two units.
     return len({unit for word in words[1:] if word != "h" and (unit := unit_alone(word))}) > 1
@@ -164,7 +173,9 @@ def _score(each, table, column):
     if each == "depth" and ("defl" in low or "cantilever" in low):
         score -= 3
     other = any(part in low for part in _PARTS["force" if each == "depth" else "depth"])
-    score -= 2 * any(part in low for part in _OTHER) + (other and not kind)
+    score -= 2 * any(part in low.replace("temps", "") for part in _OTHER) + (other and not kind)
+    # Beside "Indentation" a displacement is that of a piezo, or of the machine.
+    score -= 2 * (name in DISPLACEMENT)
     return max(score, 0)
 
 
@@ -187,13 +198,17 @@ def _called(table, depth, force, stiffness):
     if stiffness is not None:
         # A stiffness that is given is meant.
         return "piezo"
-    unit = table.unit(force)
+    if any(part in head for part in _OF_TIP):
+        return "depth"
+    kind, unit = table.parted(force)[1:]
+    if "defl" in table.heads[force].lower() or kind in ("length", "voltage"):
+        # A deflection is that of a cantilever.
+        return "piezo"
     loads = np.abs(table.values[force])
     largest = np.nanmax(loads) if np.isfinite(loads).any() else 0.0
-    small = largest * (size_of(unit) if unit else 1.0) < _SMALL or "defl" in table.heads[force].lower()
     words = head.split()
     place = any(part in words or (len(part) > 2 and part in head) for part in _POSITION)
-    return "piezo" if small and place and "tip" not in head and "separ" not in head else "depth"
+    return "piezo" if place and largest * (size_of(unit) if unit else 1.0) < _SMALL else "depth"
 
 
 def _paired(table, depths, forces):

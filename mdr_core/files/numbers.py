@@ -2,6 +2,7 @@
 
 import re
 from contextlib import suppress
+from itertools import zip_longest
 from math import nan
 
 _GROUPS = r"[-+]?\d{1,3}(?:%s\d{3})+"
@@ -15,6 +16,8 @@ _PARTED = re.compile(_GROUPS % "[ \u00a0\u2009\u202f'’]" + rf"([.,]\d*)?{_EXPO
 _NUMERIC = re.compile(r"[-+−]?[\d.,][\d.,' \u00a0\u2009\u202f’]*(?:[eE][-+−]?\d+)?")
 
 
+#: Numbers from which on they are written where there is none, as 1.8e308.
+_NONE = 1e30
 #: Number of rows that tell how numbers are written.
 _ENOUGH = 5000
 
@@ -42,6 +45,7 @@ def number_reader(rows, name):
     "1,234,567" the second. Raises ValueError where nothing tells it.
     """
     if not any("," in cell for row in rows for cell in row):
+        _refuse_doubtful_points(rows[:: len(rows) // _ENOUGH + 1], name)
         return _plain
     # A part of a long file tells it, or all of it does.
     for part in dict.fromkeys((len(rows) // _ENOUGH + 1, 1)):
@@ -52,6 +56,20 @@ def number_reader(rows, name):
         f"{name}: the comma of {min(filter(with_comma, cells))!r} may be a decimal sign, or separate "
         "thousands: write numbers without separators of thousands, and with decimal points"
     )
+
+
+def _refuse_doubtful_points(rows, name):
+    """Refuse a column of "1.234" and "17": the point separates thousands, or "17" has lost its decimals."""
+    for column in zip_longest(*filter(_is_row, rows), fillvalue=""):
+        cells = {cell.strip() for cell in column}
+        points = {cell for cell in cells if "." in cell and numeric(cell)}
+        whole = any(cell.strip("+-0").isdecimal() for cell in cells if cell not in points)
+        if points and whole and all(_POINTS.fullmatch(c) and c.lstrip("+-")[0] != "0" for c in points):
+            raise ValueError(
+                f"{name}: the point of {min(points)!r} may be a decimal sign, or separate thousands, as no "
+                "other number of its column has one with another number of digits behind it: write numbers "
+                "without separators of thousands"
+            )
 
 
 def _is_row(row):
@@ -99,6 +117,11 @@ def _thousands(cell):
 
 
 def _plain(cell):
+    value = _float(cell)
+    return value if abs(value) < _NONE else nan
+
+
+def _float(cell):
     try:
         return float(cell)
     except ValueError:

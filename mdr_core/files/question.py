@@ -68,7 +68,9 @@ class UnknownColumns(ValueError):
         sentence = f"{why}{hint}"
         sentence += "" if sentence.endswith((".", "?")) else "."
         place = ", ".join(filter(None, (file, table.name)))
-        super().__init__(f"{place}: {sentence}\n{_shown(table)}\n{_paste(self.suggestion)}")
+        known = not columns and not any(each.what == "columns" for each in remedy)
+        paste = "" if known else f"\n{_paste(self.suggestion)}"
+        super().__init__(f"{place}: {sentence}\n{_shown(table)}{paste}")
 
     def __reduce__(self):
         return _again, self._with(self.suggestion)

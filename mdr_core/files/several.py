@@ -3,13 +3,16 @@
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
+from itertools import pairwise
+
+import numpy as np
 
 from ..numerics.remark import Remark, Remedy, refused
 from .columns import taken, told
 from .curve import curve_maker, curves_of
 from .formats import format_of
 from .question import NoCurve, UnknownColumns
-from .split import below, goes_on
+from .split import below, goes_on, known_depths
 from .table import read_tables
 
 
@@ -123,14 +126,14 @@ def _said(make, left):
 
 
 def _ask_for_segments(tables, file, given):
-    """Ask where a second header follows while the depth goes on: parts of one curve."""
-    if tables[0].key != tables[1].key:
-        return
+    """Ask where a further header follows while the depth goes on: parts of one curve."""
+    same = [table for table in tables if table.key == tables[0].key]
     try:
         layout = taken(tables[0], file, {}, given.get("spring_constant"))
     except ValueError:
         return
-    if goes_on(tables[0], tables[1], layout):
+    span = np.ptp(known_depths(same, layout))
+    if any(goes_on([before], table, layout, span) for before, table in pairwise(same)):
         why = "a second header follows where the depth goes on"
         hint = ": parts of one curve, or by='whole' for several"
         raise UnknownColumns(why, tables[0], file, {"columns": layout, "by": "segments"}, hint=hint)
@@ -140,9 +143,10 @@ def _of_parts(tables, file, columns, given):
     """Functions that make curves whose parts have a header each: a part goes on where one ends."""
     layout = told(tables[0], file, columns) if columns else taken(tables[0], file, {})
     groups = [[tables[0]]]
+    span = np.ptp(known_depths([table for table in tables if table.key == tables[0].key], layout))
     for table in tables[1:]:
         same = table.key == tables[0].key
-        if same and goes_on(groups[-1][-1], table, layout):
+        if same and goes_on(groups[-1], table, layout, span):
             groups[-1].append(table)
         elif same:
             groups.append([table])
@@ -152,8 +156,11 @@ def _of_parts(tables, file, columns, given):
         raise refused(sentence, f"no parts of a curve are {text}", Remedy("give", "by"))
     layout = {each: column for each, column in layout.items() if column}
     label = f"{file}, curve {{}}" if len(groups) > 1 else file
-    source = "as told" if columns else "by its header"
+    options = {
+        "source": "as told" if columns else "by its header",
+        "asked": {"columns": layout, "by": "segments"},
+    }
     return [
-        curve_maker(replace(below(group), name=""), label.format(i), layout, given, source)
+        curve_maker(replace(below(group), name=""), label.format(i), layout, given, **options)
         for i, group in enumerate(groups, 1)
     ]

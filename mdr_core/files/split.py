@@ -12,8 +12,9 @@ from .question import UnknownColumns
 _JUMP, _RISE, _STEPS = 0.2, 0.3, 5.0
 #: Largest step of the force between approach and retract, as a share of its range.
 _MEET = 0.3
-#: Largest distance of the end of a part of a curve from the beginning of the next, as a share of the range.
-_NEXT = 0.1
+#: Largest distance of the end of a part of a curve from the beginning of the next, and largest range of a
+#: hold, as shares of the range.
+_NEXT, _STILL = 0.1, 0.02
 #: Turns of the depth over its range, per row, above which it is scatter; and least one.
 _SCATTER, _TURNS = 0.15, 3.0
 #: Range, as a share of the largest value, and rows below which the numbers are those of repeated tests.
@@ -235,13 +236,21 @@ def _column(table, which):
     return names[found[0]] or f"column {found[0]}", cells[found[0]]
 
 
-def goes_on(before, table, columns):
-    """Whether a table begins where the one before ends, and not where that begins."""
-    first, second = (each.values[place_of(columns)] for each in (before, table))
-    first, second = first[np.isfinite(first)], second[np.isfinite(second)]
-    if not first.size or not second.size:
+def goes_on(before, table, columns, span):
+    """Whether a table begins where the tables before end, and not where they begin if these are no hold.
+
+    `span` is the range of the depth of a curve, of which that of a hold is a small share.
+    """
+    first, second = (known_depths(each, columns) for each in (before, [table]))
+    if not first.size or not second.size or abs(second[0] - first[-1]) >= _NEXT * span:
         return False
-    return bool(abs(second[0] - first[-1]) < _NEXT * np.ptp(first) < abs(second[0] - first[0]))
+    return bool(np.ptp(first) < _STILL * span or abs(second[0] - first[0]) > _NEXT * span)
+
+
+def known_depths(tables, columns):
+    """Depths of tables below each other, without those that are missing."""
+    depth = np.concatenate([table.values[place_of(columns)] for table in tables])
+    return depth[np.isfinite(depth)]
 
 
 def below(tables):

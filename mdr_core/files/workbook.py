@@ -1,44 +1,65 @@
 """Curves of the sheets of Excel files."""
 
-from contextlib import suppress
+import warnings
+from contextlib import closing
 from dataclasses import replace
 
 from ..show.report import imported
+from .afm import is_binary
 from .packed import refuse_large
 from .several import curves_of_tables
 from .table import read_tables
 
+_SUFFIXES = ".xls", ".xlsx", ".xlsm"
 #: Most sheets, and most cells (rows times columns) of one.
 _SHEETS, _CELLS = 1_000, 10_000_000
 
 
+def is_workbook(path):
+    """Whether a file with a suffix of Excel is one: programs of instruments give it to text, too."""
+    if path.suffix.lower() not in _SUFFIXES:
+        return False
+    with path.open("rb") as file:
+        head = file.read(4096)
+    if head.lstrip(b"\xef\xbb\xbf \r\n").startswith(b"<"):
+        raise ValueError(
+            f"{path.name} is HTML or XML, and no Excel file: open it in a program for spreadsheets, and "
+            "save it as .xlsx or as a CSV table"
+        )
+    return not head.strip() or is_binary(head)
+
+
 def from_workbook(path, options):
     """Functions that make the curves of the sheets of an Excel file that have depth and force."""
-    pandas = imported("pandas", f"reading {path.name}", "pandas openpyxl xlrd")
     engine = "xlrd" if path.suffix.lower() == ".xls" else "openpyxl"
-    imported(engine, f"reading {path.name}", "openpyxl xlrd")
+    reader = imported(engine, f"reading {path.name}", "openpyxl xlrd")
     refuse_large(path, sheets=_SHEETS)
-    tables = []
-    for sheet, text in _texts(pandas, path, engine):
-        # Sheets of settings have no rows of numbers.
-        with suppress(ValueError):
+    tables, refusals = [], []
+    for sheet, text in _texts(path, reader, _rows_of_xls if engine == "xlrd" else _rows_of_xlsx):
+        try:
             for table in read_tables(text, f"{path.name}, {sheet}"):
                 tables.append(replace(table, name=", ".join(filter(None, (sheet, table.name)))))
+        except ValueError as error:
+            # Sheets of settings have no rows of numbers.
+            refusals.append(error)
     if not tables:
+        if len(refusals) == 1:
+            raise refusals[0]
         raise ValueError(f"{path.name} has no sheet with columns of depth and force and their units")
     return curves_of_tables(tables, path.name, options)
 
 
-def _texts(pandas, path, engine):
+def _texts(path, reader, texts_of):
     """Names of the sheets, and their cells as text separated by tabs."""
     try:
-        with pandas.ExcelFile(path, engine=engine) as file:
-            rows_of = _rows_of_xls if engine == "xlrd" else _rows_of_xlsx
-            return [(str(name), _text(path, name, rows_of(file.book, name))) for name in file.sheet_names]
+        with warnings.catch_warnings():
+            # They are about styles and other things without numbers.
+            warnings.simplefilter("ignore")
+            return [(name, _text(path, name, rows)) for name, rows in texts_of(reader, path)]
     except _TooLarge:
         raise
     except Exception as error:
-        # Each engine has errors of its own for what is no Excel file.
+        # Each package has errors of its own for what is no Excel file.
         raise ValueError(f"{path.name} cannot be read as an Excel file: {error}") from error
 
 
@@ -66,16 +87,26 @@ def _text(path, name, rows):
     return "\n".join(line + "\t" * (width - 1 - line.count("\t")) if line else "" for line in lines)
 
 
-def _rows_of_xlsx(book, name):
-    sheet = book[name]
-    if hasattr(sheet, "reset_dimensions"):
-        # What a file says of its size may be wrong.
-        sheet.reset_dimensions()
-    return sheet.iter_rows(values_only=True) if hasattr(sheet, "iter_rows") else ()
+def _rows_of_xlsx(openpyxl, path):
+    """Names and rows of the sheets; one of a chart has none."""
+    book = openpyxl.load_workbook(path, read_only=True, data_only=True, keep_links=False)
+    with closing(book):
+        for name in book.sheetnames:
+            sheet = book[name]
+            if hasattr(sheet, "reset_dimensions"):
+                # What a file says of its size may be wrong.
+                sheet.reset_dimensions()
+            yield name, sheet.iter_rows(values_only=True) if hasattr(sheet, "iter_rows") else ()
 
 
-def _rows_of_xls(book, name):
-    sheet = book.sheet_by_name(name)
+def _rows_of_xls(xlrd, path):
+    """Names and rows of the sheets."""
+    with xlrd.open_workbook(path) as book:
+        for name in book.sheet_names():
+            yield name, _rows_of_sheet(book.sheet_by_name(name), name)
+
+
+def _rows_of_sheet(sheet, name):
     if sheet.nrows * sheet.ncols > _CELLS:
         raise _TooLarge(
             f"{name}: {sheet.nrows} rows times {sheet.ncols} columns are more than {_CELLS} cells"

@@ -43,6 +43,8 @@ def columns_of(depth, force, time, *, skip=False):
         return _of_many(depth, time, skip)
     if force is None:
         raise ValueError("force is missing: give depth and force, or a MeasuredCurve in the place of depth")
+    if depth is None:
+        raise ValueError("depth is missing: give depth and force, or a MeasuredCurve in the place of depth")
     return Columns(depth, force, None if time is ... else time)
 
 
@@ -129,7 +131,15 @@ def finite_columns(depth, force, time, stiffness):
     if not arrays["depth"].size:
         text = "depth and force have no samples: an unloading needs five or more"
         raise Refusal(Remark(text, "no unloading"))
+    if arrays["depth"].size > 1 and not np.ptp(arrays["depth"]):
+        text = f"range of depth = 0 m: the depth is {arrays['depth'][0]:g} m throughout; check its column"
+        raise Refusal(Remark(text, "no unloading"))
     if "time" in arrays:
+        if arrays["time"].size > 1 and not np.ptp(arrays["time"]):
+            time = arrays["time"][0]
+            raise ValueError(
+                f"range of time = 0 s: the time is {time:g} s throughout; check its column, or leave it out"
+            )
         # Segments of a file may share the time at which one ends and the next begins.
         back = np.diff(arrays["time"], prepend=-np.inf) < 0
         advice = "sort the samples by time"

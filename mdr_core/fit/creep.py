@@ -20,6 +20,9 @@ _FEW, _MOST = 5, 0.5
 _SIGNIFICANT = 3.0
 #: Least growth of depth, as a share of the largest depth, while the force falls.
 _GROWTH = 1e-4
+#: Least fall of the depth in a hold that is none, as a share of its range, and its least rate over that in
+#: the unloading.
+_LEAST_FALL, _AS_FAST = 1e-3, 0.3
 #: Share of the compliance 1/S above which creep is said.
 COUNTS = 0.05
 
@@ -41,7 +44,7 @@ class Creep:
 
 def creep(depth, force, time):
     """`Creep` of one unloading with the hold before it, None where the force is not held."""
-    held = hold(time, force)
+    held = hold(time, force, depth)
     if held is None:
         return None
     end = int(held[-1])
@@ -57,7 +60,27 @@ def creep(depth, force, time):
     return Creep(float(rate / scale), float(error / scale), end, float(time[end] - time[held[0]]))
 
 
-def hold(time, force):
+def hold(time, force, depth):
+    """Samples at which the largest force is held, None if it is not, or if a sensor shows no larger one."""
+    held = _held(time, force)
+    return None if held is None or _turns(time, force, depth, held) else held
+
+
+def _turns(time, force, depth, held):
+    """Whether the depth comes back in a hold as in the unloading: the force is that of a saturated sensor.
+
+    In a hold it creeps or drifts, at a small share of the rate of the unloading.
+    """
+    end, top = held[-1], held[np.argmax(depth[held])]
+    fall = depth[top] - depth[end]
+    after = int(np.argmax(force[end:] < 0.5 * force[end]))
+    if not after or fall <= max(_LEAST_FALL * np.ptp(depth), 2 * _NOISE * roughness(depth[None])[0, 0]):
+        return False
+    unloading = (depth[end] - depth[end + after]) / (time[end + after] - time[end])
+    return bool(fall > _AS_FAST * unloading * (time[end] - time[top]))
+
+
+def _held(time, force):
     """Samples at which the largest force is held, None if it is not.
 
     They lie between the times at which straight lines through the force before and after meet the median
@@ -148,9 +171,15 @@ def rise_of_depth(depth, force):
     return float(rise) if rise > least else 0.0
 
 
-NO_HOLD = Remark(
-    "no hold of the force before the unloading shows its creep: creep is not corrected", "hold"
-)
+def no_hold(depth, force, time):
+    """A remark on a record without a hold."""
+    text = "no hold of the force before the unloading shows its creep"
+    if _held(time, force) is not None:
+        text = (
+            "the force stays the same while the depth grows and comes back, as that of a sensor at the end "
+            "of its range, which is no hold"
+        )
+    return Remark(f"{text}: creep is not corrected", "hold")
 
 
 def of_share(share):

@@ -19,6 +19,7 @@ from ..profiles.profile import Profile
 from ..show.quantities import engineering
 from .errors import covariances
 from .least_squares import least_squares
+from .materials import doubts_of_measured
 from .parameters import CLASSES, hardness_by_default, held_values, symbols
 from .report import Fit
 
@@ -92,7 +93,7 @@ def fit_hardness(
     E_star = _check.positive_number("effective modulus E_star", E_star, unit="Pa")
     check_pair(profile, Medium(E_star), "a fit")
     p_m, a = _measured(profile, mean_pressure, radius)
-    depth, area = profile.reduced_at(a), np.pi * a**2 * p_m / (2 * E_star)
+    radii, depth, area = a, profile.reduced_at(a), np.pi * a**2 * p_m / (2 * E_star)
     cap, yielded = _caps(profile, depth, area)
     if not yielded.any():
         largest = engineering(p_m.max(), "Pa")
@@ -123,7 +124,10 @@ def fit_hardness(
         covariance=_check.frozen(covariance),
         residuals=_check.frozen(minimum.residual[0]),
         q_c_values=_check.frozen(values),
-        remarks=tuple(_remarks(yielded, constants, errors, free, power_law)),
+        remarks=(
+            *doubts_of_measured(E_star, p_m, radii),
+            *_remarks(yielded, constants, errors, free, power_law),
+        ),
         **power_law,
     )
 

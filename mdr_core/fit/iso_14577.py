@@ -38,7 +38,7 @@ def iso_numbers(profile: Profile, depth, force, time, part: slice, laws) -> tupl
     top = part.start + last_at_top(depth[part])
     first = depth[:top].max(initial=-np.inf) <= (1 + _DEEPER) * depth[top]
     moments = np.arange(depth.size) if time is None else time
-    held = hold(moments[part], force[part])
+    held = hold(moments[part], force[part], depth[part])
     work, creep = np.nan, np.nan
     end, height = top, force[top]
     if held is not None:

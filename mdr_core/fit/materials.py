@@ -12,6 +12,9 @@ MODULI = 1.0, 2e12
 SOFTEST_OF_UNLOADINGS, SOFTEST_THAT_YIELDS, REMAINS = 1e3, 1e8, 0.25
 #: Largest hardness (Pa), twice that of diamond.
 HARDEST = 200e9
+#: Least hardness over the modulus E*, a hundredth of that of annealed metals, and largest contact radius
+#: (m) of measurements that are not asked about.
+SOFTEST_OVER_MODULUS, WIDEST = 1e-5, 1e-2
 #: Where to look for another unit.
 UNITS = Remedy("unit", "depth"), Remedy("unit", "force")
 
@@ -50,6 +53,24 @@ def doubts(E_star, hardness, remaining=0.0):
         )
         for text, more in found
     ]
+
+
+def doubts_of_measured(E_star, mean_pressure, radius):
+    """Remarks on mean pressures (Pa) and contact radii (m), beside E* (Pa), that are in other units."""
+    if not SOFTEST_OVER_MODULUS * E_star <= np.median(mean_pressure) <= HARDEST:
+        given = _short(np.median(mean_pressure))
+        text = f"no material with E* = {_short(E_star)} has a mean pressure of {given}"
+        remedy = Remedy("unit", "mean_pressure"), Remedy("unit", "E_star")
+        yield Remark(
+            f"{text}: give mean_pressure and E_star in Pa",
+            "units",
+            f"{text}: look at the units of both",
+            remedy,
+        )
+    if np.median(radius) > WIDEST:
+        text = f"a contact radius of {engineering(float(f'{np.median(radius):.3g}'), 'm')} is very large"
+        remedy = (Remedy("unit", "radius"),)
+        yield Remark(f"{text}: give radius in m", "units", f"{text}: look at its unit", remedy)
 
 
 def _short(value):

@@ -21,6 +21,7 @@ from .iso_14577 import iso_numbers
 from .materials import doubts
 from .moduli import moduli, not_from_contact, remaining
 from .oliver_pharr_result import ISO_14577, OliverPharr
+from .order import out_of_order
 from .tip import of_ideal_tip
 from .unloading import last_at_top, laws_of, parts_of
 from .zero import zero_of
@@ -150,6 +151,8 @@ def oliver_pharr(
     if stiffness is not None and (time is not None or cycles):
         raise ValueError("stiffness is measured at each sample: give it without time and cycles")
     columns = finite_columns(given.depth, given.force, time, stiffness)
+    if stiffness is None:
+        read = (*read, *out_of_order(columns["depth"], columns["force"]))
     first, contact, found, in_contact = zero_of(profile, columns["depth"], columns["force"])
     columns = {name: values[first:] for name, values in columns.items()}
     depth, force = columns["depth"] - contact.depth, columns["force"] - contact.baseline
@@ -215,7 +218,7 @@ def _with_creep(profile, depth, force, time, constants, contact):
         elif remark := doubt(profile, depth.max(), laws, time is not None):
             notes.append(remark)
         if time is not None:
-            notes.append(creeping.NO_HOLD)
+            notes.append(creeping.no_hold(depth, force, time))
         return (uncorrected, uncorrected), notes
     depths = [creep.without(depth, time, n) for n in (0, 1)]
     laws = [laws_of(each, force) for each in depths]

@@ -149,7 +149,8 @@ def _first(text):
 
 def _evaluated(fit, depth, force):
     """Results of Oliver and Pharr, corrected for creep where times are given and it is not small."""
-    increases = fit.time is not None and not np.any(np.diff(fit.time[np.isfinite(fit.time)]) < 0)
+    steps = np.zeros(1) if fit.time is None else np.diff(fit.time[np.isfinite(fit.time)])
+    increases = np.any(steps) and not np.any(steps < 0)
     result = oliver_pharr(fit.profile, depth, force, time=fit.time if increases else None)
     if increases and abs(result.stiffness / result.uncorrected.stiffness - 1) <= COUNTS:
         return result.uncorrected

@@ -10,7 +10,9 @@ from .errors import SIGNIFICANT
 from .materials import UNITS, is_modulus
 from .nested import nested_tests
 from .noise import tests_of_noise
+from .order import out_of_order
 from .parameters import TOGETHER, symbols
+from .tension import of_tension
 from .tip import of_ideal_tip
 
 #: Those that say that the model does not fit, and its first contact may be wrong by more than its error.
@@ -34,10 +36,6 @@ _SEEN, _BENT = 0.25, 1.1
 #: Ranges of depth (m) that no indentation has, and that few have in soft media; the modulus (Pa) of the
 #: softest ones; contact radius over the radius of the tip beyond which its depths are in another unit.
 _ENORMOUS, _LARGE, _SOFTEST, _BEYOND_TIP = 1.0, 1e-2, 1e3, 10.0
-#: Excess of the force after the largest depth over that before it, as a share of its range, that no medium
-#: has; least share of samples at which depths turn, and least median step, as a share of their range, of a
-#: record without order; least number of samples that tell it.
-_REVERSED, _TURNS, _STEPS, _FEW = 0.05, 0.4, 0.1, 10
 _SWAPPED, _NO_CONTACT = "depth and force are swapped", "this record shows no contact"
 #: Least distance of the pull-off from that of the model, as a share of the range of depth.
 _PULL_OFF = 0.02
@@ -45,7 +43,9 @@ _PULL_OFF = 0.02
 
 def remarks_of(solved):
     """Remarks on each curve of a `Solution`."""
-    checks = _units, _order, _ambiguous, _adhesion, _undetermined, tests_of_noise, nested_tests, _tip
+    checks = (
+        _units, _order, _ambiguous, _adhesion, of_tension, _undetermined, tests_of_noise, nested_tests, _tip
+    )  # fmt: skip
     return [_consistent([*chain(*(check(solved, i) for check in checks))]) for i in range(len(solved.rows))]
 
 
@@ -140,33 +140,8 @@ def _is_enormous(solved, i):
 def _order(solved, i):
     """Samples that are not in the order in which they were measured, where the order matters."""
     curves = solved.curves
-    depth, force = curves.depth[i], curves.force[i]
-    if (curves.held_elastic and not curves.adhesive) or depth.size < _FEW:
-        return
-    steps = np.diff(depth)
-    turns = np.mean(steps[1:] * steps[:-1] < 0)
-    if turns > _TURNS and np.median(np.abs(steps)) > _STEPS * np.ptp(depth):
-        text = "depths go up and down from sample to sample, as in a shuffled record"
-        yield Remark(f"{text}: give the samples in the order in which they were measured", "order")
-    elif _rise_after(depth, force) > _REVERSED * np.ptp(force):
-        text = "forces are larger after the largest depth than before it, as in a reversed record"
-        yield Remark(f"{text}: give the samples in the order in which they were measured", "order")
-
-
-def _rise_after(depth, force):
-    """Mean force (N) after the largest depth less that before it, at the same depths."""
-    top = int(np.argmax(depth))
-    parts = slice(top + 1), slice(top, None)
-    least = max(depth[part].min() for part in parts)
-    if least == depth[top]:
-        return 0.0
-    common = np.linspace(least, depth[top], 50)
-    before, after = (
-        np.interp(common, depth[part][order], force[part][order])
-        for part in parts
-        for order in [np.argsort(depth[part], kind="stable")]
-    )
-    return float(np.mean(after - before))
+    if not curves.held_elastic or curves.adhesive:
+        yield from out_of_order(curves.depth[i], curves.force[i])
 
 
 def _shares_of_others(depth, force):

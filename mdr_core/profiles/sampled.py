@@ -156,7 +156,8 @@ class Sampled(Profile):
         ------
         ValueError
             If the area does not grow, or the tip is concave by more than 3 %; if the radius there is
-            more than 100 times the height or less than a hundredth, as of coefficients in another unit.
+            more than 100 times the height or less than a hundredth, as of coefficients in another unit;
+            if the height is above 10⁶ of a unit that is given, as a height that is not in m.
 
         Examples
         --------

@@ -18,6 +18,8 @@ _WAVY, _ENOUGH_FOR_WAVES, _LAGS = 0.15, 50, range(6, 26)
 _ENOUGH = 8
 #: Share of the height above which a change of an area function is no rounding.
 _REPAIRED = 1e-6
+#: Largest height in the unit of the coefficients: 1 mm for nm.
+_HIGHEST = 1e6
 #: Share of the height below which an area function need not grow, and largest radius of a tip over its
 #: height, and height over radius.
 _BLUNT, _WIDEST = 0.05, 100.0
@@ -124,6 +126,11 @@ def area_samples(coefficients, height, samples, limit, unit):
     height = _check.positive_number("height", height, unit="m")
     samples = _check.positive_number("samples", samples)
     size = length_unit(unit)
+    if size < 1.0 and height > _HIGHEST * size:
+        raise ValueError(
+            f"height = {height:g} m is {height / size:.3g} {unit}, and must be at most {_HIGHEST:g} "
+            f"{unit}: give the height in m, as in {1000 * size:g}"
+        )
     if not 2 <= samples <= limit or samples % 1:
         raise ValueError(f"samples = {samples:g} must be a whole number from 2 to {limit}")
     h = height * np.geomspace(1e-4, 1.0, int(samples) - 1)

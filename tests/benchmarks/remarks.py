@@ -82,6 +82,7 @@ def of_a_kind(medium, seed):
         pulled = mdr.indent(medium.tip, sticky, depth - 1e-7).force
         pulled = pulled + 4e-3 * top * random.normal(size=count)
         yield fit(F=pulled, work_of_adhesion=None), {"contact"}
+        yield fit(F=pulled), {"adhesion"}
         yield fit(work_of_adhesion=None), {"adhesion", "contact"}
     else:
         shuffled = random.permutation(count)
@@ -227,14 +228,16 @@ def of_measured():
     """Yields the kinds of remarks on measured curves, and those that are known to be right.
 
     Glass and quartz are of class (a), none of the four is elastic, steel has a noisy depth and NiAl a
-    pop-in; approach and retract of the gels differ, and the curve of a cell is nearly noise. All four have
-    a hold before the unloading, none begins in the air, and the contact of steel is the one below 200 nm.
+    pop-in; approach and retract of the gels differ, as these stick on the retract, and the curve of a cell
+    is nearly noise. All four have a hold before the unloading, none begins in the air, and the contact of
+    steel is the one below 200 nm.
     """
     for name in AFM:
         for tip in HERTZ.values():
             for segment in ("approach", "retract"):
                 fit = mdr.fit_indentation(tip, *measured(name, segment), q_c=np.inf, baseline=None)
-                yield kinds(fit), {"misfit", "vague", "second minimum", "undetermined", "tilt"}
+                right = {"misfit", "vague", "second minimum", "undetermined", "tilt"}
+                yield kinds(fit), right | ({"adhesion"} if segment == "retract" else set())
     for name in AFM[:2]:
         yield kinds(fit_of(name)), {"drag", "misfit", "unloading", "tilt"}
     for name in BOUNDS:

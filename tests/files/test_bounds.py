@@ -42,14 +42,19 @@ def test_a_line_longer_than_a_header_has_no_constant(write):
         mdr.read_curve(path, columns={"piezo": (0, "nm"), "force": (1, "nN")})
 
 
-def test_numbers_of_1e30_and_more_in_si_are_missing(write):
-    """1.8e308 is how instruments write none; such a row is counted with those that have no number."""
+def test_numbers_of_1e30_and_more_are_missing(write):
+    """1.8e308 is how instruments write none; such a row is counted with those that have no number.
+
+    It does not make another path of the curve, either.
+    """
     lines = rows(NM, MN).splitlines()
     lines[3], lines[7], lines[9] = "1.8e308,2", "3,-1e40", "5,nan"
     curve = mdr.read_curve(write("Depth (nm),Load (mN)\n" + "\n".join(lines)))
     keep = [k for k in range(75) if k not in (3, 7, 9)]
     assert_curve(curve, DEPTH[keep], FORCE[keep])
     assert curve.remarks == ("left out lines 5, 9, 11: a cell is missing or not a number",)
+    lines[3], lines[7], lines[9] = "1.797e308,2", "3,1.797e308", "5,-1.797e308"
+    assert mdr.read_curve(write("Depth (nm),Load (mN)\n" + "\n".join(lines))).remarks == curve.remarks
 
 
 def sheet_with(folder, cell, name="run.xlsx"):

@@ -150,7 +150,15 @@ def test_of_a_piezo_the_deflection_is_subtracted_once(write, head):
     curve = mdr.read_curve(path, columns=columns, spring_constant=STIFFNESS)
     assert_curve(curve, DEPTH, SMALL)
     assert "the position of a piezo, minus force/(0.05 N/m)" in repr(curve)
+    # A height above the sample falls where the tip goes down.
+    falling = write(
+        (f"{head} (nm);Force (nN)\n" if head else "") + rows(-1e9 * PIEZO, 1e9 * SMALL, between=";")
+    )
+    turned = mdr.read_curve(falling, columns=columns, spring_constant=STIFFNESS)
+    assert_curve(turned, DEPTH, SMALL)
+    assert (turned.columns["piezo"], turned.remarks[0].kind) == ((0, "−nm"), "sign")
     # What a curve says of its columns reads it again.
+    path = write(text)
     assert_curve(mdr.read_curve(path, columns=curve.columns, spring_constant=STIFFNESS), DEPTH, SMALL)
     with pytest.raises(
         mdr.UnknownColumns, match=r"the position of a piezo, .* give spring_constant= \(N/m\)"
@@ -184,8 +192,10 @@ def test_a_stiffness_in_the_header_gives_way_to_the_one_that_is_given(write):
 
 
 @pytest.mark.parametrize(("unit", "size"), [("nm", 1e-9 * STIFFNESS), ("V", STIFFNESS * SENSITIVITY)])
-def test_a_deflection_is_a_force_with_the_constants_of_the_cantilever(asked, write, unit, size):
-    text = table("Height (nm)", f"Deflection ({unit})", columns=(1e9 * PIEZO, SMALL / size))
+@pytest.mark.parametrize("place", ["Height", "ZSnsr", "Position"])
+def test_a_deflection_is_a_force_with_the_constants_of_the_cantilever(asked, write, place, unit, size):
+    """A length beside it is the position of a piezo, whatever its name."""
+    text = table(f"{place} (nm)", f"Deflection ({unit})", columns=(1e9 * PIEZO, SMALL / size))
     error = asked(text)
     columns = error.suggestion["columns"]
     assert columns == {"piezo": (0, "nm"), "force": (1, unit)}
@@ -299,3 +309,62 @@ def test_guesses_are_suggestions_alone():
 )  # fmt: skip
 def test_a_header_is_a_name_and_a_unit(head, found):
     assert parted(head) == found
+
+
+def test_the_question_about_a_constant_keeps_what_is_told(asked, write):
+    """Approach and retract side by side stay both."""
+    back = np.linspace(200e-9, 120e-9, 56)
+    depth, force = np.append(DEPTH[:56], back), np.append(SMALL[:56], SMALL[55] - 0.1 * (200e-9 - back))
+    piezo, deflection = 1e9 * (depth + force / STIFFNESS), 1e9 * force / STIFFNESS
+    heads = [f"{part} {name} (nm)" for part in ("Approach", "Retract") for name in ("Z", "deflection")]
+    text = table(*heads, columns=(piezo[:56], deflection[:56], piezo[56:], deflection[56:]))
+    told = asked(text).suggestion
+    assert told["by"] == "segments"
+    again = asked(text, **told)
+    assert again.suggestion == told
+    (curve,) = mdr.read_curves(write(text), spring_constant=STIFFNESS, **again.suggestion)
+    assert_curve(curve, depth, force)
+
+
+@pytest.mark.parametrize("heads", [("Zeit (s)",), ("Time",), ("Time (s)", "Test time (s)")])
+def test_times_that_are_not_taken_are_said(write, heads):
+    """Their names or units are not exact, or there are two of them; one who leaves them out knows."""
+    path = write(table(*heads, "Depth (nm)", "Load (mN)", columns=(*[TIME] * len(heads), NM, MN)))
+    curve = mdr.read_curve(path)
+    assert curve.time is None
+    (remark,) = curve.remarks
+    assert remark.kind == "time"
+    assert all(repr(head) in remark.text for head in heads)
+    assert mdr.read_curve(path, columns={"time": None}).remarks == ()
+    np.testing.assert_allclose(mdr.read_curve(path, columns={"time": (0, "s")}).time, TIME)
+
+
+def test_suggestions_of_several_times_and_lengths(asked):
+    """Each pair has the time beside it; the tip's indentation goes before a displacement."""
+    heads = [f"{name} {k}" for k in (1, 2) for name in ("Depth (nm)", "Load (mN)", "Time (s)")]
+    error = asked(table(*heads, columns=(NM, MN, TIME, NM, 2 * MN, 2 * TIME)))
+    assert [each["time"] for each in error.suggestion["columns"]] == [(2, "s"), (5, "s")]
+    error = asked(table("Displacement (nm)", "Load (mN)", "Indentation (nm)", columns=(2 * NM, MN, NM)))
+    assert error.suggestion["columns"]["depth"] == (2, "nm")
+    error = asked(table("Temps (s)", "Profondeur (nm)", "Force (mN)", columns=(TIME, NM, MN)))
+    assert error.suggestion["columns"]["time"] == (0, "s")
+
+
+@pytest.mark.parametrize("unit", ["n m", "µ m"])
+def test_a_unit_in_two_words_is_left_open(asked, unit):
+    assert asked(table(f"Depth ({unit})", "Load (mN)")).suggestion["columns"]["depth"] == (0, "?")
+
+
+@pytest.mark.parametrize("share", [0.15, 1.0])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_an_adhesion_above_the_load_does_not_turn_the_force(write, share, sign):
+    """The load is at the largest depth, the pull-off beside first contact, seven times as large or less."""
+    depth, force = (
+        np.append(DEPTH[:56], DEPTH[:56][::-1]),
+        np.append(share * FORCE[:56], share * FORCE[:56][::-1]),
+    )
+    force[56:] += np.where(np.abs(depth[56:]) < 5e-9, -FORCE.max(), 0.0)
+    curve = mdr.read_curve(
+        write(table("Depth (nm)", "Load (mN)", columns=(sign * 1e9 * depth, 1e3 * force)))
+    )
+    assert_curve(curve, depth, force)

@@ -61,8 +61,11 @@ def test_text_of_jpk_without_a_stiffness_is_asked_about(write):
     path = write(jpk(COLUMNS, "m N m s", (-PIEZO, SMALL, -PIEZO, TIME)))
     with pytest.raises(
         mdr.UnknownColumns, match=r"'measuredHeight' is the position of a piezo.* give spring_cons"
-    ):
+    ) as error:
         mdr.read_curves(path)
+    # Of a table the segments would be curves.
+    assert error.value.suggestion == {}
+    assert "Give the columns" not in str(error.value)
     assert_curve(mdr.read_curve(path, spring_constant=STIFFNESS), DEPTH, SMALL)
 
 

@@ -240,6 +240,18 @@ def test_segments_with_a_header_each_are_parts_of_one_curve(asked, write):
     assert len(mdr.read_curves(write(one), by="whole")) == 2
 
 
+def test_a_hold_is_a_segment_of_its_curve(asked, write):
+    """Before the loading, at the largest depth and after the unloading; its own range is noise."""
+    noise = 0.1 * np.sin(np.arange(9.0))
+    depths = NM[0] + noise, NM[:56], NM[55] + noise, NM[56:], NM[-1] + noise
+    forces = 0 * noise, MN[:56], 0 * noise + MN[55], MN[56:], 0 * noise + MN[-1]
+    text = "".join(f"# part\n{HEAD}" + rows(*each) for each in zip(depths, forces, strict=True))
+    error = asked(text + text)
+    assert error.suggestion["by"] == "segments"
+    for curve in mdr.read_curves(write(text + text), **error.suggestion):
+        assert_curve(curve, 1e-9 * np.concatenate(depths), 1e-3 * np.concatenate(forces))
+
+
 def workbook(folder, sheets):
     pandas = pytest.importorskip("pandas")
     pytest.importorskip("openpyxl")

@@ -42,6 +42,18 @@ def test_a_comma_that_may_be_either_is_refused(write):
         mdr.read_curve(write("Depth (nm);Load (mN)\n0;0,5\n1.024;8,0\n2.048;32,0\n"))
 
 
+def test_a_point_that_may_separate_thousands_is_refused(write):
+    """512 and 1.024 nm, as Germans write whole numbers, were 512 and 1.024."""
+    with pytest.raises(
+        ValueError, match=r"the point of '1\.024' may be a decimal sign, or separate thousands"
+    ):
+        mdr.read_curve(write("Depth (nm);Load (mN)\n0;0.5\n512;2\n1.024;8.5\n2.048;32.5\n"))
+    # A number below 1, or of other digits, has a decimal point.
+    for other in ("0.512", "1.5"):
+        curve = mdr.read_curve(write(f"Depth (nm);Load (mN)\n0;0.5\n{other};2\n3;8.5\n4.048;32.5\n"))
+        assert curve.depth[-1] == pytest.approx(4.048e-9, rel=1e-12)
+
+
 def test_a_line_of_numbers_is_no_header(write):
     head = "Hysitron\nTime (s)\tDisp (nm)\tForce (µN)\n0.5\t1.5\t2.5\neoh\n"
     curve = mdr.read_curve(write(head + rows(TIME, 1e9 * DEPTH, 1e6 * FORCE, between="\t")))
@@ -77,3 +89,10 @@ def test_a_line_of_units_may_have_some_that_are_not_known(write):
     curve = mdr.read_curve(write(content))
     assert_curve(curve)
     assert curve.columns["time"] == (6, "s")
+
+
+@pytest.mark.parametrize("name", ["run.xls", "run.xlsx"])
+def test_text_with_the_suffix_of_a_workbook_is_read_as_text(write, name):
+    """As programs of instruments write it, which Excel opens with a warning."""
+    text = "Depth (nm)\tLoad (mN)\n" + rows(1e9 * DEPTH, 1e3 * FORCE, between="\t")
+    assert_curve(mdr.read_curve(write(text, name=name)))

@@ -135,3 +135,19 @@ def test_times_that_go_back_are_refused():
     time[50] = 0.0
     with pytest.raises(ValueError, match=r"time\[50\] = 0 s does not increase"):
         mdr.oliver_pharr(TIP, depth, force, time=time)
+
+
+@pytest.mark.parametrize("medium", [mdr.Medium(E, hardness=7e9), mdr.Medium(E, q_c=2e3), mdr.Medium(5e9)])
+@pytest.mark.parametrize("share", [0.95, 0.8])
+def test_a_saturated_force_is_no_hold(medium, share):
+    """Its depth comes back while the force is held: E* was up to five times too large by that rate."""
+    depth = 1e-9 * np.append(np.linspace(0, 400, 300), np.linspace(400, 160, 200)[1:])
+    force = mdr.indent(TIP, medium, depth).force
+    force = force + 5e-4 * force.max() * np.random.default_rng(1).normal(size=force.size)
+    saturated, time = np.minimum(force, share * force.max()), 0.1 * np.arange(depth.size)
+    result = mdr.oliver_pharr(TIP, depth, saturated, time=time)
+    assert [remark.kind for remark in result.remarks] == ["hold"]
+    assert "a sensor at the end of its range" in result.remarks[0].text
+    assert result.E_star == mdr.oliver_pharr(TIP, depth, saturated).E_star
+    # The power law of the part that is left is that of the whole unloading, to some scatter.
+    assert result.E_star == approx(mdr.oliver_pharr(TIP, depth, force).E_star, rel=0.03)

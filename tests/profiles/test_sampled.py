@@ -394,6 +394,12 @@ class TestAreaFunction:
         np.testing.assert_allclose(tip.z, mdr.Sampled.from_area_function(coefficients * size, 1e-6).z)
         np.testing.assert_allclose(tip.r, mdr.Sampled.from_area_function(coefficients * size, 1e-6).r)
 
+    @pytest.mark.parametrize("height", [1000, 1.0])
+    def test_a_height_in_the_unit_of_the_coefficients_is_refused(self, height):
+        """1000 for nm was 1 km, of which the lowest sample is above the blunt part: A was 7 % too small."""
+        with pytest.raises(ValueError, match=r"height = .* m is .* nm, and must be at most 1e\+06 nm"):
+            mdr.Sampled.from_area_function([24.5, 500.0], height, unit="nm")
+
     def test_a_calibration_that_is_negative_near_the_tip(self):
         """Coefficients of an instrument (micromechanics, Example.xls): A < 0 up to 6 nm of 2 µm."""
         c = [27.3136, 152.698859, -494.182317]
