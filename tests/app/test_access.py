@@ -63,19 +63,21 @@ STATES = {
 
 
 @pytest.fixture(scope="module", params=STATES)
-def state(request, server, browser):
+def state(request, server, context):
     """A page that several tests look at, and none of them changes."""
-    query, act, (width, height) = STATES[request.param]
-    with browser.new_context(viewport={"width": width, "height": height}) as context:
-        of_page = query in ("?fit", "?theory")
-        explorer = Explorer(context.new_page(), server.url + query, READY if of_page else "explorer.idle()")
-        explorer.page.locator("[role=main]").wait_for(state="attached")
-        # Each component links the sheets itself, and shows before they are there.
-        explorer.wait("explorer.all().every((each) => !each.matches('link[rel=stylesheet]') || each.sheet)")
-        if act:
-            act(explorer)
-        yield explorer
-        assert explorer.problems == []
+    query, act, window = STATES[request.param]
+    ready = READY if query in ("?fit", "?theory") else "explorer.idle()"
+    explorer = Explorer(context.new_page(), server.url + query, ready, window)
+    explorer.page.locator("[role=main]").wait_for(state="attached")
+    # Each component links the sheets itself, and shows before they are there.
+    explorer.wait("explorer.all().every((each) => !each.matches('link[rel=stylesheet]') || each.sheet)")
+    if act:
+        act(explorer)
+    yield explorer
+    assert explorer.problems == []
+    # The theme, which all pages would have.
+    explorer.page.evaluate("localStorage.clear()")
+    explorer.page.close()
 
 
 def test_axe_finds_nothing_grave(state):
@@ -83,12 +85,10 @@ def test_axe_finds_nothing_grave(state):
     assert grave == []
 
 
-def test_axe_would_find_what_is_grave(server, browser):
+def test_axe_would_find_what_is_grave(explorer):
     """A field that loses its name is found, also where it is inside of components."""
-    with browser.new_context() as context:
-        explorer = Explorer(context.new_page(), server.url)
-        explorer.field("d_max").evaluate("(field) => { field.ariaLabel = null; field.id = 'other' }")
-        assert ("critical", "label") in [each[:2] for each in findings(explorer.page)]
+    explorer.field("d_max").evaluate("(field) => { field.ariaLabel = null; field.id = 'other' }")
+    assert ("critical", "label") in [each[:2] for each in findings(explorer.page)]
 
 
 def test_all_is_within_landmarks_under_one_heading(state):
