@@ -27,6 +27,7 @@ ENDS = {
 }
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("end", ENDS)
 def test_the_app_loads_without_a_private_end_and_logs_one_line(end):
     """In a process of its own, because the names are taken away for good."""
@@ -108,7 +109,7 @@ def test_the_page_is_in_use_without_any_of_them(without, context):
     assert "Traceback" not in without.log
 
 
-@pytest.mark.few(4)
+@pytest.mark.few(2)
 @pytest.mark.parametrize("end", IN_THE_BROWSER)
 def test_the_page_is_in_use_without_an_end_in_the_browser(end, without, context):
     """Everything is drawn, played and saved, and one line of the console says what is not there."""
