@@ -165,8 +165,8 @@ def _compare_force_path(compare, case, springs, force):
     found = float(mdr.indent_to_force(case.profile, case.medium, force).depth)
     compare("force path", State(springs, found, found).force, force)
     before = found * np.linspace(0.02, 0.999, 60)
-    forces = [State(springs, depth, depth).force for depth in before] if "f_c" in _constants(case) else []
-    compare("force path", max([force, *forces]), force)
+    forces = springs.first_force(before) if "f_c" in _constants(case) else force
+    compare("force path", max(force, np.max(forces)), force)
 
 
 def _constants(case):

@@ -90,6 +90,12 @@ class Springs:
 
         return c * np.maximum(depth - plastic_depth, 0.0) ** power + self.over_x(load, c, a)
 
+    def first_force(self, depth):
+        """Forces (N) at depths (m) of a first loading."""
+        plastic_depth = self.plastic_depth(depth)
+        radii = self.radius(depth), self.radius(plastic_depth)
+        return 2 * self.E * self.compressed(depth, plastic_depth, *radii, 1)
+
 
 class State:
     """Quantities and fields of one state, at a depth (m) after a largest depth (m)."""

@@ -130,8 +130,10 @@ def deployed(port):
 class Explorer:
     """The page as a person sees it, and what it said on the way."""
 
-    def __init__(self, page, url, ready="explorer.idle()"):
+    def __init__(self, page, url, ready="explorer.idle()", window=None):
         self.page, self.sent, self.problems = page, [], []
+        if window:
+            page.set_viewport_size(dict(zip(("width", "height"), window, strict=True)))
         page.on("websocket", lambda socket: socket.on("framesent", lambda data: self.sent.append(data)))
         page.on("request", self._requested)
         page.on("pageerror", lambda error: self.problems.append(str(error)))
@@ -277,15 +279,31 @@ def browser():
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        # A page that starts a process of its own takes twice the time of the processor.
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=[*FLAGS, "--process-per-site"])
         yield browser
         browser.close()
 
 
+def keep_process(context, server):
+    """Open a page that stays, and with it the process of all pages of the site."""
+    context.new_page().goto(server.url.replace("/app", "/static/js/bokeh.min.js"))
+
+
 @pytest.fixture(scope="session")
-def context(browser):
+def context(server, browser):
     """One profile for all pages, so that scripts are fetched and compiled once."""
     with browser.new_context(viewport={"width": 1440, "height": 900}) as context:
+        keep_process(context, server)
+        yield context
+
+
+@pytest.fixture(scope="session")
+def handheld(server, browser):
+    """The profile of a phone, for all pages that are touched."""
+    held = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
+    with browser.new_context(**held) as context:
+        keep_process(context, server)
         yield context
 
 

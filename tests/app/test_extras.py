@@ -131,7 +131,7 @@ def whole():
     return texts(Page())
 
 
-@pytest.mark.few(8)
+@pytest.mark.few(4)
 @pytest.mark.parametrize("name", EXTRAS)
 def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, name, monkeypatch):
     copied(folder, f"without_{name}", name)

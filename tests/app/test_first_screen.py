@@ -15,12 +15,12 @@ LEAST = 150
 
 
 @pytest.fixture
-def projector(server, browser):
+def projector(server, context):
     """The page on a projector."""
-    with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
-        explorer = Explorer(context.new_page(), server.url)
-        yield explorer
-        assert explorer.problems == []
+    explorer = Explorer(context.new_page(), server.url, window=(1280, 720))
+    yield explorer
+    assert explorer.problems == []
+    explorer.page.close()
 
 
 def heights(explorer, *names):
@@ -116,30 +116,29 @@ def test_a_box_is_zoomed_to_until_a_double_click_or_another_drive(projector):
     projector.wait("(wide) => Math.abs(explorer.axis('force').x[1] / wide - 1) < 1e-9", before["x"][1])
 
 
-def test_a_finger_zooms(server, browser):
+def test_a_finger_zooms(server, handheld):
     """A touched plot shows its tools, of 44 pixels; a finger draws the box."""
-    held = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
-    with browser.new_context(**held) as context:
-        explorer = Explorer(context.new_page(), server.url)
-        page, before = explorer.page, explorer.axis("force")
-        box, _ = tools(explorer, "force")
-        place = page.locator(".card.force canvas").first.bounding_box()
-        x, y = place["x"] + 0.3 * place["width"], place["y"] + 0.5 * place["height"]
-        page.touchscreen.tap(x, y)
-        box.wait_for()
-        size = box.bounding_box()
-        assert min(size["width"], size["height"]) >= 44
-        box.tap()
-        client = context.new_cdp_session(page)
-        moves = ("touchStart", 0.0), ("touchMove", 0.1), ("touchMove", 0.25), ("touchEnd", None)
-        for kind, share in moves:
-            end = share is None
-            at = [] if end else [{"x": x + share * place["width"], "y": y + share * place["height"]}]
-            client.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
-        narrow = "([a, b]) => { const { x } = explorer.axis('force'); return x[1] - x[0] < (b - a) / 2 }"
-        explorer.wait(narrow, before["x"])
-        assert page.evaluate("scrollY") == 0
-        assert explorer.problems == []
+    explorer = Explorer(handheld.new_page(), server.url)
+    page, before = explorer.page, explorer.axis("force")
+    box, _ = tools(explorer, "force")
+    place = page.locator(".card.force canvas").first.bounding_box()
+    x, y = place["x"] + 0.3 * place["width"], place["y"] + 0.5 * place["height"]
+    page.touchscreen.tap(x, y)
+    box.wait_for()
+    size = box.bounding_box()
+    assert min(size["width"], size["height"]) >= 44
+    box.tap()
+    client = handheld.new_cdp_session(page)
+    moves = ("touchStart", 0.0), ("touchMove", 0.1), ("touchMove", 0.25), ("touchEnd", None)
+    for kind, share in moves:
+        end = share is None
+        at = [] if end else [{"x": x + share * place["width"], "y": y + share * place["height"]}]
+        client.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+    narrow = "([a, b]) => { const { x } = explorer.axis('force'); return x[1] - x[0] < (b - a) / 2 }"
+    explorer.wait(narrow, before["x"])
+    assert page.evaluate("scrollY") == 0
+    assert explorer.problems == []
+    explorer.page.close()
 
 
 def test_a_spring_says_its_compression_and_its_load_against_their_limits(projector):
@@ -186,15 +185,14 @@ def test_numbers_that_differ_are_seen_while_a_slider_moves(projector):
     assert depth == approx(-8.978, rel=1e-3)
 
 
-def test_one_screen_of_a_phone_has_springs_force_and_slider(server, browser):
-    held = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
-    with browser.new_context(**held) as context:
-        explorer = Explorer(context.new_page(), server.url)
-        boxes = [explorer.page.locator(f".card.{name}").bounding_box() for name in ("springs", "force")]
-        boxes.append(explorer.slider("d_max").bounding_box())
-        assert all(box["y"] >= 0 and box["y"] + box["height"] <= 844 for box in boxes)
-        assert min(heights(explorer, "springs", "force")) > 100
-        tops = explorer.page.locator(".header button:visible, .header select:visible")
-        boxes = [each.bounding_box() for each in tops.all()]
-        assert len({round(box["y"] + box["height"] / 2) for box in boxes}) == 1
-        assert explorer.problems == []
+def test_one_screen_of_a_phone_has_springs_force_and_slider(server, handheld):
+    explorer = Explorer(handheld.new_page(), server.url)
+    boxes = [explorer.page.locator(f".card.{name}").bounding_box() for name in ("springs", "force")]
+    boxes.append(explorer.slider("d_max").bounding_box())
+    assert all(box["y"] >= 0 and box["y"] + box["height"] <= 844 for box in boxes)
+    assert min(heights(explorer, "springs", "force")) > 100
+    tops = explorer.page.locator(".header button:visible, .header select:visible")
+    boxes = [each.bounding_box() for each in tops.all()]
+    assert len({round(box["y"] + box["height"] / 2) for box in boxes}) == 1
+    assert explorer.problems == []
+    explorer.page.close()

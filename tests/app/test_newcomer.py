@@ -63,13 +63,12 @@ def test_a_newcomer_takes_the_scene_home(explorer, opened, tmp_path):
 
 
 @pytest.fixture(scope="module")
-def phone(server, browser):
+def phone(server, handheld):
     """The page on a phone."""
-    held = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
-    with browser.new_context(**held) as context:
-        explorer = Explorer(context.new_page(), server.url)
-        yield explorer
-        assert explorer.problems == []
+    explorer = Explorer(handheld.new_page(), server.url)
+    yield explorer
+    assert explorer.problems == []
+    explorer.page.close()
 
 
 def test_small_screens(phone):

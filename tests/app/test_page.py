@@ -45,26 +45,26 @@ def assert_draws(explorer, state: State):
 
 
 @pytest.mark.parametrize(("width", "height"), [(1280, 720), (1440, 900)])
-def test_the_first_screen_has_what_a_person_comes_for(server, browser, width, height):
+def test_the_first_screen_has_what_a_person_comes_for(server, context, width, height):
     """The drive with its slider first, shape, E* and q_c; one line of readouts; three plots, all whole."""
-    with browser.new_context(viewport={"width": width, "height": height}) as context:
-        explorer = Explorer(context.new_page(), server.url)
-        page = explorer.page
-        # A field and a slider each.
-        inputs = [each.bounding_box() for each in page.locator(".number input:visible").all()]
-        assert [box["y"] + box["height"] <= height for box in inputs] == 8 * [True]
-        assert explorer.slider("d_max").bounding_box()["y"] < 0.3 * height
-        for name in ("springs", "pressure", "force"):
-            card = page.locator(f".card.{name}").bounding_box()
-            assert card["y"] + card["height"] <= height
-            assert card["x"] + card["width"] <= width
-            assert card["width"] > 0.3 * width
-            assert card["height"] > 0.3 * height
-        assert page.locator("output").count() <= 8
-        assert page.locator(".header .act:visible, .more .act:visible").count() == 5
-        assert page.locator(".top").bounding_box()["height"] < 70
-        assert page.evaluate("document.documentElement.scrollHeight") <= height
-        assert explorer.problems == []
+    explorer = Explorer(context.new_page(), server.url, window=(width, height))
+    page = explorer.page
+    # A field and a slider each.
+    inputs = [each.bounding_box() for each in page.locator(".number input:visible").all()]
+    assert [box["y"] + box["height"] <= height for box in inputs] == 8 * [True]
+    assert explorer.slider("d_max").bounding_box()["y"] < 0.3 * height
+    for name in ("springs", "pressure", "force"):
+        card = page.locator(f".card.{name}").bounding_box()
+        assert card["y"] + card["height"] <= height
+        assert card["x"] + card["width"] <= width
+        assert card["width"] > 0.3 * width
+        assert card["height"] > 0.3 * height
+    assert page.locator("output").count() <= 8
+    assert page.locator(".header .act:visible, .more .act:visible").count() == 5
+    assert page.locator(".top").bounding_box()["height"] < 70
+    assert page.evaluate("document.documentElement.scrollHeight") <= height
+    assert explorer.problems == []
+    explorer.page.close()
 
 
 def test_the_page_opens_on_a_cone_that_has_yielded_and_says_what_everything_is(explorer):

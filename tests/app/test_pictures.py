@@ -58,7 +58,7 @@ def has(swatch, wanted):
     return (np.abs(swatch - wanted).max(axis=2) < 8).any()
 
 
-@pytest.fixture(scope="module", params=["light", "dark"])
+@pytest.fixture(scope="module", params=["light", pytest.param("dark", marks=pytest.mark.full)])
 def saved(request, server, context):
     """Pictures of an impact: of every plot that is seen, and whether they are dark."""
     dark = request.param == "dark"

@@ -67,11 +67,11 @@ def test_twice_the_depth_is_twice_the_picture():
 
 
 @pytest.fixture(scope="module")
-def lecture(server, browser):
-    with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
-        explorer = Explorer(context.new_page(), server.url)
-        yield explorer
-        assert explorer.problems == []
+def lecture(server, context):
+    explorer = Explorer(context.new_page(), server.url, window=(1280, 720))
+    yield explorer
+    assert explorer.problems == []
+    explorer.page.close()
 
 
 def test_scales_stay_while_a_slider_is_dragged(lecture):

@@ -27,6 +27,7 @@ ENDS = {
 }
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("end", ENDS)
 def test_the_app_loads_without_a_private_end_and_logs_one_line(end):
     """In a process of its own, because the names are taken away for good."""
@@ -98,34 +99,34 @@ def without(browser, tmp_path_factory):
     server.stop()
 
 
-def test_the_page_is_in_use_without_any_of_them(without, browser):
-    with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
-        explorer = Explorer(context.new_page(), without.url)
-        explorer.change(explorer.type, "d_max", "5 nm")
-        assert explorer.readout("depth") == "5.000 nm"
-        assert explorer.problems == []
+def test_the_page_is_in_use_without_any_of_them(without, context):
+    explorer = Explorer(context.new_page(), without.url, window=(1280, 720))
+    explorer.change(explorer.type, "d_max", "5 nm")
+    assert explorer.readout("depth") == "5.000 nm"
+    assert explorer.problems == []
+    explorer.page.close()
     assert without.log.count("is not there in this version") >= 3
     assert "Traceback" not in without.log
 
 
-@pytest.mark.few(4)
+@pytest.mark.few(2)
 @pytest.mark.parametrize("end", IN_THE_BROWSER)
-def test_the_page_is_in_use_without_an_end_in_the_browser(end, without, browser):
+def test_the_page_is_in_use_without_an_end_in_the_browser(end, without, context):
     """Everything is drawn, played and saved, and one line of the console says what is not there."""
-    with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
-        page = context.new_page()
-        page.add_init_script(f"window.without = {end!r}")
-        explorer = Explorer(page, without.url)
-        explorer.change(explorer.type, "d_max", "5 nm")
-        assert explorer.readout("depth") == "5.000 nm"
-        # The pointer over the springs, and the player.
-        page.locator(".card.springs canvas").first.hover(force=True)
-        page.get_by_label("State along the path").press("End")
-        explorer.wait("explorer.played()")
-        page.get_by_label("State along the path").press("Home")
-        explorer.wait("explorer.row('force', 'now')[0][0] === 0")
-        with page.expect_download():
-            explorer.press("Save plots")
+    page = context.new_page()
+    page.add_init_script(f"window.without = {end!r}")
+    explorer = Explorer(page, without.url, window=(1280, 720))
+    explorer.change(explorer.type, "d_max", "5 nm")
+    assert explorer.readout("depth") == "5.000 nm"
+    # The pointer over the springs, and the player.
+    page.locator(".card.springs canvas").first.hover(force=True)
+    page.get_by_label("State along the path").press("End")
+    explorer.wait("explorer.played()")
+    page.get_by_label("State along the path").press("Home")
+    explorer.wait("explorer.row('force', 'now')[0][0] === 0")
+    with page.expect_download():
+        explorer.press("Save plots")
+    page.close()
     lines = [each for each in explorer.problems if f"{end}_moved is not there in this version" in each]
     assert explorer.problems == lines
     assert len(lines) == 1 if IN_THE_BROWSER[end] else len(lines) <= 1

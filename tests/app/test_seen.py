@@ -91,29 +91,28 @@ def test_what_is_opened_leaves_the_buttons_of_a_large_plot(explorer):
     card.get_by_role("button", name="Large").wait_for()
 
 
-def test_words_of_all_buttons_in_share_are_in_their_middle(server, browser):
+def test_words_of_all_buttons_in_share_are_in_their_middle(server, handheld):
     """Files are links in buttons, which are 44 pixels high for a finger."""
-    held = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
-    with browser.new_context(**held) as context:
-        explorer = Explorer(context.new_page(), server.url)
-        page = explorer.page
-        explorer.press("Share")
-        page.get_by_text("Curves (CSV)").wait_for()
-        middles = """() => explorer.all().filter((on) => on.matches("a, .bk-btn") && on.checkVisibility())
-          .filter((on) => on.getRootNode().host?.classList.contains("button"))
-          .filter((on) => on.matches("a, .bk-btn:not(:has(a))"))
-          .map((on) => {
-            const range = document.createRange()
-            range.selectNodeContents(on)
-            const [text, box] = [range.getBoundingClientRect(), on.getBoundingClientRect()]
-            return [on.textContent.trim(), text.y + text.height / 2 - box.y - box.height / 2, box.height]
-          })"""
-        found = page.evaluate(middles)
-        assert len(found) >= 4
-        for name, away, high in found:
-            assert abs(away) < 3, name
-            assert high >= 44, name
-        assert explorer.problems == []
+    explorer = Explorer(handheld.new_page(), server.url)
+    page = explorer.page
+    explorer.press("Share")
+    page.get_by_text("Curves (CSV)").wait_for()
+    middles = """() => explorer.all().filter((on) => on.matches("a, .bk-btn") && on.checkVisibility())
+      .filter((on) => on.getRootNode().host?.classList.contains("button"))
+      .filter((on) => on.matches("a, .bk-btn:not(:has(a))"))
+      .map((on) => {
+        const range = document.createRange()
+        range.selectNodeContents(on)
+        const [text, box] = [range.getBoundingClientRect(), on.getBoundingClientRect()]
+        return [on.textContent.trim(), text.y + text.height / 2 - box.y - box.height / 2, box.height]
+      })"""
+    found = page.evaluate(middles)
+    assert len(found) >= 4
+    for name, away, high in found:
+        assert abs(away) < 3, name
+        assert high >= 44, name
+    assert explorer.problems == []
+    explorer.page.close()
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])

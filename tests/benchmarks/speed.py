@@ -17,8 +17,8 @@ from .tables import time
 MEDIUM, WET = mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, eta=3.0)
 
 
-def rows(count=10**6):
-    """What, how long, and against what: force, dry impacts and viscous ones of every shape."""
+def rows(count=10**6, shapes=SHAPES):
+    """What, how long, and against what: force, dry impacts and viscous ones of shapes."""
     depths = np.linspace(1e-9, 1e-6, count)
     # A quick look does not judge times.
     runs = 5 if count > 1000 else 1
@@ -31,11 +31,11 @@ def rows(count=10**6):
     book = {what: seconds(call) for what, call in books.items()}
     for what, taken in book.items():
         yield f"{count} textbook forces of a {what}, NumPy", time(taken), ""
-    for shape in SHAPES:
+    for shape in shapes:
         taken = seconds(lambda s=shape: mdr.indent(s, MEDIUM, depths).force, runs=min(runs, 3))
         yield f"{count} forces, {name(shape)}", time(taken), _ratio(taken, book["paraboloid"])
     speeds = np.geomspace(1e-4, 0.3, count)
-    for shape in SHAPES:
+    for shape in shapes:
         few = speeds if name(shape) in ("Cone", "Paraboloid") else speeds[:: max(1, count // 10**4)]
         hits = _impacts(shape, MEDIUM, few)
         taken = seconds(lambda h=hits: h().restitution, runs=1) * count / few.size
@@ -52,7 +52,7 @@ def rows(count=10**6):
         )
     yield from _ensembles(count)
     yield from _oblique(count // 10)
-    for shape in SHAPES:
+    for shape in shapes:
         taken = seconds(lambda s=shape: mdr.impact(s, WET, 1e-9, 0.1).restitution, runs=runs)
         yield f"one viscous impact, {name(shape)}", time(taken), ""
         many = speeds[:: max(1, count // 1000)]

@@ -15,7 +15,8 @@ from .tables import time
 SCRIPT = Path(__file__).parents[2] / "assets" / "erosion.py"
 #: Particles and workers: over the length, and with the same work, in all and each, on one and on two.
 STREAMS = (1e5, 2), (1e6, 2), (1e7, 1), (1e7, 2), (2e7, 2), (1e8, 2)
-QUICK = ((1e4, 0),)
+#: What a run says of its time (s) and memory (GB).
+MEASURED = re.compile(r"took ([\d.e+]+) s.* memory ([\d.]+) GB")
 
 
 def rows(streams=STREAMS):
@@ -34,7 +35,7 @@ def _run(particles, workers):
         run = subprocess.run(
             command, cwd=folder, env=environment, capture_output=True, text=True, check=True
         )
-    return map(float, re.search(r"took ([\d.e+]+) s.* memory ([\d.]+) GB", run.stdout).groups())
+    return map(float, MEASURED.search(run.stdout).groups())
 
 
 if __name__ == "__main__":

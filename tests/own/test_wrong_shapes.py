@@ -89,8 +89,18 @@ def test_a_wrong_shape_is_refused_in_words(fault, call):
     assert "correct" in str(refused.value)
 
 
-@pytest.mark.parametrize("medium", [MEDIUM, VISCOUS], ids=["dry", "viscous"])
-@pytest.mark.parametrize("fault", WORDS)
+# The long search for a g that is never reached is that of "falls in a part", too.
+OF_MANY = [
+    pytest.param(
+        fault, medium, id=f"{fault}-{name}", marks=[pytest.mark.full] if long and name == "viscous" else []
+    )
+    for fault in WORDS
+    for long in [fault in ("infinite", "falls for good")]
+    for name, medium in (("dry", MEDIUM), ("viscous", VISCOUS))
+]
+
+
+@pytest.mark.parametrize(("fault", "medium"), OF_MANY)
 def test_one_of_many_is_refused_in_words(fault, medium):
     shapes = wrong(fault, slope=np.array([0.3, 0.4]))
     # The impacts of an ensemble find other radii than those of one profile.
