@@ -7,7 +7,7 @@ printed with the first of these that notices it. Where the default suite does no
 lacks a test, and a line without one is not needed, unless it makes the code faster.
 
 A server of the page is another process, whose lines are not noted: a change of the page runs
-`BROWSER_TESTS`, too. Texts, plots of the core and checks of types are left out. ``--extents quick default``
+`BROWSER_TESTS`, too. Texts, types and plots of the core are left out. ``--extents quick default``
 leaves --full out, and ``--start 12`` goes on with a run that ended after 12 changes.
 """
 
@@ -103,9 +103,11 @@ def changes(path):
         starts.append(starts[-1] + len(row))
     tree = ast.parse(source)
     formatted = [node for node in ast.walk(tree) if isinstance(node, ast.JoinedStr)]
-    texts = {id(part) for node in formatted for part in ast.walk(node)}
+    # Of arguments, values that are returned, and variables.
+    types = [getattr(node, name, None) for node in ast.walk(tree) for name in ("annotation", "returns")]
+    left_out = {id(part) for node in (*formatted, *filter(None, types)) for part in ast.walk(node)}
     for node in ast.walk(tree):
-        after = None if id(node) in texts else changed(node)
+        after = None if id(node) in left_out else changed(node)
         if after is None:
             continue
         first = starts[node.lineno - 1] + node.col_offset
