@@ -398,6 +398,7 @@ def test_several_curves_are_one_click(kind):
     press(form.confirm)
     assert not page.refused
     assert page.count == (1 if kind == "segments" else 2)
+    page.choose_curve(page.count - 1)
     again = page_of(page.setting.query())
     again.take_file("run.csv", table(columns).encode())
     assert again.count == page.count

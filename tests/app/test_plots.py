@@ -184,6 +184,9 @@ def test_the_section_shows_the_stress_of_the_core(key, quantity):
     stress = state.stress(r.end * along, -bottom * (1 - down))
     expected = {"zz": -stress.zz, "max_shear": stress.max_shear, "von_mises": stress.von_mises}[quantity]
     assert image[30, 50] == approx(expected, rel=1e-12)
+    drawn_radii = [found.rows[name][0][0] for name in ("contact radius a", "plastic zone c")]
+    # Where nothing has yielded no zone is drawn.
+    np.testing.assert_array_equal(drawn_radii, [state.contact_radius, state.plastic_radius or np.nan])
     place = found.rows["largest"]
     if quantity == "zz":
         assert np.isnan(place[0]).all()
