@@ -405,6 +405,25 @@ def test_several_curves_are_one_click(kind):
     np.testing.assert_array_equal(again.curve.force, page.curve.force)
 
 
+def test_a_column_of_words_tells_curves_apart_where_it_is_chosen():
+    """Two places, on one of which the sample is twice as stiff."""
+    F, head = mdr.indent(TIP, GLASS, DEPTH).force, "Depth (nm),place,Load (mN)"
+    rows = [
+        f"{1e9 * depth:.6f},{place},{1e3 * size * force:.6f}"
+        for place, size in (("left", 1), ("right", 2))
+        for depth, force in zip(DEPTH, F, strict=True)
+    ]
+    page = page_of()
+    page.take_file("run.csv", "\n".join([head, *rows]).encode())
+    parts = page.form.parts
+    parts.value = parts.options["a curve for each value of 2: place"]
+    press(page.form.confirm)
+    assert page.count == 2
+    page.choose_curve(1)
+    # Six digits of it.
+    np.testing.assert_allclose(page.curve.force, 2 * F, atol=1e-8)
+
+
 def test_a_sheet_is_asked_about_when_it_is_chosen(tmp_path):
     """Each kind of heads is one question, and the curves of the others stay."""
     pandas = pytest.importorskip("pandas")

@@ -8,7 +8,7 @@ import mdr_core as mdr
 
 from .states import table
 from .test_drawn import SIZES
-from .test_measurement import curve_file, opened, plain
+from .test_measurement import curve_file, headline, opened, plain
 
 
 def unit(axis):
@@ -47,6 +47,16 @@ def test_measured_model_residuals_and_noise_are_named_and_in_the_units_of_their_
     np.testing.assert_allclose(depth[:count], fit.depth[order], rtol=1e-12)
     # One standard deviation has 68 % of 350 samples, give or take 2.5 %.
     assert 0.6 < np.mean(np.abs(drawn["residuals"][1][order]) < band[:count]) < 0.76
+
+
+def test_the_modulus_of_the_sample_goes_with_its_poisson_ratio():
+    page = opened(curve_file(), poisson=0.2)
+    assert re.search(r"E = [\d.]+ .*GPa", headline(page))
+    assert "E_sample" in page.written("json").read()
+    page.change(lambda setting: setting.replace(poisson=None))
+    assert "Give ν on the left" in headline(page)
+    assert "E = " not in headline(page)
+    assert "E_sample" not in page.written("json").read()
 
 
 def test_what_was_said_of_a_file_is_gone_with_the_next():

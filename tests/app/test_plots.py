@@ -135,7 +135,9 @@ def test_only_exceeded_assumptions_are_seen_and_the_rest_folds():
     state = viscous()
     assert poisson(state) == {"beyond"}
     assert poisson(state.replace(nu_1=0.5)) == {"good"}
-    assert poisson(changes.choose(state, "elasticity", "modulus")) == {"note"}
+    given = changes.choose(state, "elasticity", "modulus")
+    assert poisson(given) == {"note"}
+    assert medium(given).poisson == 0.5
     html = notes.below(view_of(preset_state()))
     assert html.index("<details>") == 0
     steep = preset_state(DROP).replace(speed=500.0)
