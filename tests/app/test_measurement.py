@@ -339,6 +339,8 @@ def test_a_question_is_one_click_and_a_folder_of_files_is_asked_about_once():
     assert (form.columns["depth"].value, form.units["force"].value) == (0, "mN")
     assert (form.meaning.value, form.parts.value, form.confirm.visible) == ("depth", "whole", True)
     assert form.preview.object.count(",") > DEPTH.size
+    # It stands beside the choosers, to which no button has to lead.
+    assert form.refused.offers == {}
     # It is a suggestion: nothing is read before it is confirmed.
     form.meaning.value = "depth"
     assert page.curve is None
