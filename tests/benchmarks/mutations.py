@@ -32,7 +32,7 @@ FOLDERS = {"core": ("mdr_core",), "page": ("app", "mdr_explorer")}
 TESTS = {"core": ["--ignore=tests/app"], "page": ["tests/app"]}
 #: Files of the core that have texts and plots.
 LEFT_OUT = ("figures", "springs", "report", "progress", "quantities", "_errors", "__init__")
-#: Tests in a browser that between them open each part of the page.
+#: Tests in a browser of what the page draws and says, of each change of the page.
 BROWSER_TESTS = tuple(f"tests/app/test_{name}.py" for name in ("page", "drawn", "first_screen", "seen"))
 #: Largest number of tests for one change.
 _MOST_TESTS = 150
