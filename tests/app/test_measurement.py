@@ -732,6 +732,12 @@ def test_all_curves_of_a_file_are_fitted_and_a_dead_one_says_why():
     lines = page.results._map_written().read().splitlines()
     assert len(lines) == 5
     assert lines[3].startswith("2,,,")
+    # They are of this tip: of another one all are to be fitted again.
+    assert page.results.map_file.visible
+    page.change(lambda setting: setting.replace(radius=2e-5))
+    assert not page.results.list.visible
+    assert not page.results.map_file.visible
+    assert page.results.summary.object == ""
 
 
 def test_remarks_have_words_in_the_place_of_names_of_python():
