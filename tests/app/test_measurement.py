@@ -339,6 +339,8 @@ def test_a_question_is_one_click_and_a_folder_of_files_is_asked_about_once():
     assert (form.columns["depth"].value, form.units["force"].value) == (0, "mN")
     assert (form.meaning.value, form.parts.value, form.confirm.visible) == ("depth", "whole", True)
     assert form.preview.object.count(",") > DEPTH.size
+    # It stands beside the choosers, to which no button has to lead.
+    assert form.refused.offers == {}
     # It is a suggestion: nothing is read before it is confirmed.
     form.meaning.value = "depth"
     assert page.curve is None
@@ -398,10 +400,30 @@ def test_several_curves_are_one_click(kind):
     press(form.confirm)
     assert not page.refused
     assert page.count == (1 if kind == "segments" else 2)
+    page.choose_curve(page.count - 1)
     again = page_of(page.setting.query())
     again.take_file("run.csv", table(columns).encode())
     assert again.count == page.count
     np.testing.assert_array_equal(again.curve.force, page.curve.force)
+
+
+def test_a_column_of_words_tells_curves_apart_where_it_is_chosen():
+    """Two places, on one of which the sample is twice as stiff."""
+    F, head = mdr.indent(TIP, GLASS, DEPTH).force, "Depth (nm),place,Load (mN)"
+    rows = [
+        f"{1e9 * depth:.6f},{place},{1e3 * size * force:.6f}"
+        for place, size in (("left", 1), ("right", 2))
+        for depth, force in zip(DEPTH, F, strict=True)
+    ]
+    page = page_of()
+    page.take_file("run.csv", "\n".join([head, *rows]).encode())
+    parts = page.form.parts
+    parts.value = parts.options["a curve for each value of 2: place"]
+    press(page.form.confirm)
+    assert page.count == 2
+    page.choose_curve(1)
+    # Six digits of it.
+    np.testing.assert_allclose(page.curve.force, 2 * F, atol=1e-8)
 
 
 def test_a_sheet_is_asked_about_when_it_is_chosen(tmp_path):
@@ -710,6 +732,12 @@ def test_all_curves_of_a_file_are_fitted_and_a_dead_one_says_why():
     lines = page.results._map_written().read().splitlines()
     assert len(lines) == 5
     assert lines[3].startswith("2,,,")
+    # They are of this tip: of another one all are to be fitted again.
+    assert page.results.map_file.visible
+    page.change(lambda setting: setting.replace(radius=2e-5))
+    assert not page.results.list.visible
+    assert not page.results.map_file.visible
+    assert page.results.summary.object == ""
 
 
 def test_remarks_have_words_in_the_place_of_names_of_python():

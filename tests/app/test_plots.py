@@ -135,7 +135,9 @@ def test_only_exceeded_assumptions_are_seen_and_the_rest_folds():
     state = viscous()
     assert poisson(state) == {"beyond"}
     assert poisson(state.replace(nu_1=0.5)) == {"good"}
-    assert poisson(changes.choose(state, "elasticity", "modulus")) == {"note"}
+    given = changes.choose(state, "elasticity", "modulus")
+    assert poisson(given) == {"note"}
+    assert medium(given).poisson == 0.5
     html = notes.below(view_of(preset_state()))
     assert html.index("<details>") == 0
     steep = preset_state(DROP).replace(speed=500.0)
@@ -184,6 +186,9 @@ def test_the_section_shows_the_stress_of_the_core(key, quantity):
     stress = state.stress(r.end * along, -bottom * (1 - down))
     expected = {"zz": -stress.zz, "max_shear": stress.max_shear, "von_mises": stress.von_mises}[quantity]
     assert image[30, 50] == approx(expected, rel=1e-12)
+    drawn_radii = [found.rows[name][0][0] for name in ("contact radius a", "plastic zone c")]
+    # Where nothing has yielded no zone is drawn.
+    np.testing.assert_array_equal(drawn_radii, [state.contact_radius, state.plastic_radius or np.nan])
     place = found.rows["largest"]
     if quantity == "zz":
         assert np.isnan(place[0]).all()

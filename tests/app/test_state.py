@@ -5,6 +5,7 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
+from scipy.integrate import trapezoid
 
 import mdr_core as mdr
 from app import changes, link
@@ -17,7 +18,7 @@ from app.tip import MAX_SAMPLES, read_tip
 
 from ..approx import approx
 from .conftest import DROP
-from .states import linked_state, state_with, table, view_of
+from .states import linked_state, part, side, state_with, table, view_of
 
 
 def test_a_state_is_small_frozen_and_known():
@@ -241,8 +242,33 @@ def test_the_csv_has_the_scene_and_its_states():
     expected = mdr.indent(profile(state), medium(state), depth)
     np.testing.assert_allclose(force, expected.force, rtol=1e-9, atol=1e-20)
     rows = [line.split(",") for line in share.pressure_csv(view_of(state)).splitlines() if line[0] != "#"]
-    r, sigma = np.array(rows[1:], float)[:, :2].T
-    np.testing.assert_allclose(-sigma, follow(state).state.pressure(r), rtol=1e-12)
+    r, sigma, load, reduced = np.array(rows[1:], float).T
+    now = follow(state).state
+    np.testing.assert_allclose(-sigma, now.pressure(r), rtol=1e-12)
+    # Both halves of the row of springs, by the trapezoidal rule over 320 of them; a cone has g = π s r/2.
+    assert 2 * trapezoid(load, r) == approx(float(now.force), rel=0.01)
+    np.testing.assert_allclose(reduced, np.pi / 2 * state.cone_slope * r, rtol=1e-12)
+
+
+def test_numbers_link_and_python_follow_a_change_and_its_undoing():
+    page = Page()
+    shared = side(page, "share")
+
+    def seen():
+        field = part(page, "max_depth").look["text"]
+        return field, str(page.messages.words), shared.link.value, shared.python.value
+
+    opening = seen()
+    page.apply(lambda state: changes.put(state, "max_depth", 5e-9))
+    field, words, address, python = seen()
+    assert field == "5 nm"
+    assert '<output data-name="depth">5.000 nm</output>' in words
+    assert "max_depth=5e-09" in address
+    values = {}
+    exec(python, values)
+    assert values["scene"] == page.shown.course.scene
+    page.undo()
+    assert seen() == opening
 
 
 def test_depths_of_presets_are_so_many_times_the_depth_of_yield():

@@ -1,5 +1,7 @@
 """Impacts on a plate or a support on the page: what it shows is what the library computes."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ import mdr_core as mdr
 from app import changes, link
 from app.drives import follow, scene_of
 from app.extras import energy, notes, share, sweep
+from app.extras import structure as structures
 from app.extras.guide import step_state
 from app.page import Page
 from app.readouts import line
@@ -15,6 +18,7 @@ from app.state import PRESETS, altered, medium, preset_state, profile
 from ..approx import approx
 from .conftest import DROP, GOLD, PUNCH
 from .states import linked_state, numbers, press, state_with, view_of
+from .test_drawn import SIZES
 
 PLATE, SUPPORT = "small_ball-carbon_epoxy", "striker-glass_epoxy-plate"
 
@@ -83,6 +87,21 @@ def test_a_plate_by_its_bending_stiffness_is_that_of_its_thickness():
         **{f"structure.{name}": float(value) for name, value in values.items()}
     )
     assert float(follow(other).hit.restitution) == approx(float(follow(state).hit.restitution), rel=1e-9)
+
+
+def test_a_plate_says_what_its_numbers_make_and_a_support_has_none():
+    """D = E h³/(12 (1 − ν²)) and ρh of 4 mm of a laminate; nearer edges than it says are felt."""
+    view = view_of(preset_state(PLATE))
+    said = re.sub("<[^>]+>", "", structures.notes(view)["form"])
+    stiffness, mass, impedance, far = map(float, re.findall(r"(?:= |than )([\d.]+) ", said))
+    D, per_area = 52e9 * 4e-3**3 / 12 / (1 - 0.31**2), 1600 * 4e-3
+    # Four digits, of a distance two.
+    assert (stiffness, mass, impedance) == approx((D, per_area, 8 * (D * per_area) ** 0.5), rel=1e-3)
+    for ratio, felt in ((1.1, False), (0.9, True)):
+        state = preset_state(PLATE).replace(**{"structure.edge": ratio * far * SIZES["mm"]})
+        (limit,) = (each for each in follow(state).limits if each.what == "edges")
+        assert limit.exceeded == felt
+    assert structures.notes(view_of(preset_state(SUPPORT))) == {}
 
 
 def test_links_undo_and_files_carry_it():

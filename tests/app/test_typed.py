@@ -208,3 +208,6 @@ def test_a_number_that_others_change_is_in_the_unit_that_reads_best():
     assert field.part(state.replace(speed=0.02, preset=GOLD)).look["text"] == "20 mm/s"
     assert field.part(state.replace(speed=2.0, preset=GOLD)).look["text"] == "2 m/s"
     assert field.part(state.replace(speed=0.2, preset=GOLD)).look["text"] == "0.2 m/s"
+    # Two zeros after the point are the most.
+    assert field.part(state.replace(speed=1.05e-3, preset=GOLD)).look["text"] == "0.00105 m/s"
+    assert field.part(state.replace(speed=0.95e-3, preset=GOLD)).look["text"] == "950 µm/s"

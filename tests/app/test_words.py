@@ -73,6 +73,10 @@ def test_half_angle_beside_the_slope_and_drop_height_beside_the_speed():
     assert "drop height 50.99 mm" in said
     assert "Half-angle" not in part(page, "note shape").look["object"]
     assert page.state.density == 1900
+    # They are those of the speed along the normal, which other drives do not have.
+    for drive in ("depth", "path", "oblique"):
+        page.choose("drive", drive)
+        assert part(page, "note drive").look["object"] == ""
 
 
 def test_the_form_begins_with_the_drive_and_has_what_is_used():
@@ -86,7 +90,9 @@ def test_the_form_begins_with_the_drive_and_has_what_is_used():
     page.apply(lambda state: changes.choose(state, "damping", "eta"))
     assert part(page, "More about the medium").look["pressed"]
     assert "eta" in fields_of(form)
+    assert "no effect here" in part(page, "note more").look["object"]
     page.apply(lambda state: changes.choose(state, "drive", "impact"))
+    assert "no effect here" not in part(page, "note more").look["object"]
     assert fields_of(form)[:3] == ["mass", "speed", "plastic_depth"]
     page.apply(lambda state: changes.choose(state, "drive", "oblique"))
     page.apply(lambda state: changes.choose(state, "drive", "depth"))

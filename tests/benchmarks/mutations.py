@@ -1,16 +1,19 @@
-"""Random changes of the core: which of them does no test notice?
+"""Random changes of the core or the page: which of them does no test notice?
 
-Run as ``python -m tests.benchmarks.mutations --seed 1 --count 150``; it needs the package coverage. The
+Run as ``python -m tests.benchmarks.mutations --of core --seed 1 --count 150`` with the group bench. The
 tests run once under coverage, which notes the tests of each line. Each change then runs the tests of its
-line, the shortest first, until one fails: with --quick, then without it, then with --full. Changes that
-the default suite does not notice are printed: a line with an effect lacks a test, a line without one is
-not needed, unless it makes the code faster.
+line, the shortest first, until one fails: with --quick, then without it, then with --full. Each change is
+printed with the first of these that notices it. Where the default suite does not, a line with an effect
+lacks a test, and a line without one is not needed, unless it makes the code faster.
 
-Texts, plots and checks of types are left out.
+A server of the page is another process, whose lines are not noted: a change of the page runs
+`BROWSER_TESTS`, too. Texts, types and plots of the core are left out. ``--extents quick default``
+leaves --full out, and ``--start 12`` goes on with a run that ended after 12 changes.
 """
 
 import argparse
 import ast
+import os
 import random
 import shutil
 import sqlite3
@@ -24,8 +27,13 @@ from pathlib import Path
 from coverage.numbits import numbits_to_nums
 
 ROOT = Path(__file__).parents[2]
-#: Files of texts and plots.
+#: Folders that are changed, and the options of pytest for their tests.
+FOLDERS = {"core": ("mdr_core",), "page": ("app", "mdr_explorer")}
+TESTS = {"core": ["--ignore=tests/app"], "page": ["tests/app"]}
+#: Files of the core that have texts and plots.
 LEFT_OUT = ("figures", "springs", "report", "progress", "quantities", "_errors", "__init__")
+#: Tests in a browser of what the page draws and says, of each change of the page.
+BROWSER_TESTS = tuple(f"tests/app/test_{name}.py" for name in ("page", "drawn", "first_screen", "seen"))
 #: Largest number of tests for one change.
 _MOST_TESTS = 150
 #: Extents of the suite: options of pytest, and the time (s) after which a change is taken to make it hang.
@@ -95,9 +103,11 @@ def changes(path):
         starts.append(starts[-1] + len(row))
     tree = ast.parse(source)
     formatted = [node for node in ast.walk(tree) if isinstance(node, ast.JoinedStr)]
-    texts = {id(part) for node in formatted for part in ast.walk(node)}
+    # Of arguments, values that are returned, and variables.
+    types = [getattr(node, name, None) for node in ast.walk(tree) for name in ("annotation", "returns")]
+    left_out = {id(part) for node in (*formatted, *filter(None, types)) for part in ast.walk(node)}
     for node in ast.walk(tree):
-        after = None if id(node) in texts else changed(node)
+        after = None if id(node) in left_out else changed(node)
         if after is None:
             continue
         first = starts[node.lineno - 1] + node.col_offset
@@ -109,7 +119,7 @@ def changes(path):
 
 
 def run_tests(tree, longest, *arguments):
-    """Whether the core's tests, or those named, pass in a copy of the tree within a time (s)."""
+    """Whether the tests that are named pass in a copy of the tree within a time (s)."""
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *arguments]
     try:
         code = subprocess.run(command, cwd=tree, capture_output=True, timeout=longest).returncode
@@ -119,13 +129,16 @@ def run_tests(tree, longest, *arguments):
     return code in (0, 5)
 
 
-def tests_of_lines(tree):
+def tests_of_lines(tree, of):
     """Names of the tests that run each line, the shortest first, by file and line."""
     settings = tree / "coverage.ini"
-    settings.write_text("[run]\nsource = mdr_core\ndynamic_context = test_function\n", encoding="utf-8")
+    sources = f"[run]\nsource = {','.join(FOLDERS[of])}\ndynamic_context = test_function\n"
+    settings.write_text(sources, encoding="utf-8")
     command = [sys.executable, "-m", "coverage", "run", f"--rcfile={settings}", "-m", "pytest", "-q"]
-    command += ["-p", "no:cacheprovider", "--ignore=tests/app", "--junitxml=times.xml"]
-    subprocess.run(command, cwd=tree, check=False, capture_output=True)
+    command += ["-p", "no:cacheprovider", "--junitxml=times.xml", *TESTS[of]]
+    # Without a browser its tests are skipped.
+    environment = os.environ | {"CHROMIUM": "none"}
+    subprocess.run(command, cwd=tree, check=False, capture_output=True, env=environment)
     times, failing = {}, set()
     for case in ElementTree.parse(tree / "times.xml").iter("testcase"):
         name = f"{case.get('classname')}.{case.get('name').partition('[')[0]}"
@@ -156,44 +169,60 @@ def node_id(tree, context):
     raise ValueError(f"no test {context}")
 
 
-def noticed_by(tree, tests):
+def noticed_by(tree, tests, extents):
     """The smallest extent of the suite in which one of the tests fails, None if none does."""
-    for extent, (option, longest) in EXTENTS.items():
+    for extent in extents:
+        option, longest = EXTENTS[extent]
         if not run_tests(tree, longest, "-x", *option, *tests):
             return extent
     return None
 
 
+def files_of(tree, of):
+    """Files in which changes are made."""
+    files = [path for folder in FOLDERS[of] for path in sorted((tree / folder).rglob("*.py"))]
+    return [path for path in files if of == "page" or path.stem not in LEFT_OUT]
+
+
+def judged(tree, change, known, options):
+    """The smallest extent that notices a change, or in words that no test can or does."""
+    contexts = known.get((str(change.path), change.line)) or known.get((str(change.path), None), [])
+    tests = [node_id(tree, context) for context in contexts]
+    if options.of == "page":
+        tests += BROWSER_TESTS
+    if not tests:
+        return "no test runs this line"
+    original = change.path.read_text(encoding="utf-8")
+    change.path.write_text(change.source, encoding="utf-8")
+    extent = noticed_by(tree, tests, options.extents)
+    change.path.write_text(original, encoding="utf-8")
+    return extent or "not noticed"
+
+
 def main():
-    """Make changes, and print those that the default suite does not notice."""
+    """Make changes, and print which tests notice each."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--of", choices=FOLDERS, default="core")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=150)
+    parser.add_argument("--start", type=int, default=0, help="so many of the changes are left out")
+    parser.add_argument("--extents", nargs="+", choices=EXTENTS, default=list(EXTENTS))
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         tree = Path(folder) / "tree"
-        shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".git", "__pycache__"))
-        known = tests_of_lines(tree)
-        files = [path for path in sorted((tree / "mdr_core").rglob("*.py")) if path.stem not in LEFT_OUT]
-        pool = [change for path in files for change in changes(path)]
+        shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".git", ".venv*", "__pycache__"))
+        known = tests_of_lines(tree, options.of)
+        pool = [change for path in files_of(tree, options.of) for change in changes(path)]
         chosen = random.Random(options.seed).sample(pool, options.count)
-        noticed = []
-        for change in chosen:
-            contexts = known.get((str(change.path), change.line)) or known.get((str(change.path), None), [])
-            tests = [node_id(tree, context) for context in contexts]
-            original = change.path.read_text(encoding="utf-8")
-            change.path.write_text(change.source, encoding="utf-8")
-            extent = noticed_by(tree, tests) if tests else None
-            change.path.write_text(original, encoding="utf-8")
-            noticed.append(extent)
-            if extent not in ("quick", "default"):
-                where = f"{change.path.relative_to(tree)}:{change.line}"
-                remark = "noticed by --full" if extent else "" if tests else "no test runs this line"
-                print(f"{where}  {change.before} → {change.after}  {remark}".rstrip(), flush=True)
+        found = []
+        for number, change in enumerate(chosen[options.start :], options.start + 1):
+            found.append(judged(tree, change, known, options))
+            where = f"{change.path.relative_to(tree)}:{change.line}"
+            print(f"{number}  {found[-1]}:  {where}  {change.before} → {change.after}", flush=True)
         count = 0
-        for extent in EXTENTS:
-            count += noticed.count(extent)
-            print(f"{count} of {options.count} changes are noticed by the suite: {extent}")
+        for extent in options.extents:
+            count += found.count(extent)
+            print(f"{count} of {len(found)} changes are noticed by the suite: {extent}")
 
 
 if __name__ == "__main__":

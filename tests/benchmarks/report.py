@@ -3,7 +3,7 @@
     python -m tests.benchmarks.report
 
 writes assets/benchmarks.json, assets/benchmarks.md, assets/speed_against_error.svg and the tables in
-README.md and the statement of need; with --quick it measures a few small sizes in less than a minute and only
+README.md and the statement of need; with --quick it measures a few small sizes in a minute and only
 prints. `beside_lammps` and `in_browser` write their sections by themselves, and these stay.
 """
 

@@ -6,6 +6,7 @@ from scipy.integrate import solve_ivp, trapezoid
 
 import mdr_core as mdr
 from mdr_core.foundation.force_path import chain_creep
+from mdr_core.foundation.fronts import force_and_radius
 from mdr_core.foundation.row import Row
 
 from ..approx import approx
@@ -266,6 +267,35 @@ def test_without_dashpots_it_is_the_slow_path(given):
     x = np.linspace(0, 2, 9) * slow.contact_radius[1]
     for i in range(6):
         np.testing.assert_allclose(path[i].line_load(x), slow[i].line_load(x), rtol=1e-12, atol=1e-12)
+
+
+def test_times_within_a_long_slow_fall_change_nothing():
+    """Of a thousand times τ, in one piece or in many."""
+    force, end = 1e-6 * np.array([0.0, 1.0, 0.2]), 1000 * TAU
+    between = np.geomspace(2, 999, 30) * TAU
+    many = np.interp(between, [TAU, end], force[1:])
+    one = mdr.creep(mdr.Cone(0.3), viscous(MEDIA["b"]), force, [0.0, TAU, end])
+    all_force, all_time = np.insert(force, 2, many), np.insert([0.0, TAU, end], 2, between)
+    several = mdr.creep(mdr.Cone(0.3), viscous(MEDIA["b"]), all_force, all_time)
+    assert one.depth[-1] == approx(several.depth[-1], rel=one.error + several.error)
+    # The energies of the springs go as the third power of the depth.
+    rel = 3 * (one.error + several.error)
+    for energy in ("stored_energy", "plastic_work", "viscous_work"):
+        assert getattr(one, energy)[-1] == approx(getattr(several, energy)[-1], rel=rel)
+
+
+def test_the_chain_goes_on_with_the_force_and_the_contact_of_the_last_state(monkeypatch):
+    given, cone, medium = {}, mdr.Cone(0.3), viscous(MEDIA["b"])
+
+    def spied(*arguments, start, **options):
+        given["start"] = start
+        return chain_creep(*arguments, start=start, **options)
+
+    monkeypatch.setattr("mdr_core.contact.creep.chain_creep", spied)
+    path = mdr.creep(cone, medium, 1e-6 * np.array([0.0, 1.0, 0.2, 1.5]), np.array([0, 2, 8, 10]) * TAU)
+    row = given["start"].put_on(Row.virgin(cone, medium, 500, 2 * path.contact_radius.max()))
+    # Elements are weighted with the exact integrals of their loads.
+    assert force_and_radius(row) == approx((0.2e-6, float(path.contact_radius[2])), rel=1e-9)
 
 
 def test_a_punch_of_a_metal_flows_beyond_its_hardness():

@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import cumulative_trapezoid, trapezoid
 
 import mdr_core as mdr
+from mdr_core.foundation import depth_path
 
 from ..approx import approx
 from ..shapes import SHAPES, name
@@ -187,3 +188,16 @@ def test_elements_of_all_states_sum_to_force_and_energy():
     np.testing.assert_allclose(energy, result.stored_energy, rtol=0, atol=1e-4 * result.stored_energy.max())
     single = [float(value) for value in result[4].elements(x[7])]
     np.testing.assert_allclose(single, [load[4, 7], elastic[4, 7]], rtol=1e-12)
+
+
+def test_the_error_is_that_of_the_least_known_of_force_and_energies(monkeypatch):
+    """Of two runs, whose energies are known ten times worse than the force."""
+    shape, time = mdr.Paraboloid(1e-6), np.arange(CYCLE.size) * TAU
+    fine = mdr.indent_in_time(shape, MEDIUM, CYCLE, time)
+    monkeypatch.setattr(depth_path, "_MAX_ELEMENT_STEPS", 2 * depth_path._ELEMENTS * CYCLE.size)
+    coarse = mdr.indent_in_time(shape, MEDIUM, CYCLE, time, tolerance=1e-12)
+    assert coarse.error < 1e-3
+    for quantity in ("force", "stored_energy", "plastic_work", "viscous_work"):
+        exact = getattr(fine, quantity)
+        miss = np.max(np.abs(getattr(coarse, quantity) - exact)) / np.max(exact)
+        assert miss <= coarse.error + fine.error, quantity

@@ -605,6 +605,15 @@ class TestLimitsOfStick:
         assert limit_of("tolerance", hit).holds
         assert limit_of("tolerance", hit).bound == 1e-3
 
+    def test_the_error_of_the_work_follows_from_that_of_the_velocity_that_is_left(self):
+        """W_f = W₀ (1 − e²), so that an error ε of e makes up to (|e| + ε)² − e²."""
+        medium, friction = mdr.Medium(1e9, 1.0, poisson=0.3), [0.3, 0.5, 1.0, 2.0, 5.0]
+        given = {"tangential_mass": 2.9e-10, "tolerance": 0.5}
+        hits = mdr.oblique_impact(mdr.Paraboloid(1e-4), medium, 1e-9, 0.1, 0.02, friction, **given)
+        left, error = np.abs(hits.tangential_restitution), hits.errors.tangential_velocity
+        assert np.max(error / left) > 0.1
+        np.testing.assert_allclose(hits.errors.friction_work, (left + error) ** 2 - left**2, rtol=1e-9)
+
     @pytest.mark.parametrize("psi", [1e-6, 1e-3, 0.5])
     def test_errors_are_possible_ones(self, psi):
         """|W′| ≤ W₀ by energy, and |F_x| ≤ μF: the estimate alone was up to 6·10⁴."""

@@ -304,6 +304,24 @@ def test_a_contact_flows_by_its_hardness_there():
     assert under_cone.value == approx((np.pi / 2) ** 2)
 
 
+def test_limits_of_an_ensemble_are_those_of_its_worst_row():
+    """ν = 0.3 is farther from ½, and couples (1 − 2ν)/(2 − 2ν); ν = 0.5 has the larger slip, ν/(4 − 2ν)."""
+    medium = mdr.Medium(1e9, eta=[30.0, 60.0], poisson=[0.3, 0.5])
+    slow = mdr.Medium(1e9, eta=[[30.0], [60.0]])
+    hit = mdr.impact(mdr.Paraboloid(1e-3), medium, 1e-6, 0.1)
+    assert limit(hit, "Poisson ratio").value == 0.3
+    assert "here ν = 0.3" in limit(hit, "Poisson ratio").sentence
+    assert limit(mdr.indent(mdr.Cone(0.3), slow, [1e-9]), "viscosity").value == 4 * 60.0 / 1e9
+    assert hit.speed_limit([1000.0, 4000.0]).value == approx(0.1 / np.sqrt(1e9 / 4000.0))
+    slid = mdr.oblique_impact(
+        mdr.Paraboloid(1e-3), mdr.Medium(1e9, poisson=[0.3, 0.5]), 1e-6, 0.1, 0.05, friction=0.5,
+        tangential_mass=1e-6,
+    )  # fmt: skip
+    assert limit(slid, "coupling").value == approx(0.4 / 1.4)
+    assert "here ν = 0.3" in limit(slid, "coupling").sentence
+    assert limit(slid, "slip direction").value == approx(0.5 / 3)
+
+
 def test_limits_are_frozen():
     with pytest.raises(FrozenInstanceError):
         CHAIN.limits[0].value = 1.0
