@@ -21,7 +21,7 @@ from .iso_14577 import iso_numbers
 from .materials import doubts
 from .moduli import moduli, not_from_contact, remaining
 from .oliver_pharr_result import ISO_14577, OliverPharr
-from .order import out_of_order
+from .order import apart, out_of_order
 from .tip import of_ideal_tip
 from .unloading import last_at_top, laws_of, parts_of
 from .zero import zero_of
@@ -151,9 +151,11 @@ def oliver_pharr(
     if stiffness is not None and (time is not None or cycles):
         raise ValueError("stiffness is measured at each sample: give it without time and cycles")
     columns = finite_columns(given.depth, given.force, time, stiffness)
+    path = columns["depth"], columns["force"]
+    read = (*read, *apart(*path))
     if stiffness is None:
-        read = (*read, *out_of_order(columns["depth"], columns["force"]))
-    first, contact, found, in_contact = zero_of(profile, columns["depth"], columns["force"])
+        read = (*read, *out_of_order(*path))
+    first, contact, found, in_contact = zero_of(profile, *path)
     columns = {name: values[first:] for name, values in columns.items()}
     depth, force = columns["depth"] - contact.depth, columns["force"] - contact.baseline
     found = () if found is None else (found,)

@@ -1,4 +1,4 @@
-"""Whether samples are in the order in which they were measured."""
+"""Whether samples are in the order in which they were measured, and all of them are measured."""
 
 import numpy as np
 
@@ -8,6 +8,9 @@ from ..numerics.remark import Remark
 #: has; least share of samples at which depths turn, and least median step, as a share of their range, of a
 #: record without order; least number of samples that tell it.
 _REVERSED, _TURNS, _STEPS, _FEW = 0.05, 0.4, 0.1, 10
+#: Least distance of a sample from both neighbours that no path has, as a share of the range of the middle
+#: four fifths; least number of samples that tell it.
+_APART, _PATH = 0.5, 20
 
 
 def out_of_order(depth, force):
@@ -38,3 +41,23 @@ def _rise_after(depth, force):
         for order in [np.argsort(depth[part], kind="stable")]
     )
     return float(np.mean(after - before))
+
+
+def apart(depth, force):
+    """A remark on single samples far from both neighbours, as numbers that stand for missing ones."""
+    if depth.size < _PATH:
+        return
+    counts = {name: _count_apart(values) for name, values in (("depth", depth), ("force", force))}
+    found = " and ".join(f"{count} samples of the {name}" for name, count in counts.items() if count)
+    if found:
+        text = (
+            f"{found} are more than half of its range away from both neighbours, as numbers that stand for "
+            "missing ones"
+        )
+        yield Remark(f"{text}: set them to NaN", "outliers", f"{text}: leave them out")
+
+
+def _count_apart(values):
+    before, after = values[1:-1] - values[:-2], values[1:-1] - values[2:]
+    least = np.where(before * after > 0, np.minimum(np.abs(before), np.abs(after)), 0.0)
+    return np.count_nonzero(least > _APART * np.ptp(np.quantile(values, [0.1, 0.9])))

@@ -41,6 +41,21 @@ def test_a_reversed_record_has_no_unloading():
     assert [each.kind for each in mdr.oliver_pharr(tip, depth[::-1], force[::-1]).remarks] == ["order"]
 
 
+@pytest.mark.parametrize(("column", "number"), [("depth", -9999e-9), ("force", -9.999), ("force", 99.999)])
+def test_a_number_that_stands_for_a_missing_one_is_named(column, number):
+    """One sample of an export in nm and mN: with 99999 in the force E* is twice too large."""
+    tip, depth = mdr.Cone(0.358), np.append(np.linspace(0, 500e-9, 140), np.linspace(500e-9, 420e-9, 80))
+    columns = {
+        "depth": depth,
+        "force": mdr.indent(tip, mdr.Medium(70e9, hardness=10e9), depth).force.copy(),
+    }
+    assert mdr.oliver_pharr(tip, **columns).remarks == ()
+    columns[column][60] = number
+    assert "outliers" in [each.kind for each in mdr.oliver_pharr(tip, **columns).remarks]
+    columns[column][60] = np.nan
+    assert mdr.oliver_pharr(tip, **columns).remarks == ()
+
+
 @pytest.mark.parametrize(("length", "load"), [(1e9, 1e9), (1e9, 1e6), (1e6, 1e3)])
 @pytest.mark.parametrize("tip", TIPS, ids=repr)
 def test_other_units_are_named(tip, length, load):
