@@ -119,7 +119,8 @@ class Source:
 
     def _read(self) -> None:
         self.busy = f"Reading {self.setting.file}"
-        self.refused, self.fit, self.question = NOTHING, None, None
+        # Rows of a map are of the curves as they were read before.
+        self.refused, self.fit, self.question, self.rows = NOTHING, None, None, []
         self.show()
         self.worker.ask(
             "read", self._path, self._given, self.setting.curve, tell=self._tell(self._have_read)

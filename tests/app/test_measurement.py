@@ -738,6 +738,15 @@ def test_all_curves_of_a_file_are_fitted_and_a_dead_one_says_why():
     assert not page.results.list.visible
     assert not page.results.map_file.visible
     assert page.results.summary.object == ""
+    # So are those of columns that the file is no longer read by.
+    page.fit_all()
+    while page.worker.jobs:
+        page.worker.step()
+    assert page.results.list.visible
+    page.reread(columns={"depth": ("none", "m"), "force": ("none", "N")})
+    assert page.curve is None
+    assert not page.results.list.visible
+    assert page.results.summary.object == ""
 
 
 def test_remarks_have_words_in_the_place_of_names_of_python():
