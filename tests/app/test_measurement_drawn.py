@@ -63,7 +63,7 @@ def test_what_was_said_of_a_file_is_gone_with_the_next():
     """Of a curve, also where the next file cannot be read; of a tip."""
     page = opened(curve_file())
     page.hold("contact_point", 1e-3)
-    assert "contact point" in plain(page.results.not_fitted)
+    assert "First contact" in plain(page.results.not_fitted)
     page.take_file("damaged.csv", b"nothing")
     assert plain(page.results.not_fitted) == ""
     assert "damaged.csv" in plain(page.form.refused)

@@ -566,7 +566,7 @@ SCENE = mdr.Scene(CONE, COPPER, mdr.DepthPath(1e-7))
         (lambda: mdr.fit_indentation(CONE, [0.0, 1e-7], [0.0, 1.0], hardness=SIZE), "curve_fit over"),
         (SCENE.to_json, "keep the script"),
         (SCENE.to_python, "keep the script"),
-        (lambda: mdr.creep(CONE, COPPER, [0.0, 1.0], [0.0, 1.0]), "take indent_in_time"),
+        (lambda: mdr.creep(CONE, COPPER, [0.0, 1.0], [0.0, 1.0]), "use indent_in_time"),
         (lambda: mdr.impact(CONE, COPPER, 1e-12, 1.0).fast_limit, "ScalingLaw has the powers"),
         (lambda: COPPER.critical_depth, r"take yield_depth\(profile, medium\)"),
         (lambda: COPPER.yield_line_load, "hardness_at"),

@@ -256,7 +256,7 @@ class TestCsv:
                 {},
                 r"Sampled r\[1\] = 1e-309 m must be 0 or at least 1e-25",
             ),
-            ("r (nm), z (nm)\n0,0\n1,1\n1e50,1e51\n", {}, r"Sampled r\[2\] = 1e\+41 m is beyond 1e\+25"),
+            ("r (m), z (m)\n0,0\n1,1\n1e26,1e27\n", {}, r"Sampled r\[2\] = 1e\+26 m is beyond 1e\+25"),
             ("r (nm), z (nm)\n0,0\n1,1\n", {"unit": ["nm"]}, "must be one of"),
             ("(" * 9999 + "\n0,0\n1,1\n", {}, "header must name the units"),
             ("1 " * 10**6, {}, "a line is longer than 10000 characters"),
