@@ -74,7 +74,7 @@ def test_all_private_ends_are_there_in_the_versions_that_are_installed(caplog):
 #: Names that js/private.js takes from Bokeh, and whether what is done below asks for each.
 IN_THE_BROWSER = {
     "find_one": True, "el": True, "frame": True, "x_scale": True, "y_scale": True, "bbox": True,
-    "all_models": True, "repaint": True, "export": True, ".bk-events": True,
+    "all_models": False, "repaint": True, "export": True, ".bk-events": True,
     "invalidate_layout": False, ".noUi-handle": False,
 }  # fmt: skip
 
