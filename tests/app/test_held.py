@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from markupsafe import Markup
 
 from app import changes, link
 from app.draw import Picture, drawn, legend
@@ -83,7 +84,7 @@ def test_each_has_its_own_row_and_colour_in_every_plot_on_common_axes():
     looks = {(row.role, row.look["line_dash"]) for row in rows_of(PLOTS["force"]) if "held" in row.role}
     assert len({role for role, _ in looks}) == len({dash for _, dash in looks}) == len(states)
     names = drawn(view, PLOTS["force"])
-    text = legend(PLOTS["force"], names).replace("<i>d</i><sub>max</sub>", "d_max")
+    text = legend(PLOTS["force"], names).replace(Markup("<i>d</i><sub>max</sub>"), "d_max")
     shown = re.findall(r">([^<]+)</span>", text)
     # The first one is the present scene, which has no difference from itself.
     expected = [f"d_max = {depth} nm" for depth in (9, 3, 6, 12)]
