@@ -5,6 +5,7 @@ import inspect
 import pickle
 import subprocess
 import sys
+from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
 
@@ -126,9 +127,19 @@ def doors(tree):
     }
 
 
-KNOWN = {name for name, _ in modules()}
-TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in modules()}
-IMPORTS = {name: imported(name, ast.walk(tree)) for name, tree in TREES.items()}
+FILES = dict(modules())
+KNOWN = set(FILES)
+
+
+# When a test asks for them: each process of a run imports all tests, and one of them runs these.
+@cache
+def tree_of(name):
+    return ast.parse(FILES[name].read_text(encoding="utf-8"))
+
+
+@cache
+def imports():
+    return {name: imported(name, ast.walk(tree_of(name))) for name in KNOWN}
 
 
 def place(name):
@@ -141,21 +152,21 @@ def test_every_folder_has_its_place():
 
 @pytest.mark.parametrize("name", sorted(KNOWN))
 def test_imports_point_down(name):
-    assert all(place(other) <= place(name) for other in IMPORTS[name])
+    assert all(place(other) <= place(name) for other in imports()[name])
 
 
 def test_there_is_no_circle():
     """Of modules; that one imports its own folder's first file does not count."""
-    TopologicalSorter(IMPORTS).prepare()
+    TopologicalSorter(imports()).prepare()
 
 
 @pytest.mark.parametrize("name", sorted(KNOWN))
 def test_modules_are_imported_at_the_top(name):
     """Not in functions, but for optional packages, and for what shows a result."""
-    functions = (node for node in ast.walk(TREES[name]) if isinstance(node, ast.FunctionDef))
+    functions = (node for node in ast.walk(tree_of(name)) if isinstance(node, ast.FunctionDef))
     assert not imported(name, (node for each in functions for node in ast.walk(each)))
-    assert doors(TREES[name]) <= {*DOORS}
-    if "import_module" in (node.id for node in ast.walk(TREES[name]) if isinstance(node, ast.Name)):
+    assert doors(tree_of(name)) <= {*DOORS}
+    if "import_module" in (node.id for node in ast.walk(tree_of(name)) if isinstance(node, ast.Name)):
         # `above`, optional packages and public names.
         assert name in {"_door", "show.report", "sweep", "__init__"}
 
@@ -165,12 +176,12 @@ def behind(name):
     reached, new = set(), {name}
     while new:
         reached |= new
-        new = set().union(*(IMPORTS[each] for each in new)) - reached
+        new = set().union(*(imports()[each] for each in new)) - reached
     return {each for each in reached if not each.endswith("__init__")}
 
 
 def test_all_doors_lead_somewhere():
-    assert {*DOORS} == set().union(*map(doors, TREES.values())) <= KNOWN
+    assert {*DOORS} == set().union(*map(doors, map(tree_of, KNOWN))) <= KNOWN
 
 
 @pytest.mark.parametrize("name", BEHIND)
@@ -218,7 +229,7 @@ def private_names_of_others(tree):
 @pytest.mark.parametrize("name", sorted(KNOWN))
 def test_a_private_name_of_another_object_is_used_in_its_own_file_only(name):
     """What other files call has a public name, and says what it is."""
-    foreign = {*private_names_of_others(TREES[name])} - {*names_given(TREES[name])}
+    foreign = {*private_names_of_others(tree_of(name))} - {*names_given(tree_of(name))}
     # The functions of a named tuple have an underscore, so that fields may have any name.
     assert not foreign - {"_replace", "_fields"}
 
@@ -241,7 +252,7 @@ def test_only_public_names_are_shown():
 def test_type_checkers_see_the_names_that_are_found_when_they_are_asked_for():
     seen = {
         (alias.name, node.module)
-        for node in ast.walk(TREES["__init__"])
+        for node in ast.walk(tree_of("__init__"))
         if isinstance(node, ast.ImportFrom) and node.level and node.module != "_check"
         for alias in node.names
     }
