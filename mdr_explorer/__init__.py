@@ -15,9 +15,10 @@ APP = next(path for path in (_HERE / "app", _HERE.parent / "app") if (path / "ma
 
 #: What a server that is open to all needs; an option that is given holds instead of the one here. A message
 #: has at most 8 MB. A page has ten minutes to connect, and a session without its page ends after the same
-#: time. A page is told the host of its request alone: cookies and headers may have secrets of a sign-on.
+#: time. Of a request a page is told the host and the theme alone: other cookies and headers may have
+#: secrets of a sign-on.
 OPTIONS = (
-    "--include-headers", "Host", "--include-cookies", "none", "--websocket-max-message-size", "8000000",
+    "--include-headers", "Host", "--include-cookies", "dark", "--websocket-max-message-size", "8000000",
     "--session-token-expiration", "600", "--check-unused-sessions", "15000",
     "--unused-session-lifetime", "600000", "--keep-alive", "15000",
 )  # fmt: skip

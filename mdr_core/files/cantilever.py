@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from ..numerics.remark import Remark, Remedy, refused
 from .names import normal, parted
-from .question import UnknownColumns
+from .question import CONSTANTS, UnknownColumns, constants_needed
 from .table import LONGEST_HEADER
 from .units import COLUMN_UNITS, size_of, unit_alone
 
@@ -22,7 +22,6 @@ _NAMES = {
 #: Names that stand in JPK's text without a unit, N/m and m/V.
 _OF_JPK = "springconstant", "sensitivity"
 #: Their units, and their names in a sentence.
-_UNITS = {"spring_constant": "N/m", "sensitivity": "m/V"}
 _WORDS = {"spring_constant": "the spring constant of the cantilever", "sensitivity": "its sensitivity"}
 
 
@@ -47,16 +46,15 @@ def constants(table, name, layout, given, asked):
     `UnknownColumns` where a constant lacks, and ValueError where one is given for nothing.
     """
     unit = layout["force"][1].lstrip("−")
-    volts = unit in COLUMN_UNITS["voltage"]
     deflection = unit not in COLUMN_UNITS["force"]
-    needed = {"spring_constant": deflection or "piezo" in layout, "sensitivity": volts}
+    needed = constants_needed(layout)
     _refuse_unused(name, given, needed, deflection, unit)
     known, remarks = dict(given), []
     for each, (names, kind) in _NAMES.items():
         own = constant(table.header, kind, names)
-        if own is None or (each == "sensitivity" and not volts):
+        if own is None or (each == "sensitivity" and not needed[each]):
             continue
-        text, words = f"{own:.6g} {_UNITS[each]}", _WORDS[each]
+        text, words = f"{own:.6g} {CONSTANTS[each]}", _WORDS[each]
         if known.get(each) is None:
             known[each] = own
             if needed[each]:
@@ -65,7 +63,7 @@ def constants(table, name, layout, given, asked):
         elif known[each] != own:
             value = f"{known[each]:.6g}"
             sentence = f"{each} = {value} is taken as it is given; the file has {each} = {text}"
-            words = f"{words}, {value} {_UNITS[each]}, is taken as it is given; the file has {text}"
+            words = f"{words}, {value} {CONSTANTS[each]}, is taken as it is given; the file has {text}"
             remarks.append(Remark(sentence, "cantilever", words))
     lacking = [each for each in needed if needed[each] and known.get(each) is None]
     if lacking:
@@ -103,8 +101,8 @@ def _ask(table, name, layout, lacking, deflection, asked):
     )
     hint = "" if deflection else ', or columns={"depth": …} if it is the depth of the tip'
     words = "" if deflection else ", or choose it as the depth of the tip if it is"
-    give = " and ".join(f"{each}= ({_UNITS[each]})" for each in lacking)
-    said = " and ".join(f"{_WORDS[each]} ({_UNITS[each]})" for each in lacking)
+    give = " and ".join(f"{each}= ({CONSTANTS[each]})" for each in lacking)
+    said = " and ".join(f"{_WORDS[each]} ({CONSTANTS[each]})" for each in lacking)
     raise UnknownColumns(
         what,
         table,

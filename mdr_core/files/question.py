@@ -3,9 +3,12 @@
 from typing import Any
 
 from ..numerics.remark import Remedy
+from .units import COLUMN_UNITS
 
 #: Most columns that a question shows, and columns of words.
 _SHOWN, _WORDS = 14, 3
+#: Constants of a cantilever by the names of arguments, and their units.
+CONSTANTS = {"spring_constant": "N/m", "sensitivity": "m/V"}
 
 
 class NoCurve(ValueError):
@@ -16,6 +19,7 @@ class UnknownColumns(ValueError):
     """Raised for a table that does not say what its columns are, with a suggestion to confirm.
 
     ``read_curves(path, **error.suggestion)`` reads the file as suggested, where that is right and complete.
+    A piezo or a deflection also needs ``spring_constant=``; the message says so.
 
     Attributes
     ----------
@@ -112,8 +116,23 @@ def _paste(suggestion):
         return 'Give the columns and their units: columns={"depth": (0, "nm"), "force": (1, "mN")}'
     text = as_python(columns)
     by = f", by={suggestion['by']!r}" if suggestion.get("by") is not None else ""
+    parts = columns if isinstance(columns, list) else [columns]
+    constants = [name for name, needed in constants_needed(parts[0]).items() if needed]
+    text += by + "".join(f", {name}=…" for name in constants)
+    text += ", with " * bool(constants) + " and ".join(f"{name} in {CONSTANTS[name]}" for name in constants)
     is_open = ', and replace "?" by the unit' if '"?"' in text else ""
-    return f"If this is right, give: columns={text}{by}{is_open}"
+    return f"If this is right, give: columns={text}{is_open}"
+
+
+def constants_needed(columns):
+    """Whether columns need each constant of a cantilever: for a piezo, a deflection, or one in V."""
+    _, unit = columns.get("force") or (None, "N")
+    plain = unit.lstrip("−")
+    deflection = plain not in COLUMN_UNITS["force"] and plain != "?"
+    return {
+        "spring_constant": deflection or columns.get("piezo") is not None,
+        "sensitivity": plain in COLUMN_UNITS["voltage"],
+    }
 
 
 def as_python(columns):

@@ -144,7 +144,7 @@ def fit_indentation(
     E* and the hardness belong to the model, whose contact radius on loading has the sink-in of an elastic
     contact. Plastic flow has less sink-in: on fused silica E* is 82.7 GPa, by Oliver and Pharr 69.6 GPa.
     The hardness is the mean pressure of a fully yielded contact, 14.3 GPa. The mean pressure of the contact
-    in the model, whose rim is elastic, is 10.8 GPa. Oliver and Pharr's hardness, which instruments report,
+    in the model, whose rim is elastic, is 10.9 GPa. Oliver and Pharr's hardness, which instruments report,
     refers to a larger contact and is 9.1 GPa. The report gives all three.
 
     **Not in the model**: relaxation over more than one time, adhesion that changes between approach and

@@ -99,15 +99,15 @@ def oliver_pharr(
     **Creep** at the start of an unloading makes S too large. With `time`, and a hold of the force before
     the unloading, the depth of the unloading is reduced by creep at the rate ḣ of the end of the hold: at
     the start of the unloading 1/S = 1/S_measured − ḣ/Ṗ, where Ṗ < 0 is the rate of the force (Feng and
-    Ngan, J. Mater. Res. 17, 2002, 660). `uncorrected` has the results without it. For made records with
-    −ḣ/Ṗ of 20 % of 1/S, E* is then within 1 % instead of 14 or 15 % too large, where the unloading takes
-    no longer than the hold; where it takes four times as long, and the rate falls meanwhile, E* is up to
-    3 % too small. A remark gives the length of the hold. It is the time between straight lines through the
-    force before and after, at the force that is held, so that the tip of a triangle is no hold. Without
-    `time` creep shows in m: a remark says where it is larger than that of the tip's elastic contact, or
-    than 1.7 where more than half of the depth remains, or different by 0.2 and more in parts of the
-    unloading, each beyond the scatter. Where m is above 1.5 and a fourth of the depth remains, the errors
-    are as large as the results of parts down to 20 % of the force deviate.
+    Ngan, J. Mater. Res. 17, 2002, 660). `uncorrected` has the results without it. For simulated records
+    with −ḣ/Ṗ of 20 % of 1/S, E* is then within 1 % instead of 14 or 15 % too large, where the unloading
+    takes no longer than the hold; where it takes four times as long, and the rate falls meanwhile, E* is
+    up to 3 % too small. A remark gives the length of the hold. It is the time between straight lines
+    through the force before and after, at the force that is held, so that the tip of a triangle is no
+    hold. Without `time` creep shows in m: a remark says where it is larger than that of the tip's elastic
+    contact, or than 1.7 where more than half of the depth remains, or different by 0.2 and more in parts
+    of the unloading, each beyond the scatter. Where m is above 1.5 and a fourth of the depth remains, the
+    errors are as large as the results of parts down to 20 % of the force deviate.
 
     **ISO 14577.** `elastic_work_ratio` is n_IT = W_elast/W_total, of the work of the unloading, and of the
     loading and the hold before it. Below the last sample the unloading is continued by its power law, not

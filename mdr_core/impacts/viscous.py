@@ -114,7 +114,7 @@ def _refuse_unsolved(error, rows, speed, profile, depth):
         bound, advice = f"presses {one.too_deep()}", "reduce speed or mass"
     else:
         bound = f"has no solution: {error}"
-        advice = "check mass and eta, and the functions of a shape or a law of your own"
+        advice = "check mass, eta and the structure, and the functions of a shape or a law of your own"
     raise _check.InvalidEntries("speed", speed, bad.reshape(speed.shape), bound, "m/s", advice) from error
 
 

@@ -150,13 +150,17 @@ def test_a_page_at_a_name_that_is_not_allowed_says_so(command, browser):
         other.close()
 
 
-def test_the_page_has_neither_headers_nor_cookies_of_its_request(command):
-    secrets = {"Cookie": f"session={SECRET}", "Authorization": f"Bearer {SECRET}", "X-Remote-User": SECRET}
+def test_of_the_headers_and_cookies_of_a_request_the_page_has_the_host_and_the_theme(command):
+    secrets = {
+        "Cookie": f"session={SECRET}; dark=1",
+        "Authorization": f"Bearer {SECRET}",
+        "X-Remote-User": SECRET,
+    }
     for path in ("/app", "/app?fit", "/app/autoload.js?bokeh-autoload-element=1"):
         _, _, body = get(command, path, secrets)
         (token,) = re.findall(r'"token":"([^"]+)"', body.decode())
         payload = get_token_payload(token)
-        assert payload["cookies"] == {}
+        assert payload["cookies"] == {"dark": "1"}
         assert list(payload["headers"]) == ["Host"]
         assert SECRET not in str(payload)
 

@@ -126,7 +126,7 @@ def tables_of_classes():
 
 
 def coverage_row(family, size, seeds):
-    """Cells of one family of made curves, for each kind of medium: coverage, remarks, visibility, bias."""
+    """Cells of a family of simulated curves, by kind of medium: coverage, remarks, visibility, bias."""
     text = families.SAYS[family].format(f"{100 * size:g} %" if size < 1 else size)
     cells = []
     for kind in families.KINDS.values():
@@ -189,8 +189,8 @@ names. Of silica Oliver and Pharr's analysis by micromechanics gives {:.1f} GPa.
 
 ## Coverage of the errors on curves that deviate from the model
 
-100 made curves a cell, 0.4 % noise of the force, times given, without a hold: a gel under a ball of 10 \
-µm (E* 10 kPa, from 2 µm above to 1 µm deep and back), a glass (70 GPa, H 10 GPa) and a metal (70 GPa, \
+100 simulated curves a cell, 0.4 % noise of the force, times given, without a hold: a gel under a ball of \
+10 µm (E* 10 kPa, from 2 µm above to 1 µm deep and back), a glass (70 GPa, H 10 GPa) and a metal (70 GPa, \
 q_c 8 kN/m) under a Berkovich tip, 600 nm deep and back to 300 and 400 nm. Of each: how many have E* \
 within two standard errors (nominally 95 %, known to 2 to 5 %); the median deviation in standard errors; \
 how many have a remark; and by how many standard deviations of the noise the curve deviates from its own \
@@ -214,10 +214,10 @@ is scaled, where the approach is not given.
 
 ## Faults of unloadings
 
-Of 60 made records a row, evaluated by `oliver_pharr` without times: Berkovich, a cone, a rounded one, a \
-paraboloid and a sphere; E* over 2.3 decades, elastic, of class (a) or (b); 0.13 to 1.3 µm deep, 100 to \
-1000 samples of the loading and of the unloading, noise of 0 to 0.2 % of the force, all at random. Good \
-ones begin at 0, in long air, at 0.9 or 21 % of the depth, or have a hold. *Little air* is 6 to 18 \
+Of 60 simulated records a row, evaluated by `oliver_pharr` without times: Berkovich, a cone, a rounded \
+one, a paraboloid and a sphere; E* over 2.3 decades, elastic, of class (a) or (b); 0.13 to 1.3 µm deep, \
+100 to 1000 samples of the loading and of the unloading, noise of 0 to 0.2 % of the force, all at random. \
+Good ones begin at 0, in long air, at 0.9 or 21 % of the depth, or have a hold. *Little air* is 6 to 18 \
 samples, 2.5 % to 15 % of the depth; *no air* a depth that is 0 at 1.5 to 20 % of the force; *preload* \
 one of 1 to 5 % of the force at depth 0, and *lift-off* one of 0.1 to 1 %, from which the tip is lifted \
 into the air before the loading; *creep* is logarithmic or in proportion to the force, 15 to 80 % of the \

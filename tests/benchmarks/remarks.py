@@ -22,7 +22,7 @@ from ..fit.test_fit_in_time import fit_of
 from ..fit.test_fit_of_classes import BERKOVICH, BOUNDS, DATA, real
 
 GEL, GLASS, METAL = families.KINDS.values()
-#: Kinds of remarks that name what a family of made curves has.
+#: Kinds of remarks that name what a family of simulated curves has.
 NAMES = {
     "tilt": {"tilt", "misfit"},
     "retract": {"unloading", "misfit"},
@@ -57,7 +57,7 @@ def of_families(seeds):
 
 
 def of_a_kind(medium, seed):
-    """Yields the remarks on made curves that have one thing each, with the kind that names it."""
+    """Yields the remarks on simulated curves that have one thing each, with the kind that names it."""
     depth, force, time = families.curve(medium, "clean", 0.0, seed)
     top, random, given = force.max(), np.random.default_rng(seed), {**medium.options}
     count, elastic = depth.size, medium is GEL
@@ -102,7 +102,7 @@ def of_a_kind(medium, seed):
 
 
 def of_unloadings(medium, seed):
-    """Yields results of Oliver and Pharr for made records with one thing each, and its kinds."""
+    """Yields results of Oliver and Pharr for simulated records with one thing each, and its kinds."""
     tip, top, random = medium.tip, medium.depths[1], np.random.default_rng(seed)
 
     def loaded(depth, tip=tip):
@@ -289,7 +289,7 @@ def table(seeds=6):
         right["measured"].update(made & true)
         curves["measured"] += 1
     rows = [
-        f"| remark | {curves['made']} made cases | {curves['measured']} of measured curves |",
+        f"| remark | {curves['made']} simulated cases | {curves['measured']} of measured curves |",
         "| --- | --- | --- |",
     ]
     for kind in (kind for kind in KINDS if kind not in OF_REFUSALS):

@@ -28,7 +28,7 @@ TIPS = (
 
 @dataclass
 class Specimen:
-    """A made record without a fault: a tip, depths (m) and forces (N) of its loading and unloading."""
+    """A simulated record without a fault: a tip, depths (m) and forces (N) of its loading and unloading."""
 
     tip: object
     loading: tuple

@@ -97,6 +97,32 @@ def test_other_names_are_asked_about_with_the_right_suggestion(asked, write, dep
 
 
 @pytest.mark.parametrize(
+    ("heads", "columns", "given"),
+    [
+        (("Piezo (nm)", "Force (nN)"), (1e9 * PIEZO, 1e9 * SMALL), {"spring_constant": STIFFNESS}),
+        (
+            ("Z (nm)", "Deflection (V)"),
+            (1e9 * PIEZO, SMALL / STIFFNESS / SENSITIVITY),
+            {"spring_constant": STIFFNESS, "sensitivity": SENSITIVITY},
+        ),
+    ],
+)
+def test_a_line_to_paste_has_the_constants_that_its_columns_need(asked, write, heads, columns, given):
+    """With them, and not without, the suggestion reads the file."""
+    text = table(*heads, columns=columns)
+    error = asked(text)
+    *_, last = str(error).splitlines()
+    assert [name in last for name in ("spring_constant=…", "sensitivity=…")] == [
+        name in given for name in ("spring_constant", "sensitivity")
+    ]
+    again = asked(text, **error.suggestion)
+    assert again.remedy == tuple(mdr.Remedy("give", name) for name in given)
+    curve = mdr.read_curve(write(text), **error.suggestion, **given)
+    # Six digits in the file, of a piezo that goes fifty times as far as the depth.
+    np.testing.assert_allclose(curve.force, SMALL, rtol=1e-4, atol=1e-5 * SMALL.max())
+
+
+@pytest.mark.parametrize(
     "other",
     ["Depth corrected (nm)", "DepthRaw (nm)", "Contact depth (nm)", "h corrected (nm)", "Target Load (mN)",
      "Max Load (mN)", "load_set_mN"],

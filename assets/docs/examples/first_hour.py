@@ -62,7 +62,7 @@ for limit in mdr.indent(mdr.Cone(slope=70.3), gold, 1e-9).limits:
     print(limit.what, "is exceeded:" if limit.exceeded else "holds:", limit.sentence)
 
 # %%
-# **Change 70.3 to 0.3581, the slope of the cone of a Berkovich tip: which limits hold?**
+# **Change 70.3 to 0.3581, the slope of the cone of a Berkovich tip: what does the limit say now?**
 #
 # A measured curve
 # ----------------
