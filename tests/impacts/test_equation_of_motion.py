@@ -10,6 +10,7 @@ from scipy.optimize import brentq
 import mdr_core as mdr
 
 from ..approx import approx
+from ..events import until
 from ..foundation.small_steps import scalar_impact
 from ..shapes import SHAPES, name
 from .test_contact_time import KINKED
@@ -38,42 +39,27 @@ def by_steps(phi, radius, tau, d_c):
 
         return rate
 
-    turns = (0.0, 1.0, 0.0)
-    time, state = until((0.0, (0.0, SPEED)), loading(False), turns, (1.0, 0.0, -d_c))
-    if state[1] > SPEED * 1e-9:
-        time, state = until((time, state), loading(True), turns)
+    def turns(_, state):
+        return state[1]
+
+    def yields(_, state):
+        return state[0] - d_c
+
+    options = {"longest": 1.0, "rtol": 1e-12, "atol": 1e-22, "first_step": 1e-12}
+    which, time, state = until(loading(False), (0.0, (0.0, SPEED)), (turns, yields), **options)
+    if which:
+        _, time, state = until(loading(True), (time, state), (turns,), **options)
     deepest = state[0]
     p = max(deepest - d_c, 0.0)
 
     def unloading(_, state):
         return state[1], -(phi(max(state[0] + tau * state[1], p)) - phi(p)) / MASS
 
-    time, state = until((time, (deepest, 0.0)), unloading, (1.0, tau, -p))
+    def leaves(_, state):
+        return state[0] + tau * state[1] - p
+
+    _, time, state = until(unloading, (time, (deepest, 0.0)), (leaves,), **options)
     return deepest, -state[1] / SPEED, time
-
-
-def until(start, rate, *ends):
-    """Time and state where the first of some linear functions of depth and speed, an (a, b, c) each, is 0.
-
-    The polynomials between the steps, on which scipy finds an event, are less accurate than the steps. So
-    the step with the event is made again, with the function as the independent variable (Hénon 1982).
-    """
-    time, state = start
-    options = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-22}
-    values = [lambda t, y, end=end: end[0] * y[0] + end[1] * y[1] + end[2] for end in ends]
-    for value in values:
-        value.terminal = True
-    steps = solve_ivp(rate, (time, time + 1), state, events=values, first_step=1e-12, **options)
-    (which,) = (k for k, times in enumerate(steps.t_events) if times.size)
-    time, state = steps.t[-2], steps.y[:, -2]
-
-    def per_value(_, y):
-        speed, acceleration = rate(y[2], y[:2])
-        change = ends[which][0] * speed + ends[which][1] * acceleration
-        return speed / change, acceleration / change, 1 / change
-
-    last = solve_ivp(per_value, (values[which](time, state), 0.0), (*state, time), **options)
-    return last.y[2, -1], last.y[:2, -1]
 
 
 CURVES = {
