@@ -100,7 +100,7 @@ def test_the_page_is_embedded_as_documented(server, context):
     text = (ROOT / "assets/docs/how_do_i.md").read_text(encoding="utf-8")
     (frame,) = re.findall(r"<iframe.*</iframe>", text)
     page = context.new_page()
-    page.set_content(frame.replace("http://localhost:5006/app", server.url))
+    page.set_content(frame.replace("https://explorer.example.org/app", server.url))
     page.frame_locator("iframe").locator("canvas").first.wait_for()
     page.close()
 
