@@ -77,7 +77,7 @@ def test_every_plot_of_every_state_can_be_drawn(damping):
     for view in (*views, view_of(oblique, 1.0, oblique)):
         for plot, chosen in drawn_with_every_option(view):
             picture, names = picture_of(plot), {row.name for row in rows_of(plot)}
-            for i in range(0, len(chosen.course), 9):
+            for i in range(0, len(chosen.course), 25):
                 rows = chosen.places(plot, i)
                 assert all(np.size(x) == np.size(y) for x, y, *_ in rows.values())
                 assert rows.keys() == names | ({"image"} if getattr(plot, "image", None) else set())
