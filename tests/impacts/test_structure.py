@@ -99,11 +99,17 @@ def by_integration(profile, medium, structure):
     return -state[1] / SPEED, time, largest
 
 
-# Twelve by default: each takes a second or two.
+# Twelve by default, of a second or two each; those of a law of one's own take up to twenty.
 @pytest.mark.slow
 @pytest.mark.few(12)
 @pytest.mark.parametrize("structure", STRUCTURES.values(), ids=STRUCTURES)
-@pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
+@pytest.mark.parametrize(
+    "medium",
+    [
+        pytest.param(medium, id=key, marks=[pytest.mark.full] * (key == "own law"))
+        for key, medium in MEDIA.items()
+    ],
+)
 @pytest.mark.parametrize("profile", SHAPES, ids=name)
 def test_every_combination_by_another_integrator(profile, medium, structure):
     if isinstance(profile, mdr.PowerLaw) and profile.exponent < 1 and not medium.inverse_to_radius:
