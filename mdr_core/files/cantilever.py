@@ -6,7 +6,7 @@ from ..numerics.remark import Remark, Remedy, refused
 from .names import normal, parted
 from .question import CONSTANTS, UnknownColumns, constants_needed
 from .table import LONGEST_HEADER
-from .units import COLUMN_UNITS, size_of, unit_alone
+from .units import is_deflection, is_voltage, size_of, unit_alone
 
 #: Names of the constants in the headers of files, and the kinds of their units.
 _NAMES = {
@@ -21,7 +21,7 @@ _NAMES = {
 }  # fmt: skip
 #: Names that stand in JPK's text without a unit, N/m and m/V.
 _OF_JPK = "springconstant", "sensitivity"
-#: Their units, and their names in a sentence.
+#: The names of the constants in a sentence.
 _WORDS = {"spring_constant": "the spring constant of the cantilever", "sensitivity": "its sensitivity"}
 
 
@@ -35,8 +35,7 @@ class Cantilever:
 
     def force_per_deflection(self, unit):
         """Force (N) for a deflection of 1 m, or of 1 V."""
-        volts = unit.lstrip("−") in COLUMN_UNITS["voltage"]
-        return self.stiffness * (self.sensitivity if volts else 1.0)
+        return self.stiffness * (self.sensitivity if is_voltage(unit) else 1.0)
 
 
 def constants(table, name, layout, given, asked):
@@ -46,7 +45,7 @@ def constants(table, name, layout, given, asked):
     `UnknownColumns` where a constant lacks, and ValueError where one is given for nothing.
     """
     unit = layout["force"][1].lstrip("−")
-    deflection = unit not in COLUMN_UNITS["force"]
+    deflection = is_deflection(unit)
     needed = constants_needed(layout)
     _refuse_unused(name, given, needed, deflection, unit)
     known, remarks = dict(given), []

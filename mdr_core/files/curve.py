@@ -11,7 +11,7 @@ from ..numerics.remark import Remark, Remedy, refused
 from .cantilever import constants
 from .columns import ask_for_parts, ask_for_results, plain_beside, taken, time_left_out, told
 from .split import WORDS, joined, parts, place_of, several
-from .units import COLUMN_UNITS, size_of
+from .units import is_deflection, size_of
 
 
 def curves_of(table, file, columns=None, by=None, given=None):
@@ -121,7 +121,7 @@ def curve_of(table, name, layout, cantilever, source, *, turn=True, segment=None
         raise ValueError(f"{name} has one row of numbers: give a curve, with one sample per line")
     rows = _in_time(values, rows, columns, remarks)
     values = {each: value[rows] for each, value in values.items()}
-    if columns["force"][1].lstrip("−") not in COLUMN_UNITS["force"]:
+    if is_deflection(columns["force"][1]):
         values["force"] = values["force"] * cantilever.force_per_deflection(columns["force"][1])
     for each in _turned(values[place], values["force"]) if turn else ():
         key = place if each == "depth" else each

@@ -3,7 +3,7 @@
 from typing import Any
 
 from ..numerics.remark import Remedy
-from .units import COLUMN_UNITS
+from .units import is_deflection, is_voltage
 
 #: Most columns that a question shows, and columns of words.
 _SHOWN, _WORDS = 14, 3
@@ -117,7 +117,7 @@ def _paste(suggestion):
     text = as_python(columns)
     by = f", by={suggestion['by']!r}" if suggestion.get("by") is not None else ""
     parts = columns if isinstance(columns, list) else [columns]
-    constants = [name for name, needed in constants_needed(parts[0]).items() if needed]
+    constants = [name for name in CONSTANTS if any(constants_needed(part)[name] for part in parts)]
     text += by + "".join(f", {name}=…" for name in constants)
     text += ", with " * bool(constants) + " and ".join(f"{name} in {CONSTANTS[name]}" for name in constants)
     is_open = ', and replace "?" by the unit' if '"?"' in text else ""
@@ -127,11 +127,9 @@ def _paste(suggestion):
 def constants_needed(columns):
     """Whether columns need each constant of a cantilever: for a piezo, a deflection, or one in V."""
     _, unit = columns.get("force") or (None, "N")
-    plain = unit.lstrip("−")
-    deflection = plain not in COLUMN_UNITS["force"] and plain != "?"
     return {
-        "spring_constant": deflection or columns.get("piezo") is not None,
-        "sensitivity": plain in COLUMN_UNITS["voltage"],
+        "spring_constant": is_deflection(unit) or columns.get("piezo") is not None,
+        "sensitivity": is_voltage(unit),
     }
 
 

@@ -76,6 +76,15 @@ def unit_named(text):
     return unit and unit[1]
 
 
+def is_deflection(unit):
+    """Whether a force in this unit is the deflection of a cantilever: a length, or a voltage."""
+    return unit.lstrip("−") in COLUMN_UNITS["length"] or is_voltage(unit)
+
+
+def is_voltage(unit):
+    return unit.lstrip("−") in COLUMN_UNITS["voltage"]
+
+
 def size_of(unit):
     """Size (SI) of a unit by its name, negative for "−nm"."""
     if unit.startswith("−"):
