@@ -100,7 +100,7 @@ __all__ = [
     "yield_speed",
 ]
 
-__version__ = "0.8.0"
+__version__ = "0.9.0.dev0"
 
 #: Modules of the public names. Each is imported when one of its names is first asked for.
 _MODULES = {
