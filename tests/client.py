@@ -28,8 +28,8 @@ longest = hit.contact_time.max()
 motion = hit[0].motion(50)
 energy = motion.kinetic_energy + motion.stored_energy + motion.plastic_work
 turning: int = motion.turning_index
-drop = mdr.impact(mdr.Paraboloid(2e-3), mdr.Medium(4e6, 200.0, 30.0), 1e-4, 0.5)
-chain = mdr.chain_impact(mdr.Paraboloid(2e-3), mdr.Medium(4e6, 200.0, 30.0), 1e-4, 0.5)
+drop = mdr.impact(mdr.Paraboloid(2e-3), mdr.Medium(4e6, q_c=200.0, eta=30.0), 1e-4, 0.5)
+chain = mdr.chain_impact(mdr.Paraboloid(2e-3), mdr.Medium(4e6, q_c=200.0, eta=30.0), 1e-4, 0.5)
 difference = abs(chain.restitution - drop.restitution)
 ramp = mdr.indent_in_time(mdr.Cone.from_half_angle(70.3), medium, [0.0, 1e-9], [0.0, 1.0])
 hold = mdr.creep(mdr.Cone.berkovich(), medium, [0.0, 1e-6], np.array([0.0, 1.0]))

@@ -27,7 +27,7 @@ REGIMES = {
     "2·10⁸ d_c, back by 0.4 d_c": (2e8, 2e8 - 0.4),
 }
 # Modulus (Pa) and yield constant (N/m): rubber, an engineering solid, diamond.
-MEDIA = (mdr.Medium(1e6, 1e-3), mdr.Medium(1e9, 1.0), mdr.Medium(1e12, 2000.0))
+MEDIA = (mdr.Medium(1e6, q_c=1e-3), mdr.Medium(1e9, q_c=1.0), mdr.Medium(1e12, q_c=2000.0))
 QUANTITIES = (
     "contact radius",
     "force",

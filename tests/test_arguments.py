@@ -9,8 +9,8 @@ import mdr_core as mdr
 
 from .laws import NixGao
 
-CONE, MEDIUM = mdr.Cone(0.3), mdr.Medium(1e9, 10.0)
-VISCOUS, STICKY = mdr.Medium(1e9, 10.0, eta=1e3), mdr.Medium(1e9, 8.0, work_of_adhesion=2e-3)
+CONE, MEDIUM = mdr.Cone(0.3), mdr.Medium(1e9, q_c=10.0)
+VISCOUS, STICKY = mdr.Medium(1e9, q_c=10.0, eta=1e3), mdr.Medium(1e9, q_c=8.0, work_of_adhesion=2e-3)
 DEPTH = np.append(np.linspace(-5e-9, 60e-9, 100), np.linspace(60e-9, 30e-9, 50))
 TIME = np.linspace(0.0, 1.0, 150)
 FORCE = mdr.indent(CONE, MEDIUM, DEPTH).force.copy()

@@ -27,10 +27,10 @@ print(state.force / (4 / 3 * 1e9 * 1e-3**0.5 * 1e-6**1.5))
 print(state.pressure(0.0) / (2 * 1e9 * state.contact_radius / (np.pi * 1e-3)))
 # What an impact loses is what yields, or what is viscous.
 cone = mdr.Cone(slope=0.3)
-for medium in mdr.Medium(1e9, 10.0), mdr.Medium(1e9, eta=1.0):
+for medium in mdr.Medium(1e9, q_c=10.0), mdr.Medium(1e9, eta=1.0):
     hit = mdr.impact(cone, medium, 1e-9, 0.1)
     print((hit.plastic_work + hit.viscous_work) / (0.5e-9 * 0.1**2 * (1 - hit.restitution**2)))
-hit, chain = (solve(cone, mdr.Medium(1e9, 10.0), 1e-9, 0.1) for solve in (mdr.impact, mdr.chain_impact))
+hit, chain = (solve(cone, mdr.Medium(1e9, q_c=10.0), 1e-9, 0.1) for solve in (mdr.impact, mdr.chain_impact))
 print(chain.restitution / hit.restitution)
 """
 
@@ -103,7 +103,7 @@ class Own(mdr.HardnessLaw):
     ("own", "call"),
     [
         (OWN_SHAPE, "mdr.indent(Own(), mdr.Medium(1e9), 1e-9)"),
-        (OWN_SHAPE, "mdr.chain_impact(Own(), mdr.Medium(1e9, 1.0), 1e-9, 0.1)"),
+        (OWN_SHAPE, "mdr.chain_impact(Own(), mdr.Medium(1e9, q_c=1.0), 1e-9, 0.1)"),
         (OWN_LAW, "mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9, hardness=Own()), 1e-9)"),
     ],
 )

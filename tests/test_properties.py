@@ -14,7 +14,7 @@ from .approx import approx
 from .shapes import SHAPES
 
 MEDIA = st.builds(
-    lambda modulus, ratio: mdr.Medium(10.0**modulus, 10.0 ** (modulus + ratio)),
+    lambda modulus, ratio: mdr.Medium(10.0**modulus, q_c=10.0 ** (modulus + ratio)),
     st.floats(6, 12),
     st.floats(-10, -8),
 )
@@ -61,7 +61,7 @@ def test_fields_of_a_state_are_sound(shape, medium, deepest, unloading, where):
 @given(SHAPE, MEDIA, PATHS, st.integers(-20, 20))
 def test_modulus_scales_the_force(shape, medium, path, power):
     path = path_of(shape, medium, path)
-    scaled = mdr.Medium(medium.E_star * 2.0**power, medium.q_c * 2.0**power)
+    scaled = mdr.Medium(medium.E_star * 2.0**power, q_c=medium.q_c * 2.0**power)
     force, larger = mdr.indent(shape, medium, path).force, mdr.indent(shape, scaled, path).force
     # A power of two changes no digit, but for the order of sums and for the smallest numbers.
     np.testing.assert_allclose(larger, force * 2.0**power, rtol=4e-15, atol=1e-300)
@@ -102,7 +102,7 @@ def test_force_path_is_the_inverse_of_a_depth_path(shape, medium, fractions):
 )
 def test_similarity_of_oblique_impacts(shape, yields, viscosity, psi, share):
     """W and μ enter as W/μ; work is dissipated, and no more of it than there is."""
-    medium = mdr.Medium(1e9, 10.0**yields, 10.0**viscosity)
+    medium = mdr.Medium(1e9, q_c=10.0**yields, eta=10.0**viscosity)
     mass, mu = 1e-9, 0.3
     speed = 0.045 * (psi if abs(psi) > 1e-3 else 0.5)
     one, other = (

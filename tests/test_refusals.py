@@ -8,7 +8,7 @@ import pytest
 
 import mdr_core as mdr
 
-CONE, MEDIUM = mdr.Cone(0.3), mdr.Medium(1e9, 10.0)
+CONE, MEDIUM = mdr.Cone(0.3), mdr.Medium(1e9, q_c=10.0)
 NAMED = SimpleNamespace(dims=("speed",), coords={})
 
 

@@ -11,7 +11,7 @@ import mdr_core as mdr
 from .approx import approx
 from .shapes import SHAPES, name
 
-SCENE = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, 1 / 3), mdr.DepthPath((0.0, 1e-9, 1 / 7)))
+SCENE = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, q_c=1 / 3), mdr.DepthPath((0.0, 1e-9, 1 / 7)))
 
 
 @pytest.mark.parametrize(
@@ -24,7 +24,7 @@ SCENE = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, 1 / 3), mdr.DepthPath((0.0, 1e-
         mdr.FreeObliqueImpact(1e-3, 0.1, -1 / 3, 0.3),
     ],
 )
-@pytest.mark.parametrize("medium", [mdr.Medium(1e9), mdr.Medium(1 / 3, 0.1, 1e-30)])
+@pytest.mark.parametrize("medium", [mdr.Medium(1e9), mdr.Medium(1 / 3, q_c=0.1, eta=1e-30)])
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_round_trip_is_exact(shape, medium, drive):
     scene = mdr.Scene(shape, medium, drive)
@@ -41,7 +41,7 @@ def test_solve_gives_what_the_functions_give():
 
 
 def test_an_oblique_impact_is_solved_as_one():
-    medium, ball = mdr.Medium(1e9, 10.0), mdr.Ball(1e-9, 1e-5)
+    medium, ball = mdr.Medium(1e9, q_c=10.0), mdr.Ball(1e-9, 1e-5)
     drive = mdr.FreeObliqueImpact(1e-9, 0.1, 0.1, 0.3, ball.tangential_mass)
     hit = mdr.Scene(mdr.Cone(0.1), medium, drive).solve()
     expected = mdr.oblique_impact(
@@ -56,7 +56,7 @@ def test_an_oblique_impact_is_solved_as_one():
 
 @pytest.mark.parametrize("eta", [0.0, 20.0])
 def test_impact_on_an_imprint_is_solved_as_one(eta):
-    medium, again = mdr.Medium(1e9, 10.0, eta), mdr.FreeImpact(1e-9, 0.1, plastic_depth=2e-8)
+    medium, again = mdr.Medium(1e9, q_c=10.0, eta=eta), mdr.FreeImpact(1e-9, 0.1, plastic_depth=2e-8)
     scene = mdr.Scene(mdr.Cone(0.1), medium, again)
     expected = mdr.impact(scene.profile, medium, 1e-9, 0.1, plastic_depth=2e-8)
     assert scene.solve().restitution == expected.restitution
@@ -121,7 +121,7 @@ def test_wrong_parts_are_refused():
 class TestModel:
     """A scene picks the cheapest model that is exact, says which, and can be asked for another."""
 
-    DRY, VISCOUS = mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, eta=20.0)
+    DRY, VISCOUS = mdr.Medium(1e9, q_c=10.0), mdr.Medium(1e9, q_c=10.0, eta=20.0)
     PATH, TIME = (0.0, 60e-9, 60e-9, 40e-9), (0.0, 1e-6, 2e-6, 3e-6)
     HIT = mdr.FreeImpact(mass=1e-9, speed=0.1)
 
@@ -208,7 +208,7 @@ def test_scenes_of_every_class_of_hardness():
 
 
 def test_a_file_from_before_classes_of_hardness_is_read():
-    scene = mdr.Scene(mdr.Cone(0.3), mdr.Medium(70e9, 5.0), mdr.FreeImpact(1e-9, 0.1))
+    scene = mdr.Scene(mdr.Cone(0.3), mdr.Medium(70e9, q_c=5.0), mdr.FreeImpact(1e-9, 0.1))
     data = json.loads(scene.to_json())
     del data["medium"]["hardness"], data["medium"]["f_c"]
     assert mdr.Scene.from_json(json.dumps(data)) == scene

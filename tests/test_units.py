@@ -10,7 +10,7 @@ import mdr_core as mdr
 
 from .approx import approx
 
-MEDIUM = mdr.Medium(95e9, 100.0)
+MEDIUM = mdr.Medium(95e9, q_c=100.0)
 
 
 class WrongUnit(Exception):
@@ -87,7 +87,7 @@ def test_units_of_another_kind_are_refused(quantity, make, says):
 @pytest.mark.parametrize("package", ["pint", "astropy", "unyt"])
 def test_compound_units(package):
     make = of(package)
-    medium = mdr.Medium(1e9, make(100.0, "N/m"), make(3.0, "Pa*s"))
+    medium = mdr.Medium(1e9, q_c=make(100.0, "N/m"), eta=make(3.0, "Pa*s"))
     assert (medium.q_c, medium.eta) == (100.0, 3.0)
     assert mdr.Cone.from_half_angle(make(70.3, "deg")) == mdr.Cone.from_half_angle(70.3)
     hit = mdr.impact(

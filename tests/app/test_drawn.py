@@ -78,7 +78,7 @@ def test_areas_with_adhesion_are_the_energies_that_are_said(server, page):
         assert areas[0] - areas[1] == approx(lost, rel=5e-3)
         assert named(page, "force", "stored") == 0 < named(page, "force", "dissipated")
     # What comes back before tension, at the largest depth, from the core.
-    medium = mdr.Medium(MODULUS, Q_C, work_of_adhesion=W)
+    medium = mdr.Medium(MODULUS, q_c=Q_C, work_of_adhesion=W)
     back = np.linspace(depth, depth - critical, 4000)
     F = mdr.indent(mdr.Paraboloid(RADIUS), medium, back).force
     returned = -trapezoid(np.maximum(F, 0.0), back)

@@ -18,7 +18,7 @@ from ..shapes import name
 from . import exact, oblique, stepping
 
 TABLE = Path(__file__).parents[2] / "assets" / "accuracy.md"
-MEDIUM, MASS = mdr.Medium(1e9, 10.0), 1e-9
+MEDIUM, MASS = mdr.Medium(1e9, q_c=10.0), 1e-9
 POWERS = (mdr.Cone(0.3), mdr.Paraboloid(1e-5), mdr.PowerLaw(2e-4, 0.5), mdr.PowerLaw(1e11, 3.0))
 TIMES = (0.1, 1 + 1e-5, 3.0, 1e4, 2e8)
 #: Relaxation times over contact times (of elastic impacts).
@@ -90,7 +90,7 @@ def viscous_impacts():
     """Errors of impacts of a cone that yields, against Taylor series of 40 digits."""
     cone = mdr.Cone(0.3)
     for eta, speed in ((0.3, 0.1), (3.0, 0.1), (3.0, 1.0), (30.0, 1.0)):
-        medium = mdr.Medium(MEDIUM.E_star, MEDIUM.q_c, eta)
+        medium = mdr.Medium(MEDIUM.E_star, q_c=MEDIUM.q_c, eta=eta)
         hit = mdr.impact(cone, medium, MASS, speed)
         references = stepping.exact(cone, medium, MASS, [speed], 40)
         found = hit.max_depth, hit.restitution, hit.contact_time
@@ -104,7 +104,9 @@ def chain_impacts(shares=(0.0, 1e-2, 1.0, 1e2, 1e3), tolerance=1e-6):
         said = missed = 0.0
         for shape in WITNESSES:
             dry = mdr.impact(shape, MEDIUM, MASS, 0.1)
-            medium = mdr.Medium(MEDIUM.E_star, MEDIUM.q_c, share * dry.contact_time * MEDIUM.E_star / 4)
+            medium = mdr.Medium(
+                MEDIUM.E_star, q_c=MEDIUM.q_c, eta=share * dry.contact_time * MEDIUM.E_star / 4
+            )
             hit = mdr.impact(shape, medium, MASS, 0.1)
             chain = mdr.chain_impact(shape, medium, MASS, 0.1, tolerance=tolerance)
             off = abs(chain.restitution - hit.restitution), abs(chain.max_depth / hit.max_depth - 1)

@@ -100,7 +100,7 @@ def viscous():
             speeds = np.geomspace(1e-4, 1.0, 9)
             time = mdr.impact(shape, medium, 1e-12, speeds).contact_time
             eta = np.geomspace(1e-4, 1e4, 9)[:, None] * time * medium.E_star / 4
-            yield shape, mdr.Medium(medium.E_star, medium.q_c, eta), speeds
+            yield shape, mdr.Medium(medium.E_star, q_c=medium.q_c, eta=eta), speeds
 
 
 @contextmanager

@@ -26,9 +26,9 @@ from mdr_core.profiles.power import PowerLaw, kappa
 
 from ..laws import Layered
 
-DRY, HARD = mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, hardness=1e7)
-WET = mdr.Medium(1e9, 10.0, eta=3.0)
-STICKY = mdr.Medium(1e9, 10.0, work_of_adhesion=0.01)
+DRY, HARD = mdr.Medium(1e9, q_c=10.0), mdr.Medium(1e9, q_c=10.0, hardness=1e7)
+WET = mdr.Medium(1e9, q_c=10.0, eta=3.0)
+STICKY = mdr.Medium(1e9, q_c=10.0, work_of_adhesion=0.01)
 R = np.linspace(0, 2e-5, 400)
 CONE, POWER = mdr.Cone(0.2), mdr.PowerLaw(1e3, 1.7)
 TIP, ROUND = mdr.Sampled(R, R**2 / 2e-5), mdr.RoundedCone(1e-5, 0.2)

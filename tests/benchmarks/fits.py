@@ -33,7 +33,7 @@ def curves(profile, media, depth_noise, seed=0):
     E = 10 ** random.uniform(9, 11, media)
     q = 2 / np.pi * E * 15e-9 * 10 ** random.uniform(-1.4, -0.1, media)
     force = mdr.indent(
-        profile, mdr.Medium(E[:, None], q[:, None]), np.broadcast_to(depth, (media, 450))
+        profile, mdr.Medium(E[:, None], q_c=q[:, None]), np.broadcast_to(depth, (media, 450))
     ).force
     noise = random.normal(size=(2, *force.shape))
     force = force + 4e-3 * force.max(axis=1, keepdims=True) * noise[0]

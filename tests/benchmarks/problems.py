@@ -13,7 +13,7 @@ from .stepping import STEPPING, stepped
 from .stepping import exact as viscous
 
 CONE = mdr.Cone(0.1)
-ELASTIC, SOFT, WET = mdr.Medium(1e9), mdr.Medium(1e9, 1e-3), mdr.Medium(1e9, 6.0, eta=2.0)
+ELASTIC, SOFT, WET = mdr.Medium(1e9), mdr.Medium(1e9, q_c=1e-3), mdr.Medium(1e9, q_c=6.0, eta=2.0)
 _DEEP = 1e8 * SOFT.critical_depth
 _MASS = 1e-9
 

@@ -153,7 +153,10 @@ def beside_fits():
     yield map_of_two, {"invalid"}
     for coefficients in ([24.5, 0.0, 50.0], [24.5, 200.0, -300.0]):
         yield mdr.Sampled.from_area_function(coefficients, 1e-6, unit="nm"), {"area"}
-    cone, media = mdr.Cone(0.3), (mdr.Medium(10e9, hardness=0.5e9), mdr.Medium(10e9, 20.0, hardness=0.3e9))
+    cone, media = (
+        mdr.Cone(0.3),
+        (mdr.Medium(10e9, hardness=0.5e9), mdr.Medium(10e9, q_c=20.0, hardness=0.3e9)),
+    )
     depths = np.array([20e-9, 40e-9, 80e-9, 160e-9])
     for medium in media:
         state = mdr.indent(cone, medium, depths)

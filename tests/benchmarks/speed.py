@@ -14,7 +14,7 @@ from ..shapes import SHAPES, name
 from .harness import seconds
 from .tables import time
 
-MEDIUM, WET = mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, eta=3.0)
+MEDIUM, WET = mdr.Medium(1e9, q_c=10.0), mdr.Medium(1e9, q_c=10.0, eta=3.0)
 
 
 def rows(count=10**6, shapes=SHAPES):
@@ -81,7 +81,7 @@ def _ensembles(count):
     """Impacts of particles that differ in size, medium, mass and speed, beside those of paraboloids."""
     random = np.random.default_rng(1)
     size, *rest = random.uniform(0.8, 1.25, (4, count))
-    medium, mass = mdr.Medium(1e9 * rest[0], 10.0 * rest[1]), 1e-9 * rest[2]
+    medium, mass = mdr.Medium(1e9 * rest[0], q_c=10.0 * rest[1]), 1e-9 * rest[2]
     speed = np.minimum(random.lognormal(np.log(0.05), 1.5, count), 5.0)
     tip = mdr.Sampled(5e-7 * np.arange(61), 5e-8 * np.arange(61) + 1e-7 * np.arange(61.0) ** 2)
     paraboloids = [mdr.Paraboloid(1e-5 * size)]
@@ -113,7 +113,7 @@ def _oblique(count):
     given = mass, speed, along, friction
 
     def solved(i, tolerance):
-        profile, medium = mdr.Paraboloid(radius[i]), mdr.Medium(4e9, q_c[i])
+        profile, medium = mdr.Paraboloid(radius[i]), mdr.Medium(4e9, q_c=q_c[i])
         own = (value[i] for value in given)
         return mdr.oblique_impact(
             profile, medium, *own, tangential_mass=2 / 7 * mass[i], tolerance=tolerance

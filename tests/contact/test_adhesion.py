@@ -12,7 +12,7 @@ from ..approx import approx
 mpmath = pytest.importorskip("mpmath")
 mp, mpf = mpmath.mp, mpmath.mpf
 E_STAR, Q_C, W, R, SLOPE, B = 1e9, 8.0, 2e-3, 1e-6, 0.2, 1e-7
-ELASTIC, YIELDING = mdr.Medium(E_STAR, work_of_adhesion=W), mdr.Medium(E_STAR, Q_C, work_of_adhesion=W)
+ELASTIC, YIELDING = mdr.Medium(E_STAR, work_of_adhesion=W), mdr.Medium(E_STAR, q_c=Q_C, work_of_adhesion=W)
 D_C = float(YIELDING.critical_depth)
 SHAPES = {
     "paraboloid": (mdr.Paraboloid(R), lambda x: x * x / mpf(R), lambda x: 2 * x / mpf(R)),
@@ -148,7 +148,7 @@ def test_a_chain_with_torn_springs_agrees(name, d_c):
         set_ = np.where(np.arange(x.size) < count, np.maximum(set_, d - height - d_c), set_)
         force.append(2 * E_STAR * (d - height - set_)[:count].sum() * (x[1] - x[0]))
         radius.append(count * (x[1] - x[0]))
-    medium = mdr.Medium(E_STAR, Q_C if d_c < math.inf else math.inf, work_of_adhesion=W)
+    medium = mdr.Medium(E_STAR, q_c=Q_C if d_c < math.inf else math.inf, work_of_adhesion=W)
     path = mdr.indent(profile, medium, depths)
     # One element is 1e-11 m; the force at the rim is E* Δl of it.
     assert path.contact_radius == approx(np.array(radius), abs=3e-11)
@@ -156,15 +156,15 @@ def test_a_chain_with_torn_springs_agrees(name, d_c):
 
 
 def test_without_adhesion_nothing_changes():
-    none = mdr.Medium(E_STAR, Q_C, work_of_adhesion=0.0)
+    none = mdr.Medium(E_STAR, q_c=Q_C, work_of_adhesion=0.0)
     path = PATH[2:]
     for profile in (mdr.Cone(SLOPE), mdr.Sphere(R)):
-        plain = mdr.indent(profile, mdr.Medium(E_STAR, Q_C), path)
+        plain = mdr.indent(profile, mdr.Medium(E_STAR, q_c=Q_C), path)
         assert (mdr.indent(profile, none, path).force == plain.force).all(), profile
         # Δl is √(w/E*): of 1e-30 J/m² it is 1e-14 of the depths.
-        faint = mdr.indent(profile, mdr.Medium(E_STAR, Q_C, work_of_adhesion=1e-36), path)
+        faint = mdr.indent(profile, mdr.Medium(E_STAR, q_c=Q_C, work_of_adhesion=1e-36), path)
         assert faint.force == approx(plain.force, rel=1e-9, abs=1e-12 * plain.force.max()), profile
-    assert none == mdr.Medium(E_STAR, Q_C)
+    assert none == mdr.Medium(E_STAR, q_c=Q_C)
 
 
 def test_fields_are_balanced():
@@ -276,9 +276,9 @@ def test_a_cone_bounces_between_two_speeds():
     assert high == approx(35.188, rel=1e-5)
     assert mdr.capture_speeds(cone, YIELDING, [1e-12, 4e-12])[1] == approx([high, high / 2])
     # For large w/q_c there is no such window, without adhesion no end.
-    strong = mdr.Medium(E_STAR, 0.1, work_of_adhesion=1.0)
+    strong = mdr.Medium(E_STAR, q_c=0.1, work_of_adhesion=1.0)
     assert np.isnan(mdr.capture_speeds(cone, strong, 1e-12)).all()
-    assert mdr.capture_speeds(cone, mdr.Medium(E_STAR, Q_C), 1e-12) == (0.0, math.inf)
+    assert mdr.capture_speeds(cone, mdr.Medium(E_STAR, q_c=Q_C), 1e-12) == (0.0, math.inf)
 
 
 def test_the_end_of_an_impact_is_the_pull_off():

@@ -180,12 +180,12 @@ class TestMemory:
         assert path.plastic_work[-1] == 0.0
 
     def test_elastic_curve_is_the_limit_of_large_yield_constant(self, shape):
-        elastic, hard = (mdr.indent(shape, mdr.Medium(1e9, q), 2e-9) for q in (np.inf, 1e9))
+        elastic, hard = (mdr.indent(shape, mdr.Medium(1e9, q_c=q), 2e-9) for q in (np.inf, 1e9))
         assert hard.force == approx(elastic.force, rel=ULPS)
         assert hard.pressure(1e-8) == approx(elastic.pressure(1e-8), rel=ULPS)
 
     def test_scaling_of_modulus_and_yield_constant_together(self, shape):
-        one, many = (mdr.indent(shape, mdr.Medium(k * 1e9, k), 3 * D_C) for k in (1.0, 1024.0))
+        one, many = (mdr.indent(shape, mdr.Medium(k * 1e9, q_c=k), 3 * D_C) for k in (1.0, 1024.0))
         assert many.force == approx(1024 * one.force, rel=ULPS)
         assert many.contact_radius == approx(one.contact_radius, rel=ULPS)
 
@@ -267,7 +267,7 @@ def test_forces_of_any_size_are_found(shape):
 
 def test_force_that_no_depth_is_enough_for():
     """Once r⁵⁰ yields, F ∝ d^(1/50): a billion times the force would need 10⁴⁵⁰ times the depth."""
-    tip, medium = mdr.PowerLaw(1e294, 50.0), mdr.Medium(1e10, 1e-3)
+    tip, medium = mdr.PowerLaw(1e294, 50.0), mdr.Medium(1e10, q_c=1e-3)
     force = mdr.indent(tip, medium, 1e-6).force
     assert mdr.indent_to_force(tip, medium, force).depth == approx(1e-6, rel=1e-9)
     with pytest.raises(ValueError, match=r"presses deeper than 1e\+25 m, the largest depth"):

@@ -44,7 +44,7 @@ def test_a_flat_punch_yields_all_at_once():
 
 
 def test_arrays_broadcast_and_what_never_yields_is_infinite():
-    medium = mdr.Medium(1e9, [10.0, np.inf])
+    medium = mdr.Medium(1e9, q_c=[10.0, np.inf])
     speed = mdr.yield_speed(mdr.Cone([[0.1], [0.2], [0.3]]), medium, 1e-9)
     assert speed.shape == (3, 2)
     assert speed[1, 0] == mdr.yield_speed(mdr.Cone(0.2), MEDIUM, 1e-9)

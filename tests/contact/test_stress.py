@@ -274,7 +274,7 @@ def test_shapes_of_arrays():
     assert s.stress([], 1e-6).rr.shape == (0,)
 
 
-WET = mdr.Medium(1e9, 10.0, eta=2.0, poisson=0.2)
+WET = mdr.Medium(1e9, q_c=10.0, eta=2.0, poisson=0.2)
 
 
 @pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Sphere(1e-5), mdr.RoundedPunch(1e-6, 1e-5)], ids=name)

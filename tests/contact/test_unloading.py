@@ -13,7 +13,7 @@ from ..approx import approx
 from ..shapes import SHAPES, name
 
 E_STAR, W, R = 1e9, 0.05, 1e-6
-YIELDING = mdr.Medium(E_STAR, 10.0)
+YIELDING = mdr.Medium(E_STAR, q_c=10.0)
 
 
 def turning_point(shape, medium):
@@ -24,7 +24,7 @@ def turning_point(shape, medium):
 @pytest.mark.parametrize("q_c", [10.0, math.inf])
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_unloading_is_the_path_back_and_gives_back_what_is_stored(shape, q_c):
-    state = turning_point(shape, mdr.Medium(E_STAR, q_c))
+    state = turning_point(shape, mdr.Medium(E_STAR, q_c=q_c))
     states = unloading(state, np.linspace(1, 0, 4001))
     path = mdr.indent(shape, state.medium, np.append(state.depth, states.depth))
     # The live depth of the path is a difference of depths.
@@ -37,7 +37,7 @@ def test_unloading_is_the_path_back_and_gives_back_what_is_stored(shape, q_c):
 
 @pytest.mark.parametrize("q_c", [2.0, math.inf])
 def test_unloading_with_adhesion_ends_where_the_path_loses_contact(q_c):
-    state = mdr.indent(mdr.Paraboloid(R), mdr.Medium(E_STAR, q_c, work_of_adhesion=W), 1e-7)
+    state = mdr.indent(mdr.Paraboloid(R), mdr.Medium(E_STAR, q_c=q_c, work_of_adhesion=W), 1e-7)
     back = unloading(state, np.linspace(1, 0, 30))
     path = mdr.indent(state.profile, state.medium, np.append(state.depth, back.depth))
     # At the last depth contact is lost within rounding.
@@ -49,7 +49,7 @@ def test_unloading_with_adhesion_ends_where_the_path_loses_contact(q_c):
 
 @pytest.mark.parametrize(("q_c", "w"), [(2.0, 0.0), (2.0, W), (math.inf, W)])
 def test_a_lifted_indenter_has_no_contact_and_leaves_the_imprint(q_c, w):
-    state = mdr.indent(mdr.Paraboloid(R), mdr.Medium(E_STAR, q_c, work_of_adhesion=w), 1e-7)
+    state = mdr.indent(mdr.Paraboloid(R), mdr.Medium(E_STAR, q_c=q_c, work_of_adhesion=w), 1e-7)
     lost, lifted, up = unloading(state, np.array([0.0, -0.5, -1.0]))
     # Without an imprint the pull-off is above the undeformed surface.
     assert (lost.depth < 0) == (q_c == math.inf)
@@ -95,7 +95,7 @@ def test_an_elastic_loop_loses_what_jump_and_pull_off_take(depth):
 
 def test_a_yielding_loop_has_the_area_of_its_path():
     """The work of the path itself, pressed and pulled off in many steps, from first contact on."""
-    medium, cone = mdr.Medium(E_STAR, 2.0, work_of_adhesion=0.005), mdr.Cone(0.3)
+    medium, cone = mdr.Medium(E_STAR, q_c=2.0, work_of_adhesion=0.005), mdr.Cone(0.3)
     down = np.linspace(0, 1e-7, 2000)
     loop = adhesive_loop(mdr.indent(cone, medium, down))
     path = mdr.indent(cone, medium, np.append(down, np.linspace(1e-7, -1e-7, 20_000)))

@@ -59,7 +59,7 @@ def scalar_impact(shape, medium, mass, speed):
     m d̈ = −φ(d + τḋ) + φ(d_p), until d + τḋ = d_p.
     """
     tau, d_c = medium.relaxation_time, medium.critical_depth
-    dry, elastic = (mdr.Medium(medium.E_star, q) for q in (medium.q_c, np.inf))
+    dry, elastic = (mdr.Medium(medium.E_star, q_c=q) for q in (medium.q_c, np.inf))
 
     def loading(_, y):
         d = max(y[0], 0.0)

@@ -57,7 +57,7 @@ def test_work_of_the_force_goes_into_the_ledger(pace):
 @pytest.mark.parametrize("tau", [1e-8, 1e-3, 1.0, 1e3, 1e8])
 def test_a_ramp_in_one_step_or_in_many(tau):
     """Straight ramps are exact whatever the step, from τ far below to far above it."""
-    medium = mdr.Medium(1e9, 1.0, eta=tau * 1e9 / 4)
+    medium = mdr.Medium(1e9, q_c=1.0, eta=tau * 1e9 / 4)
     whole = parts = mdr.Foundation(mdr.Paraboloid(1e-5), medium, 200, 4e-7)
     for depth in (5.0, 5.0, 4.2, 4.6, 3.0, 4.9, 2.0):
         start = parts.depth

@@ -59,7 +59,7 @@ def test_creep_ends_at_the_depth_of_the_slow_path_and_recovery_at_the_imprint(sh
 
 def test_states_of_creep_agree_in_themselves():
     """At increasing depth the contact ends at the contact radius, and the line load carries the force."""
-    cone, soft = mdr.Cone(0.3), mdr.Medium(1e6, 1.0, eta=2.5e5)
+    cone, soft = mdr.Cone(0.3), mdr.Medium(1e6, q_c=1.0, eta=2.5e5)
     path = mdr.creep(cone, soft, [0.0, 0.1, 0.1, 0.01, 0.01], [0.0, 0.1, 5.0, 5.5, 9.0])
     sinking = slice(1, 5)
     np.testing.assert_allclose(
@@ -75,7 +75,7 @@ def test_states_of_creep_agree_in_themselves():
 @pytest.mark.slow
 def test_the_path_that_elements_follow_carries_the_force():
     """It is a path of depth in time; other elements carry on it what is prescribed."""
-    cone, soft = mdr.Cone(0.3), mdr.Medium(1e6, 1.0, eta=2.5e5)
+    cone, soft = mdr.Cone(0.3), mdr.Medium(1e6, q_c=1.0, eta=2.5e5)
     path = chain_creep(cone, soft, [0.0, 0.1, 0.1, 0.01, 0.01], [0.0, 0.1, 5.0, 5.5, 9.0])
     again = mdr.indent_in_time(cone, soft, path._history.depth, path._history.time, tolerance=1e-5)
     # Both are chains of a finite number of elements: their errors in force are some 10⁻³.
@@ -89,7 +89,7 @@ def test_no_force_makes_no_contact():
 
 def test_a_force_has_a_contact_also_where_unloading_is_steep():
     """At millions of critical depths the tolerance of the depth exceeds the recovery of the springs."""
-    shape, medium = mdr.TruncatedParaboloid(1e-6, 1e-5), mdr.Medium(3.5e9, 3.2)
+    shape, medium = mdr.TruncatedParaboloid(1e-6, 1e-5), mdr.Medium(3.5e9, q_c=3.2)
     force = [3.1e-3, 0.0, 5.4e-3, 4.8e-3, 6.2e-3]
     path = mdr.creep(shape, medium, force, [0.1, 0.3, 0.4, 1.0, 2.2])
     assert np.all(path.depth > 1e6 * medium.critical_depth)

@@ -12,7 +12,7 @@ from ..shapes import name
 from ..slow_reference import RATE, WAY, Springs
 
 E, W, MASS = 1e9, 2e-3, 1e-12
-MEDIUM = mdr.Medium(E, 8.0, work_of_adhesion=W)
+MEDIUM = mdr.Medium(E, q_c=8.0, work_of_adhesion=W)
 D_C = float(MEDIUM.critical_depth)
 TIPS = (
     mdr.Paraboloid(1e-6),

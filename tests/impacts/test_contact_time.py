@@ -68,7 +68,7 @@ def test_contact_time_by_direct_quadrature(shape, times):
 def test_depths_of_metres_at_the_threshold_of_yield():
     """Just below the critical depth nothing yields: the contact time is that of an elastic medium."""
     for shape in (mdr.Hyperboloid(0.2, 0.9), mdr.ParabolicPunch(2.8, 0.005), mdr.TruncatedCone(0.15, 5.5)):
-        hit = mdr.impact(shape, mdr.Medium(1e9, 1e13), 200.0, 1e5)
+        hit = mdr.impact(shape, mdr.Medium(1e9, q_c=1e13), 200.0, 1e5)
         elastic = mdr.impact(shape, mdr.Medium(1e9), 200.0, 1e5)
         assert hit.plastic_work == 0.0, shape
         assert hit.contact_time == approx(elastic.contact_time, rel=1e-13), shape
@@ -144,7 +144,7 @@ def many_digits(integrals, d, d_c):
 def test_times_against_many_digits(shape, integrals, depth):
     """From elastic impacts to thousands of critical depths, far below the shape's own length and beyond."""
     mp = pytest.importorskip("mpmath").mp
-    medium = mdr.Medium(1.0, depth / np.array([1.0, 4.9, 3e4]) * 2 / math.pi)
+    medium = mdr.Medium(1.0, q_c=depth / np.array([1.0, 4.9, 3e4]) * 2 / math.pi)
     states = [mdr.indent(shape, medium.entries(i), depth) for i in range(3)]
     speed = np.sqrt([2 * float(each.stored_energy + each.plastic_work) for each in states])
     found = mdr.impact(shape, medium, 1.0, speed).contact_time

@@ -34,7 +34,7 @@ def test_rates_are_those_of_the_equation_of_motion(shape):
 
 
 def test_ends_are_exact():
-    hit = mdr.impact(mdr.RoundedCone(1e-6, 0.3), mdr.Medium(E_STAR, 10.0, 20.0), MASS, SPEED)
+    hit = mdr.impact(mdr.RoundedCone(1e-6, 0.3), mdr.Medium(E_STAR, q_c=10.0, eta=20.0), MASS, SPEED)
     motion = hit.motion(20)
     assert (motion.time[0], motion.depth[0], motion.velocity[0]) == (0.0, 0.0, SPEED)
     turn = int(np.argmax(motion.depth))

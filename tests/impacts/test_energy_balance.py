@@ -56,7 +56,7 @@ class TestRepeatedImpacts:
     @pytest.mark.parametrize("shape", SHAPES, ids=name)
     def test_tend_to_elastic(self, shape):
         """Every impact widens the contact that the next one finds, until all of it is elastic."""
-        medium, depth, restitution = mdr.Medium(1e9, 10.0), 0.0, []
+        medium, depth, restitution = mdr.Medium(1e9, q_c=10.0), 0.0, []
         state = mdr.indent(shape, medium, 2 * medium.critical_depth)
         speed = np.sqrt(2 * (state.stored_energy + state.plastic_work) / 1e-9)
         for _ in range(60):
@@ -72,7 +72,7 @@ class TestRepeatedImpacts:
     @pytest.mark.parametrize("shape", SHAPES, ids=name)
     def test_energy_and_state(self, shape):
         """The second impact ends where pressing the first's imprint to its depth ends."""
-        medium = mdr.Medium(1e9, 10.0)
+        medium = mdr.Medium(1e9, q_c=10.0)
         first = mdr.impact(shape, medium, 1e-9, 0.05)
         second = mdr.impact(shape, medium, 1e-9, 0.1, plastic_depth=first.plastic_depth)
         path = mdr.indent(shape, medium, [first.max_depth, 0.0, second.max_depth])
@@ -85,7 +85,7 @@ class TestRepeatedImpacts:
         assert second.motion(2).time[-1] == approx(second.contact_time, rel=1e-9)
 
     def test_a_softer_impact_is_elastic(self):
-        medium, cone = mdr.Medium(1e9, 10.0), mdr.Cone(0.3)
+        medium, cone = mdr.Medium(1e9, q_c=10.0), mdr.Cone(0.3)
         first = mdr.impact(cone, medium, 1e-9, 0.1)
         second = mdr.impact(
             cone, medium, 1e-9, first.rebound_speed * 0.999, plastic_depth=first.plastic_depth

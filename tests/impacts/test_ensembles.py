@@ -36,7 +36,9 @@ def many(shape):
     """Indenters around one, media and bodies: dry, elastic and viscous ones."""
     values = [spread(getattr(shape, field.name), i) for i, field in enumerate(fields(shape))]
     medium = mdr.Medium(
-        spread(1e9, 7), np.array([np.inf, 10.0, 1.0, 10.0, np.inf, 3.0]), [0.0, 0.0, 0.0, 1.0, 1.0, 50.0]
+        spread(1e9, 7),
+        q_c=np.array([np.inf, 10.0, 1.0, 10.0, np.inf, 3.0]),
+        eta=[0.0, 0.0, 0.0, 1.0, 1.0, 50.0],
     )
     return type(shape)(*values), medium, spread(1e-9, 8), spread(0.1, 9)
 
@@ -60,7 +62,7 @@ def test_parameters_broadcast(shape):
 def test_neighbours_do_not_matter(shape, eta):
     """The same numbers in any order, and alone."""
     speed = np.geomspace(1e-3, 0.3, 40)
-    medium = mdr.Medium(1e9, 10.0, eta)
+    medium = mdr.Medium(1e9, q_c=10.0, eta=eta)
     together = mdr.impact(shape, medium, 1e-9, speed)
     order = np.random.default_rng(1).permutation(speed.size)
     shuffled = mdr.impact(shape, medium, 1e-9, speed[order])
@@ -80,7 +82,7 @@ TIP = mdr.Sampled(1e-6 * np.arange(61), 1e-7 * np.arange(61) + 2e-9 * np.arange(
 def test_thousands_are_as_exact_as_one(shape, before):
     """From elastic impacts to thousands of critical depths, by tables of a tip, and one by one."""
     random = np.random.default_rng(3)
-    media = mdr.Medium(1e9 * random.uniform(0.5, 2, 5000), 10.0 ** random.uniform(-1, 3, 5000))
+    media = mdr.Medium(1e9 * random.uniform(0.5, 2, 5000), q_c=10.0 ** random.uniform(-1, 3, 5000))
     speed = 10.0 ** random.uniform(-4, -2, 5000)
     hits = mdr.impact(shape, media, 1e-9, speed, plastic_depth=before)
     for i in range(0, 5000, 250):
@@ -95,22 +97,22 @@ def test_thousands_are_as_exact_as_one(shape, before):
 
 def test_shapes_of_results():
     grid = mdr.impact(
-        mdr.Cone([[0.1], [0.3]]), mdr.Medium([1e9, 2e9, 3e9], 10.0), 1e-9, np.full((4, 1, 1), 0.1)
+        mdr.Cone([[0.1], [0.3]]), mdr.Medium([1e9, 2e9, 3e9], q_c=10.0), 1e-9, np.full((4, 1, 1), 0.1)
     )
     assert all(np.shape(getattr(grid, quantity)) == (4, 2, 3) for quantity in QUANTITIES)
     assert grid[0, 1, 2].profile.slope == 0.3
     assert grid[0, 1, 2].medium.E_star == 3e9
     assert grid[0].restitution.shape == (2, 3)
-    one = mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, 10.0, 1.0), 1e-9, 0.1)
+    one = mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, q_c=10.0, eta=1.0), 1e-9, 0.1)
     assert all(isinstance(getattr(one, quantity), float) for quantity in QUANTITIES)
-    none = mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, 10.0), 1e-9, np.empty(0))
+    none = mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, q_c=10.0), 1e-9, np.empty(0))
     assert none.contact_time.shape == none.restitution.shape == (0,)
 
 
 def test_a_thousand_exponents_are_solved_each_on_its_own():
     """Exponents may differ from body to body as well."""
     exponents = np.linspace(0.6, 4.0, 1000)
-    medium = mdr.Medium(1e9, 10.0, 3.0)
+    medium = mdr.Medium(1e9, q_c=10.0, eta=3.0)
     hits = mdr.impact(mdr.PowerLaw(1e-6 ** (1 - exponents), exponents), medium, 1e-9, 0.05)
     one = mdr.impact(hits[321].profile, medium, 1e-9, 0.05)
     for quantity in QUANTITIES:
@@ -155,7 +157,7 @@ def test_bad_arrays_of_parameters_are_refused(make, says):
 def test_many_shallow_impacts_of_a_flat_face():
     """Many impacts are solved with a table; on a face it has to hold a fractional power of a tiny depth."""
     tip = mdr.Sampled([0.0, 1e-6, 2e-6, 9e-6], [0.0, 0.0, 3e-7, 3e-6])
-    medium, depth = mdr.Medium(1e12, 2000.0), np.geomspace(1e-16, 1e-6, 60)
+    medium, depth = mdr.Medium(1e12, q_c=2000.0), np.geomspace(1e-16, 1e-6, 60)
     states = mdr.indent(tip, medium, depth[:, None])
     energy = (states.stored_energy + states.plastic_work)[:, 0]
     hits = mdr.impact(tip, medium, 1e-9, np.sqrt(2 * energy / 1e-9))

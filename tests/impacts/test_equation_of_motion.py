@@ -16,13 +16,13 @@ from ..shapes import SHAPES, name
 from .test_contact_time import KINKED
 
 E_STAR, MASS, SPEED = 1e9, 1e-9, 0.1
-D_C = mdr.Medium(E_STAR, 10.0).critical_depth
+D_C = mdr.Medium(E_STAR, q_c=10.0).critical_depth
 
 
 def medium(share, shape, q_c=math.inf):
     """A medium whose relaxation time is a share of the dry contact time."""
-    dry = mdr.impact(shape, mdr.Medium(E_STAR, q_c), MASS, SPEED)
-    return mdr.Medium(E_STAR, q_c, eta=share * dry.contact_time * E_STAR / 4)
+    dry = mdr.impact(shape, mdr.Medium(E_STAR, q_c=q_c), MASS, SPEED)
+    return mdr.Medium(E_STAR, q_c=q_c, eta=share * dry.contact_time * E_STAR / 4)
 
 
 def by_steps(phi, radius, tau, d_c):
@@ -126,7 +126,7 @@ def test_force_of_a_flat_face_jumps_at_first_touch():
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_elastic_limit(shape, q_c):
     """For τ → 0 the dry impact is approached in proportion to τ."""
-    dry = mdr.impact(shape, mdr.Medium(E_STAR, q_c), MASS, SPEED)
+    dry = mdr.impact(shape, mdr.Medium(E_STAR, q_c=q_c), MASS, SPEED)
     one, two = (mdr.impact(shape, medium(share, shape, q_c), MASS, SPEED) for share in (1e-6, 2e-6))
     assert one.contact_time == approx(dry.contact_time, rel=1e-4)
     first, second = (1 - hit.restitution / dry.restitution for hit in (one, two))
@@ -155,7 +155,7 @@ def hit_to_depth(shape, medium, depth, eta=0.0):
     """The impact that without viscosity reaches a depth."""
     state = mdr.indent(shape, medium, depth)
     speed = np.sqrt(2 * (state.stored_energy + state.plastic_work) / MASS)
-    return mdr.impact(shape, mdr.Medium(medium.E_star, medium.q_c, eta), MASS, speed)
+    return mdr.impact(shape, mdr.Medium(medium.E_star, q_c=medium.q_c, eta=eta), MASS, speed)
 
 
 @pytest.mark.parametrize("times", [1.0001])
@@ -166,9 +166,11 @@ def test_turning_just_beyond_the_critical_depth(shape, times):
     With a relaxation time of 10⁻⁶ contact times, largest depth and restitution are the dry ones to
     some 10⁻⁶.
     """
-    medium = mdr.Medium(E_STAR, 10.0)
+    medium = mdr.Medium(E_STAR, q_c=10.0)
     dry = hit_to_depth(shape, medium, times * medium.critical_depth)
-    hit = mdr.impact(shape, mdr.Medium(E_STAR, 10.0, 1e-6 * dry.contact_time * E_STAR / 4), MASS, dry.speed)
+    hit = mdr.impact(
+        shape, mdr.Medium(E_STAR, q_c=10.0, eta=1e-6 * dry.contact_time * E_STAR / 4), MASS, dry.speed
+    )
     assert hit.max_depth == approx(dry.max_depth, rel=2e-5)
     assert hit.restitution == approx(dry.restitution, rel=2e-5)
     assert hit.contact_time == approx(dry.contact_time, rel=2e-5)
@@ -177,10 +179,10 @@ def test_turning_just_beyond_the_critical_depth(shape, times):
 def test_punch_that_turns_between_two_nodes():
     """The same for a face so wide that the force is nearly straight and steps are long."""
     shape = mdr.RoundedPunch(flat_radius=2.67297751733623e-08, edge_radius=0.00012336733608624023)
-    medium = mdr.Medium(34957.174742896605, 0.0008873308645671202)
+    medium = mdr.Medium(34957.174742896605, q_c=0.0008873308645671202)
     mass, speed = 6.347070116180173e-10, 0.00045921445279458405
     dry = mdr.impact(shape, medium, mass, speed)
-    hit = mdr.impact(shape, mdr.Medium(medium.E_star, medium.q_c, 3.13e-06), mass, speed)
+    hit = mdr.impact(shape, mdr.Medium(medium.E_star, q_c=medium.q_c, eta=3.13e-06), mass, speed)
     # τ/T is 10⁻⁶.
     assert hit.max_depth == approx(dry.max_depth, rel=1e-5)
     assert hit.contact_time == approx(dry.contact_time, rel=1e-5)
@@ -195,7 +197,7 @@ def test_largest_force(exponent, share, q_c):
 
     Beside it v(d) from d(v²)/dd = −2F/m, stepped in ln d, and the largest F on the way.
     """
-    shape, medium = mdr.PowerLaw(0.1 * 1e-6 ** (1 - exponent), exponent), mdr.Medium(E_STAR, q_c)
+    shape, medium = mdr.PowerLaw(0.1 * 1e-6 ** (1 - exponent), exponent), mdr.Medium(E_STAR, q_c=q_c)
     dry = hit_to_depth(shape, medium, 1e-6)
     tau = share * float(dry.contact_time)
     d_c, g = float(medium.critical_depth), float(shape.reduced(1e-6))
@@ -225,7 +227,7 @@ def test_largest_force(exponent, share, q_c):
     cusp = np.clip(np.log(d_c), s[best - 1], s[best + 1])
     finer = np.append(np.linspace(s[best - 1], s[best + 1], 201), cusp)
     largest = load(finer, course.sol(finer)[0]).max()
-    hit = mdr.impact(shape, mdr.Medium(E_STAR, q_c, tau * E_STAR / 4), MASS, dry.speed)
+    hit = mdr.impact(shape, mdr.Medium(E_STAR, q_c=q_c, eta=tau * E_STAR / 4), MASS, dry.speed)
     # The fine grid misses the top by its spacing squared, the dense output adds about 10⁻⁹.
     assert hit.max_force == approx(largest, rel=1e-8)
 
@@ -258,7 +260,7 @@ def turning_at(shape, medium, depth):
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_turning_a_hundred_thousandth_beyond_the_critical_depth(shape):
-    material = mdr.Medium(E_STAR, 10.0, eta=3.0)
+    material = mdr.Medium(E_STAR, q_c=10.0, eta=3.0)
     hit = turning_at(shape, material, D_C * (1 + 1e-5))
     assert 0 < hit.plastic_depth < 1.01e-5 * D_C
     found = hit.restitution, hit.max_depth, hit.contact_time
@@ -270,7 +272,7 @@ def test_turning_a_hundred_thousandth_beyond_the_critical_depth(shape):
 @pytest.mark.parametrize("shape", KINKED, ids=name)
 def test_turning_exactly_on_a_kink(shape, q_c):
     """The depth at which steps end is the one at which the body turns round, yielding or not."""
-    material = mdr.Medium(E_STAR, q_c, eta=3.0)
+    material = mdr.Medium(E_STAR, q_c=q_c, eta=3.0)
     hit = turning_at(shape, material, shape.kinks[0])
     assert hit.max_depth == approx(shape.kinks[0], rel=1e-13)
     found = hit.restitution, hit.max_depth, hit.contact_time
@@ -284,7 +286,7 @@ def test_turning_exactly_on_a_kink(shape, q_c):
 def test_a_cylinder_that_has_yielded_up_to_its_wall():
     """The spring force no longer grows: μ v̇ = −(b d_c + τ b v), an exponential up to the turning point."""
     shape, b = mdr.ParabolicPunch(radius=3e-6, cylinder_radius=1.5e-8), 1.5e-8
-    medium = mdr.Medium(1e9, 10.0, eta=3.0)
+    medium = mdr.Medium(1e9, q_c=10.0, eta=3.0)
     mass, speed, tau, d_c = 8e-12, 1.8, medium.relaxation_time, medium.critical_depth
     hit = mdr.impact(shape, medium, mass, speed)
     inertia = mass / (2 * medium.E_star)
@@ -298,7 +300,7 @@ def test_a_cylinder_that_has_yielded_up_to_its_wall():
 
 def test_an_imprint_that_ends_on_a_kink():
     """The force goes through the kink without a jump, even if both of its ends come there at once."""
-    shape, medium = mdr.RoundedCone(1e-6, 0.1), mdr.Medium(1e9, 10.0, 3.0)
+    shape, medium = mdr.RoundedCone(1e-6, 0.1), mdr.Medium(1e9, q_c=10.0, eta=3.0)
     # The kink is at 1e-8 and some rounding.
     depth = 1e-8 * (1 + np.array([-1e-6, 0.0, 1e-6]))
     force = mdr.impact(shape, medium, 1e-9, 0.1, plastic_depth=depth).max_force

@@ -52,7 +52,7 @@ def test_arguments_broadcast_and_order_does_not_matter():
 def test_indices_are_those_of_arrays(eta):
     """A permutation, a mask, a repeated entry and a slice pick what they pick of the speeds."""
     speed = np.array([0.1, 1.0, 10.0])
-    hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, 10.0, eta), 1e-12, speed)
+    hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, q_c=10.0, eta=eta), 1e-12, speed)
     bodies = Bodies.of(hit.profile, hit.medium, hit.mass, hit.speed, 0.0, hit.max_depth)
     for index in (np.array([2, 0, 1]), speed > 0.5, np.array([1, 1, 1]), slice(None, None, -1)):
         for name in ("speed", "restitution", "contact_time", "plastic_work", "viscous_work"):

@@ -61,14 +61,14 @@ def test_motion_obeys_newton(shape):
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_without_viscosity_the_motion_is_that_of_the_energy_balance(shape):
     """Two ways to the same numbers: quadrature of dd/v, and the equation of motion."""
-    hit = mdr.impact(shape, mdr.Medium(E_STAR, 10.0), MASS, SPEED)
+    hit = mdr.impact(shape, mdr.Medium(E_STAR, q_c=10.0), MASS, SPEED)
     motion = hit.motion(2)
     assert motion.time[-1] == approx(hit.contact_time, rel=1e-9)
     assert -motion.velocity[-1] == approx(hit.rebound_speed, rel=1e-9)
 
 
 def test_a_second_viscous_impact_loses_less_to_yield():
-    material = mdr.Medium(E_STAR, 10.0, eta=10.0)
+    material = mdr.Medium(E_STAR, q_c=10.0, eta=10.0)
     first = mdr.impact(mdr.Cone(0.3), material, MASS, SPEED)
     second = mdr.impact(mdr.Cone(0.3), material, MASS, SPEED, plastic_depth=first.plastic_depth)
     assert second.plastic_work < first.plastic_work
@@ -83,7 +83,7 @@ def test_a_second_viscous_impact_loses_less_to_yield():
 
 
 def test_motion_is_that_of_one_impact():
-    hits = mdr.impact(mdr.Cone(0.3), mdr.Medium(E_STAR, 10.0, eta=1.0), MASS, [0.1, 0.2])
+    hits = mdr.impact(mdr.Cone(0.3), mdr.Medium(E_STAR, q_c=10.0, eta=1.0), MASS, [0.1, 0.2])
     with pytest.raises(
         ValueError, match="motion needs a single impact, but this result has shape \\(2,\\)"
     ):
@@ -101,7 +101,7 @@ def test_bad_number_of_instants_is_refused(n):
 @pytest.mark.parametrize(("n", "eta"), [(3, 20.0), (12, 0.0), (101, 0.1)])
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_the_turning_point_is_among_the_instants(shape, eta, n):
-    hit = mdr.impact(shape, mdr.Medium(E_STAR, 10.0, eta), MASS, SPEED)
+    hit = mdr.impact(shape, mdr.Medium(E_STAR, q_c=10.0, eta=eta), MASS, SPEED)
     motion = hit.motion(n)
     turn = motion.turning_index
     assert motion.velocity[turn] == 0.0

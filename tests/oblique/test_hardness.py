@@ -12,10 +12,10 @@ MASS, MU, KAPPA = 1e-9, 0.3, 2 / 3
 BALL = 2 * MASS / 7
 MEDIA = {
     "(a)": mdr.Medium(1e9, hardness=2e7),
-    "(b)": mdr.Medium(1e9, 10.0),
+    "(b)": mdr.Medium(1e9, q_c=10.0),
     "(c)": mdr.Medium(1e9, f_c=1e-5),
-    "(a) + (b)": mdr.Medium(1e9, 4.0, hardness=1e7),
-    "sum": mdr.Medium(1e9, 4.0, hardness=5e6, f_c=2e-6),
+    "(a) + (b)": mdr.Medium(1e9, q_c=4.0, hardness=1e7),
+    "sum": mdr.Medium(1e9, q_c=4.0, hardness=5e6, f_c=2e-6),
 }
 OF_ALL = pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
 

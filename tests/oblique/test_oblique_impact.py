@@ -18,10 +18,10 @@ from ..shapes import SHAPES, name
 
 MASS, SPEED, MU = 1e-9, 0.1, 0.3
 BALL = 2 * MASS / 7
-ELASTIC, DRY, VISCOUS = mdr.Medium(1e9), mdr.Medium(1e9, 10.0), mdr.Medium(1e9, 10.0, 20.0)
+ELASTIC, DRY, VISCOUS = mdr.Medium(1e9), mdr.Medium(1e9, q_c=10.0), mdr.Medium(1e9, q_c=10.0, eta=20.0)
 #: Constant hardness, one as 1/a², and the sum of all; the same with viscosity.
 GLASS, LINE = mdr.Medium(1e9, hardness=2e7), mdr.Medium(1e9, f_c=1e-5)
-SUM = mdr.Medium(1e9, 4.0, hardness=5e6, f_c=2e-6)
+SUM = mdr.Medium(1e9, q_c=4.0, hardness=5e6, f_c=2e-6)
 MEDIA = {"elastic": ELASTIC, "(b)": DRY, "(a)": GLASS, "(c)": LINE, "sum": SUM}
 MEDIA |= {"viscous, " + name: replace(medium, eta=20.0) for name, medium in list(MEDIA.items())[1:]}
 OF_ALL = pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
@@ -249,7 +249,7 @@ def test_errors_cover_the_errors(medium):
         assert miss <= getattr(rough.errors, quantity) <= 1e-3, quantity
 
 
-MEDIA = ELASTIC, mdr.Medium(1e9, 30.0), mdr.Medium(1e9, 5.0), GLASS, LINE, SUM
+MEDIA = ELASTIC, mdr.Medium(1e9, q_c=30.0), mdr.Medium(1e9, q_c=5.0), GLASS, LINE, SUM
 USUAL = ((1.3, GLASS),)
 OTHERS = (pair for pair in itertools.product((0.5, 1.3), MEDIA) if pair not in USUAL)
 
@@ -280,7 +280,7 @@ def ensemble():
     mu = rng.uniform(0.1, 0.5, count)
     mass = 1e4 * radius**3
     speed = 10 ** rng.uniform(0, 1, count)
-    medium = mdr.Medium(1e9, 1e8 * radius * 10 ** rng.uniform(-2, 0.5, count))
+    medium = mdr.Medium(1e9, q_c=1e8 * radius * 10 ** rng.uniform(-2, 0.5, count))
     arguments = mdr.Paraboloid(radius), medium, mass, speed, psi * mu * speed / KAPPA, mu
     return {
         tolerance: mdr.oblique_impact(*arguments, tangential_mass=2 * mass / 7, tolerance=tolerance)
@@ -321,7 +321,7 @@ def test_errors_of_ensembles(ensemble):
 
 def test_coarse_runs_that_agree_by_chance():
     """The first two runs agree to 2·10⁻⁵ and are off by 5·10⁻⁴; the chain's own error is 10⁻⁶."""
-    shape, medium = mdr.Cone(0.84645), mdr.Medium(2.697e8, 1398.4, poisson=0.0267)
+    shape, medium = mdr.Cone(0.84645), mdr.Medium(2.697e8, q_c=1398.4, poisson=0.0267)
     given = 8.307e-9, 2.528e-8, 3939.0, 1886.0, 1.251
     depth = float(mdr.impact(shape, medium, given[0], given[2]).max_depth)
     case = Case(shape, medium, *given, depth)
@@ -360,7 +360,7 @@ def test_a_ring_that_slips_ahead_of_the_edge():
     """At small tangential speeds it is narrower than the cells of three runs, which then err alike."""
     profile, mu, psi = mdr.Paraboloid(2e-5), 0.33, 0.0075
     speed, mass = 20.0, 9e-11
-    medium = mdr.Medium(4e9, 3000.0)
+    medium = mdr.Medium(4e9, q_c=3000.0)
     depth = float(mdr.impact(profile, medium, mass, speed).max_depth)
     along = psi * mu * speed / KAPPA
     case = Case(profile, medium, mass, 2 * mass / 7, speed, along, mu, depth)
@@ -373,7 +373,7 @@ def test_a_ring_that_slips_ahead_of_the_edge():
 def test_deep_impacts_say_how_uncertain_they_are(q_c):
     """At d/d_c of 10⁶ and more elements that stick oscillate thousands of times: at rebound both speeds
     are small, the tangential one at most √(2χ) times the normal one, and the error says as much."""
-    hit = hit_at(0.5, medium=mdr.Medium(1e9, q_c), tolerance=1e-5)
+    hit = hit_at(0.5, medium=mdr.Medium(1e9, q_c=q_c), tolerance=1e-5)
     assert hit.max_depth > 1e6 * hit.medium.critical_depth
     assert abs(hit.tangential_velocity) < 3 * hit.errors.tangential_velocity * hit.tangential_speed
     assert hit.errors.tangential_velocity < 0.1
@@ -571,7 +571,7 @@ class TestLimitsOfStick:
         assert limit_of("mass", hit_at(0.5, mass=0.1 * MASS)).holds
 
     def test_deep_ones(self):
-        hit = hit_at(0.5, medium=mdr.Medium(1e9, 0.1), tolerance=1e-2)
+        hit = hit_at(0.5, medium=mdr.Medium(1e9, q_c=0.1), tolerance=1e-2)
         assert limit_of("depth", hit).exceeded
         assert limit_of("depth", hit).value == hit.max_depth / hit.medium.critical_depth
         assert limit_of("mass", hit).holds
@@ -601,13 +601,13 @@ class TestLimitsOfStick:
 
     @pytest.mark.parametrize("eta", [0.0, 20.0])
     def test_a_tolerance_that_is_met(self, eta):
-        hit = hit_at(0.5, medium=mdr.Medium(1e9, 10.0, eta), tolerance=1e-3)
+        hit = hit_at(0.5, medium=mdr.Medium(1e9, q_c=10.0, eta=eta), tolerance=1e-3)
         assert limit_of("tolerance", hit).holds
         assert limit_of("tolerance", hit).bound == 1e-3
 
     def test_the_error_of_the_work_follows_from_that_of_the_velocity_that_is_left(self):
         """W_f = W₀ (1 − e²), so that an error ε of e makes up to (|e| + ε)² − e²."""
-        medium, friction = mdr.Medium(1e9, 1.0, poisson=0.3), [0.3, 0.5, 1.0, 2.0, 5.0]
+        medium, friction = mdr.Medium(1e9, q_c=1.0, poisson=0.3), [0.3, 0.5, 1.0, 2.0, 5.0]
         given = {"tangential_mass": 2.9e-10, "tolerance": 0.5}
         hits = mdr.oblique_impact(mdr.Paraboloid(1e-4), medium, 1e-9, 0.1, 0.02, friction, **given)
         left, error = np.abs(hits.tangential_restitution), hits.errors.tangential_velocity
@@ -617,7 +617,7 @@ class TestLimitsOfStick:
     @pytest.mark.parametrize("psi", [1e-6, 1e-3, 0.5])
     def test_errors_are_possible_ones(self, psi):
         """|W′| ≤ W₀ by energy, and |F_x| ≤ μF: the estimate alone was up to 6·10⁴."""
-        hit = hit_at(psi, medium=mdr.Medium(1e9, 1e-4), mass=1e-4 * MASS, tolerance=1e-5)
+        hit = hit_at(psi, medium=mdr.Medium(1e9, q_c=1e-4), mass=1e-4 * MASS, tolerance=1e-5)
         assert limit_of("tolerance", hit).exceeded
         assert hit.errors.tangential_velocity <= 1 + abs(hit.tangential_restitution)
         assert hit.errors.friction_work <= 1

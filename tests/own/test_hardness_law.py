@@ -32,7 +32,7 @@ def both(mixture, **other):
     """The medium with the constants of a mixture, and with a law that writes their sum out."""
     constants = MIXTURES[mixture]
     hardness, q_c, f_c = constants
-    return mdr.Medium(E, q_c, hardness=hardness, f_c=f_c, **other), mdr.Medium(
+    return mdr.Medium(E, q_c=q_c, hardness=hardness, f_c=f_c, **other), mdr.Medium(
         E, hardness=Written(*constants), **other
     )
 
@@ -147,7 +147,7 @@ class TestALawThatWritesTheSumOut:
     def test_ensembles(self, mixture):
         hardness, q_c, f_c = (np.array([1.0, 1.3, 0.8]) * part for part in MIXTURES[mixture])
         balls, speed = mdr.Sphere(radius=[1e-5, 2e-5, 3e-5]), np.array([[3.0], [30.0]])
-        constants = mdr.Medium([E, 2 * E, E], q_c, hardness=hardness, f_c=f_c)
+        constants = mdr.Medium([E, 2 * E, E], q_c=q_c, hardness=hardness, f_c=f_c)
         law = mdr.Medium([E, 2 * E, E], hardness=Written(hardness, q_c, f_c))
         assert law.shape == (3,)
         one, other = (mdr.impact(balls, medium, 1e-12, speed) for medium in (law, constants))
@@ -482,9 +482,9 @@ class TestTheMedium:
         assert medium.hardness_at([L, 3 * L]).shape == (2,)
         assert replace(mdr.Medium(E), hardness=self.law) == medium
         assert replace(medium, E_star=2 * E).hardness is self.law
-        assert mdr.Medium(E, np.inf, hardness=self.law) == medium
+        assert mdr.Medium(E, q_c=np.inf, hardness=self.law) == medium
         assert mdr.Medium.from_bodies(E, 0.3, hardness=self.law).hardness is self.law
-        assert replace(medium, hardness=0.0, q_c=2.0) == mdr.Medium(E, 2.0)
+        assert replace(medium, hardness=0.0, q_c=2.0) == mdr.Medium(E, q_c=2.0)
 
     @pytest.mark.parametrize("name", ["q_c", "f_c"])
     def test_constants_beside_a_law_are_refused(self, name):

@@ -86,7 +86,7 @@ class TestToldAgain:
     @pytest.mark.parametrize("share", [0.0, 0.3])
     def test_impact(self, known, share):
         dry = mdr.impact(known, MEDIUM, MASS, SPEED)
-        medium = mdr.Medium(MEDIUM.E_star, MEDIUM.q_c, share * dry.contact_time * MEDIUM.E_star / 4)
+        medium = mdr.Medium(MEDIUM.E_star, q_c=MEDIUM.q_c, eta=share * dry.contact_time * MEDIUM.E_star / 4)
         told, exact = (mdr.impact(shape, medium, MASS, SPEED) for shape in (Told(known), known))
         for quantity in ("max_depth", "restitution", "contact_time", "max_force", "plastic_work"):
             # 1e-9 is promised of each.
@@ -132,7 +132,7 @@ class TestPencil:
         assert state.pressure(r) == approx(pressure, rel=1e-10)
 
     def test_impact_against_the_chain(self):
-        medium = mdr.Medium(MEDIUM.E_star, MEDIUM.q_c, eta=20.0)
+        medium = mdr.Medium(MEDIUM.E_star, q_c=MEDIUM.q_c, eta=20.0)
         hit = mdr.impact(self.shape, medium, MASS, SPEED)
         chain = mdr.chain_impact(self.shape, medium, MASS, SPEED)
         assert hit.restitution == approx(chain.restitution, abs=chain.error)
@@ -151,7 +151,7 @@ class Capped(Pencil):
 def test_many_at_once(kind, eta):
     """Arrays of parameters: the impacts of the entries, one by one."""
     slopes, radii, speeds = np.array([0.1, 0.2, 0.3]), np.array([1e-6, 2e-6, 1e-5]), [0.1, 0.2, 0.05]
-    medium = mdr.Medium(1e9, 10.0, eta)
+    medium = mdr.Medium(1e9, q_c=10.0, eta=eta)
     hits = mdr.impact(kind(slopes, radii), medium, MASS, speeds)
     for i, (slope, radius) in enumerate(zip(slopes, radii, strict=True)):
         one = mdr.impact(kind(float(slope), float(radius)), medium, MASS, speeds[i])

@@ -93,7 +93,7 @@ def test_a_wrong_slope_is_refused_in_words(shape, call):
 def test_one_of_many_is_refused(shape, eta):
     many = type(shape)(np.array([1.0, 1.1]) * shape.slope, shape.radius)
     with pytest.raises(ValueError, match=WORDS):
-        mdr.impact(many, mdr.Medium(1e9, 10.0, eta), MASS, SPEED)
+        mdr.impact(many, mdr.Medium(1e9, q_c=10.0, eta=eta), MASS, SPEED)
 
 
 def test_what_is_said_is_the_slope_there():

@@ -63,7 +63,7 @@ def test_contact_radius_inverts_the_reduced_profile(shape):
 @pytest.mark.parametrize("shape", EXTREMES, ids=name)
 def test_reduced_slope_is_the_derivative(shape):
     """Against a difference of 45 digits of the textbook's g."""
-    exact = Reference(shape, mdr.Medium(1e9, 1.0), 1e-9)
+    exact = Reference(shape, mdr.Medium(1e9, q_c=1.0), 1e-9)
     # On neither side of a kink by chance.
     x = 1.0001 * RADII
     x = x[(x < shape.wall) & (x < shape.known_radius)]

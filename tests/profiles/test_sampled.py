@@ -13,7 +13,7 @@ from mdr_core.profiles.samples import axis_of_symmetry
 from ..approx import approx
 from ..shapes import integrate, lower_hull
 
-MEDIUM = mdr.Medium(1e9, 1.0)
+MEDIUM = mdr.Medium(1e9, q_c=1.0)
 D_C = MEDIUM.critical_depth
 HISTORIES = ((0.4,), (3.0,), (100.0,), (1000.0, 999.5))
 # What is left of a tip of 10 µm curvature with a noise of 2 nm.
@@ -147,8 +147,8 @@ def test_impact_of_the_polygon_of_a_paraboloid():
     """Chords of a paraboloid: energy is kept, and results come as close as the polygon does."""
     r = np.linspace(0.0, 3e-6, 40)
     polygon, exact = mdr.Sampled(r, r**2 / 2e-5), mdr.Paraboloid(1e-5)
-    dry = mdr.impact(exact, mdr.Medium(1e9, 10.0), 1e-9, 0.03)
-    medium = mdr.Medium(1e9, 10.0, 0.3 * dry.contact_time * 1e9 / 4)
+    dry = mdr.impact(exact, mdr.Medium(1e9, q_c=10.0), 1e-9, 0.03)
+    medium = mdr.Medium(1e9, q_c=10.0, eta=0.3 * dry.contact_time * 1e9 / 4)
     hits = [mdr.impact(shape, medium, 1e-9, 0.03) for shape in (polygon, exact)]
     for quantity in ("max_depth", "restitution", "contact_time"):
         # The chords lie above the curve by 1/8 of the squared spacing over R: 10⁻³ of the height.

@@ -7,7 +7,7 @@ import mdr_core as mdr
 
 from ..approx import approx
 
-MEDIUM = mdr.Medium(1e9, 1.0)
+MEDIUM = mdr.Medium(1e9, q_c=1.0)
 D_C = MEDIUM.critical_depth
 R = 1e-5
 PAIRS = {
@@ -107,8 +107,8 @@ class TestImpact:
     @pytest.mark.parametrize("q_c", [np.inf, 10.0])
     @pytest.mark.parametrize("share", [0.0, 0.3])
     def test_same_as_the_closed_form(self, share, q_c):
-        dry = mdr.impact(self.EXACT, mdr.Medium(1e9, q_c), 1e-9, 0.1)
-        medium = mdr.Medium(1e9, q_c, share * dry.contact_time * 1e9 / 4)
+        dry = mdr.impact(self.EXACT, mdr.Medium(1e9, q_c=q_c), 1e-9, 0.1)
+        medium = mdr.Medium(1e9, q_c=q_c, eta=share * dry.contact_time * 1e9 / 4)
         hits = [mdr.impact(shape, medium, 1e-9, 0.1) for shape in (self.smooth(), self.EXACT)]
         for quantity in ("max_depth", "restitution", "contact_time"):
             # Steps are planned alike: roundings of the series, and of few steps.
@@ -144,7 +144,7 @@ class TestImpact:
 
 def test_tables_reach_down_to_shallow_impacts():
     """Many impacts are solved with a table that ends at 10⁶ m, single ones with the profile itself."""
-    tip, medium = mdr.Smooth(lambda r: 0.3 * np.tanh(r / 1e-6)), mdr.Medium(1e9, 1.0)
+    tip, medium = mdr.Smooth(lambda r: 0.3 * np.tanh(r / 1e-6)), mdr.Medium(1e9, q_c=1.0)
     depth = np.geomspace(3e-12, 1e-6, 20)
     states = mdr.indent(tip, medium, depth[:, None])
     energy = (states.stored_energy + states.plastic_work)[:, 0]
@@ -179,8 +179,8 @@ def test_a_slope_that_ends_has_every_class_of_hardness(given):
     smooth, sphere = mdr.Smooth(slope, **given), mdr.Sphere(radius)
     for medium in (
         mdr.Medium(1e9, hardness=1e7),
-        mdr.Medium(1e9, 1.0, hardness=1e7, f_c=1e-7),
-        mdr.Medium(1e9, 10.0, work_of_adhesion=0.01),
+        mdr.Medium(1e9, q_c=1.0, hardness=1e7, f_c=1e-7),
+        mdr.Medium(1e9, q_c=10.0, work_of_adhesion=0.01),
     ):
         expected = mdr.indent(sphere, medium, 1e-9).force
         assert mdr.indent(smooth, medium, 1e-9).force == approx(expected, rel=1e-12)
@@ -189,5 +189,5 @@ def test_a_slope_that_ends_has_every_class_of_hardness(given):
     assert smooth.known_radius <= radius
     # Printing looks at all classes of hardness.
     depth = np.append(np.linspace(0, 20e-9, 30), np.linspace(20e-9, 15e-9, 15))
-    fit = mdr.fit_indentation(smooth, depth, mdr.indent(sphere, mdr.Medium(1e9, 5.0), depth).force)
+    fit = mdr.fit_indentation(smooth, depth, mdr.indent(sphere, mdr.Medium(1e9, q_c=5.0), depth).force)
     assert "class of hardness" in repr(fit)

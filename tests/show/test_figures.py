@@ -13,7 +13,7 @@ from ..approx import approx
 
 hv = pytest.importorskip("holoviews")
 
-MEDIUM = mdr.Medium(1e11, 100.0)
+MEDIUM = mdr.Medium(1e11, q_c=100.0)
 D_C = MEDIUM.critical_depth
 DEPTH = D_C * np.array([0.0, 0.5, 1.0, 2.0, 3.0, 2.5, 2.8, 3.0, 4.0, 3.5])
 PATH = mdr.indent(mdr.Sphere(1e-6), MEDIUM, DEPTH)
@@ -143,7 +143,7 @@ def test_a_fit_is_drawn_with_its_residuals():
     """Measured samples and the model over the measured depth, below them the residual and its noise."""
     cone, noise = mdr.Cone(0.3), 2e-9
     depth = np.append(np.linspace(0.0, 60e-9, 60), np.linspace(60e-9, 50e-9, 30))
-    force = mdr.indent(cone, mdr.Medium(1e10, 100.0), depth).force
+    force = mdr.indent(cone, mdr.Medium(1e10, q_c=100.0), depth).force
     force = force + noise * np.random.default_rng(5).standard_normal(depth.size)
     fit = mdr.fit_indentation(cone, depth + 3e-9, force, force_noise=noise)
     curve, below = fit.plot()

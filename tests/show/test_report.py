@@ -83,7 +83,7 @@ def test_repr_of_a_million_is_short_and_computes_nothing():
 
 
 def test_repr_has_no_more_lines_however_many_limits_are_exceeded():
-    medium = mdr.Medium(4e6, 2e4, 30.0, 0.3)
+    medium = mdr.Medium(4e6, q_c=2e4, eta=30.0, poisson=0.3)
     hit = mdr.impact(mdr.Sphere(2e-3), medium, 1e-3, 5.0)
     assert sum(limit.exceeded for limit in hit.limits) >= 3
     lines = repr(hit).splitlines()

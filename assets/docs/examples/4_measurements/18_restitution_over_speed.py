@@ -20,7 +20,8 @@ measured = made.restitution + 0.005 * np.random.default_rng(1).normal(size=speed
 
 
 def restitution(speed, log_q_c, log_eta):
-    return mdr.impact(tip, mdr.Medium(E_star, np.exp(log_q_c), np.exp(log_eta)), mass, speed).restitution
+    medium = mdr.Medium(E_star, q_c=np.exp(log_q_c), eta=np.exp(log_eta))
+    return mdr.impact(tip, medium, mass, speed).restitution
 
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
@@ -28,10 +29,9 @@ left.semilogx(speed, measured, "k.", label="made, with scatter")
 for E_star in (5e9, 1e10, 2e10):
     fitted, covariance = curve_fit(restitution, speed, measured, np.log([1.5e-6 * E_star, 2e-7 * E_star]))
     q_c, eta = np.exp(fitted)
-    rms = np.std(restitution(speed, *fitted) - measured)
-    error = np.sqrt(covariance[0, 0])
+    rms, error = np.std(restitution(speed, *fitted) - measured), np.sqrt(covariance[0, 0])
     print(f"E* {E_star:.0e} Pa: q_c {q_c:.3g} N/m ± {error:.1%}, η {eta:.3g} Pa·s, rms {rms:.6f}")
-    hit = mdr.impact(tip, mdr.Medium(E_star, q_c, eta), mass, speed)
+    hit = mdr.impact(tip, mdr.Medium(E_star, q_c=q_c, eta=eta), mass, speed)
     left.semilogx(speed, hit.restitution, label=f"E* {E_star / 1e9:g} GPa, q_c {q_c / 1e3:.1f} kN/m")
     right.loglog(speed, hit.contact_time * 1e6, label=f"E* {E_star / 1e9:g} GPa, η {eta / 1e3:.1f} kPa·s")
 left.set(xlabel="speed (m/s)", ylabel="coefficient of restitution")
