@@ -16,7 +16,7 @@ alone some profiles have closed forms. `yield_rule` chooses among these.
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, singledispatch
 from typing import Any
 
@@ -102,6 +102,12 @@ class YieldRule(_check.Parameters, ABC):
         upper = np.maximum(imprint + penetration, lower)
         length = np.where(increase > 0, self.cap(upper), penetration)
         return LiveInterval(lower, upper, length), increase
+
+    def turning(self, penetration, imprint):
+        """`loading` to a turning point; its upper end is infinite where the penetration is infinite."""
+        too_deep = np.isinf(penetration)
+        interval, increase = self.loading(np.where(too_deep, 0.0, penetration), imprint)
+        return replace(interval, upper=np.where(too_deep, np.inf, interval.upper)), increase
 
     def may_fall(self, depth):
         """Whether the force on loading up to a depth (m) may fall after the onset of yield."""

@@ -120,7 +120,7 @@ def turning_interval(rule, target, before, give=None, deepest=np.inf):
     rule = replace(rule, profile=tabulated_for(rule.profile, target.size, largest_depth))
     unit, *scales = integrals(rule.profile).unit
     rule = rule.flat_entries(slice(None), shape)
-    # Apart from the results, arrays are no longer than a block.
+    # Apart from results and arguments, arrays are no longer than a block.
     _, arrays = broadcast_flat(target, before, *scales, 0.0 if give is None else give, deepest)
     result = np.empty((4, target.size))
     for rows in chunks(target.size, LONG):
@@ -131,9 +131,8 @@ def turning_interval(rule, target, before, give=None, deepest=np.inf):
         own_give = None if give is None else own_give * length
         energy = energy / (length * depth**2)
         y = _penetration(part, energy, imprint, give=own_give, deepest=end / depth)
-        interval, increase = part.loading(np.where(np.isinf(y), 0.0, y), imprint)
-        upper = np.where(np.isinf(y), np.inf, interval.upper)
-        result[:, rows] = depth * np.array([interval.lower, upper, interval.length, increase])
+        interval, increase = part.turning(y, imprint)
+        result[:, rows] = depth * np.array([interval.lower, interval.upper, interval.length, increase])
     *interval, increase = result.reshape(4, *shape)
     return LiveInterval(*interval), increase
 

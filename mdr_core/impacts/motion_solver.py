@@ -135,7 +135,7 @@ def _load(bodies, tolerance, equation_of):
 def _unload(bodies, turning_state, tolerance, equation_of, to_rest):
     """State at the loss of contact, for which bodies it never comes, and the steps of unloading."""
     profile, steps, zero = bodies.profile, [], np.zeros_like(bodies.speed)
-    interval, _ = bodies.rule.loading(turning_state.depth, bodies.imprint_depth)
+    interval, _ = bodies.rule.turning(turning_state.depth, bodies.imprint_depth)
     equation = equation_of(bodies, interval.lower)
     state = replace(turning_state, depth=interval.length, velocity=zero)
     radius = profile.radius_at(interval.lower)
@@ -143,8 +143,7 @@ def _unload(bodies, turning_state, tolerance, equation_of, to_rest):
     endless = damping >= 1
     oscillates = (damping > _NEARLY_CRITICAL) & ~endless
     last = np.where(endless, _AT_REST if to_rest else 1.0, np.where(oscillates, _OSCILLATES, 0.0))
-    # The depth of a turning point may be infinite.
-    last = np.where(last > 0, last * state.depth, zero)
+    last = last * state.depth
     below = interval.lower - kink_above(profile, interval.lower)
     for edge in [*(np.maximum(kink - interval.lower, last) for kink in profile.kinks[::-1]), last]:
         rows = np.flatnonzero(((edge >= 0) & (edge < state.depth) & (interval.upper < np.inf))[:, 0])

@@ -59,11 +59,13 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID,
     moving = (bodies.relaxation_time.reshape(mass.shape) > 0) | in_time
     on_structure = np.broadcast_to(structure.is_plate | structure.is_support, mass.shape)
     motions = np.zeros((4, *mass.shape))
-    if not moving.all():
-        remainder = dry[~moving]
+    # One that is too deep is refused.
+    balanced = ~moving & (penetration < np.inf)
+    if balanced.any():
+        remainder = dry[balanced]
         deceleration = remainder.max_force / remainder.mass
         work = np.zeros_like(deceleration)
-        motions[:, ~moving] = remainder.restitution, remainder.contact_time, work, deceleration
+        motions[:, balanced] = remainder.restitution, remainder.contact_time, work, deceleration
     penetrations = penetration.ravel()
     # A view, with one column for each impact.
     columns = motions.reshape(4, -1)
@@ -79,10 +81,9 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID,
                 _refuse_unsolved(error, rows[error.rows], speed, profile, interval.upper)
     restitution, end_time, work, deceleration = motions
     rule = yield_rule(profile, medium)
-    interval, increase = rule.loading(penetrations.reshape(mass.shape), imprint_depth)
+    interval, increase = rule.turning(penetrations.reshape(mass.shape), imprint_depth)
     turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
     force, work = mass * deceleration, 2 * medium.E_star * work
-    # One that is too deep is refused.
     if np.any(on_structure & moving) and np.all(interval.upper < np.inf):
         force = np.where(on_structure, largest_force(rule, turning_point, increase), force)
         plastic_work = 2 * medium.E_star * rule.plastic_integral(imprint_depth, increase)

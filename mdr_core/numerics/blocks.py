@@ -12,6 +12,6 @@ def chunks(size, most=8192):
 
 
 def broadcast_flat(*arrays):
-    """Shape to which arrays broadcast, and flat views of them that can be sliced."""
+    """Shape to which arrays broadcast, and the broadcast arrays as 1D arrays."""
     arrays = np.broadcast_arrays(*arrays)
-    return arrays[0].shape, [part.ravel() if part.flags.c_contiguous else part.flat for part in arrays]
+    return arrays[0].shape, [part.ravel() for part in arrays]

@@ -8,7 +8,9 @@ from .. import _check
 def largest_value(function, low, high, grids=2):
     """Largest value of a function with one maximum between `low` and `high` (N, 1), one a row.
 
-    `function` takes arguments of shape (N, K). Grids, and the parabola through the best three points.
+    `function` takes arguments of shape (N, K). Grids, and the vertex of the parabola through the best three
+    points. The value of the function at the vertex counts, not that of the parabola, which is too large on
+    a plateau and next to a kink.
     """
     rows = np.arange(len(low))
     for _ in range(grids):
@@ -18,8 +20,11 @@ def largest_value(function, low, high, grids=2):
         low, high = places[rows, best - 1, None], places[rows, best + 1, None]
     before, there, after = (values[rows, best + side] for side in (-1, 0, 1))
     bend = 2 * there - before - after
-    top = there + (after - before) ** 2 / (8 * np.maximum(bend, 1e-300))
-    return np.where(np.abs(after - before) < 2 * bend, top, values.max(axis=1))
+    inside = np.abs(after - before) < 2 * bend
+    # From the middle, over half of the interval.
+    offset = np.where(inside, (after - before) / (2 * np.where(inside, bend, 1.0)), 0.0)[:, None]
+    vertex = function(low + (high - low) * (1 + offset) / 2)
+    return np.fmax(vertex[:, 0], values.max(axis=1))
 
 
 def increasing_root(function, target, start, highest=np.inf, *, largest=_check.LARGEST, quantity="depth"):
@@ -62,7 +67,8 @@ def increasing_root(function, target, start, highest=np.inf, *, largest=_check.L
             longest = 3.0 if iteration < 24 else 50.0
             step = np.clip(step, -longest, longest)
             new, middle = x * np.exp(step), np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 16)
-            middle = np.where(high < np.inf, middle, 16 * x)
+            # The root of a product may be a rounding above both factors.
+            middle = np.where(high < np.inf, np.minimum(middle, high), 16 * x)
             inside = (new > low) & (new < high) & (iteration < 12 or iteration % 2 == 0)
             new = np.where(inside, new, middle)
             # Neither the step nor the bracket is more than rounding.
@@ -75,7 +81,8 @@ def increasing_root(function, target, start, highest=np.inf, *, largest=_check.L
         reachable &= low < largest
         if np.all(settled | ~sought | ~reachable):
             return np.where(reachable, np.where(target > 0, best, 0.0), np.inf)
-        x = np.where(sought, new, x)
+        # Beyond the largest length an entry waits for the others.
+        x = np.where(sought & reachable, new, x)
     raise ValueError(f"no {quantity} was found in 200 steps; check that all quantities are in SI units")
 
 

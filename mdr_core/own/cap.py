@@ -73,7 +73,8 @@ class OwnCap(RadiusCap):
         imprint, increase = np.broadcast_arrays(imprint, increase)
         cuts = self._cuts(imprint, increase)
         cuts = np.broadcast_to(cuts, (len(imprint), cuts.shape[1]))
-        row, number = np.nonzero(np.diff(cuts) > 0)
+        # Where nothing yields all cuts are infinite.
+        row, number = np.nonzero(cuts[:, 1:] > cuts[:, :-1])
         start, stop = cuts[row, number, None], cuts[row, number + 1, None]
         whole = self._pieces(row, start, stop, imprint, increase)
         work, former = np.zeros(len(imprint)), np.full(row.size, np.inf)

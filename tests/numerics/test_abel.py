@@ -69,7 +69,7 @@ class TestStressFromLineLoad:
         assert abel.stress_from_line_load([0, 0.5, 1], [1, 1, 0], 0.0) == approx(-2 * math.log(2) / math.pi)
 
     def test_a_state_of_the_solver(self):
-        medium = mdr.Medium(1e9, 1.0)
+        medium = mdr.Medium(1e9, q_c=1.0)
         state = mdr.indent(mdr.Cone(0.3), medium, 6 * medium.critical_depth)
         a, c = state.contact_radius, state.plastic_radius
         # q is a polygon with its vertices at c and a.
