@@ -193,9 +193,9 @@ def test_what_stands_behind_a_call_has_its_reason(name):
 def test_shapes_and_laws_of_the_library_need_no_room_for_what_users_write():
     """A sphere on the paper's medium imports nothing of the room for what users write."""
     code = (
-        "import sys, mdr_core as mdr; medium = mdr.Medium(1e9, 1.0, hardness=1e6); "
+        "import sys, mdr_core as mdr; medium = mdr.Medium(1e9, q_c=1.0, hardness=1e6); "
         "mdr.indent(mdr.Sphere(1e-6), medium, 1e-9).force; "
-        "mdr.chain_impact(mdr.Cone(0.3), mdr.Medium(1e9, 1.0), 1e-9, 0.1); "
+        "mdr.chain_impact(mdr.Cone(0.3), mdr.Medium(1e9, q_c=1.0), 1e-9, 0.1); "
         "print(*(name for name in sys.modules if name.startswith('mdr_core.own')))"
     )
     assert not python(code).split()
@@ -271,7 +271,7 @@ def python(code, folder=PACKAGE.parent):
 
 def test_a_public_name_imports_what_it_needs():
     code = (
-        "import sys, mdr_core as mdr; mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9, 1.0), 1e-9).force; "
+        "import sys, mdr_core as mdr; mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9, q_c=1.0), 1e-9).force; "
         "print(*(name for name in sys.modules if name.startswith('mdr_core.')))"
     )
     run = {name.split(".")[1] for name in python(code).split()}
@@ -285,7 +285,7 @@ def test_all_public_names_are_imported_by_a_star():
 
 
 def test_results_are_pickled_and_read_where_nothing_was_imported_yet(tmp_path):
-    state = mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9, 1.0), 1e-9)
+    state = mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9, q_c=1.0), 1e-9)
     (tmp_path / "state").write_bytes(pickle.dumps(state))
     path = str(tmp_path / "state")
     code = f"import pickle; print(pickle.load(open({path!r}, 'rb')).force)"
@@ -295,23 +295,25 @@ def test_results_are_pickled_and_read_where_nothing_was_imported_yet(tmp_path):
 @pytest.mark.parametrize("function", [mdr.indent, mdr.indent_to_force])
 def test_slow_paths_take_no_times(function):
     assert "time" not in inspect.signature(function).parameters
-    state = function(mdr.Cone(0.3), mdr.Medium(1e9, 1.0, 1.0), [1e-9, 2e-9])
+    state = function(mdr.Cone(0.3), mdr.Medium(1e9, q_c=1.0, eta=1.0), [1e-9, 2e-9])
     assert type(state) is mdr.Indentation
 
 
 @pytest.mark.parametrize("function", [mdr.indent_in_time, mdr.creep])
 @pytest.mark.parametrize("eta", [0.0, 1.0])
 def test_paths_in_time_are_of_one_type(function, eta):
-    path = function(mdr.Cone(0.3), mdr.Medium(1e9, 1.0, eta), [0.0, 1e-9], [0.0, 1.0], tolerance=1e-2)
+    path = function(
+        mdr.Cone(0.3), mdr.Medium(1e9, q_c=1.0, eta=eta), [0.0, 1e-9], [0.0, 1.0], tolerance=1e-2
+    )
     assert type(path) is mdr.TimedIndentation
 
 
 def test_both_impacts_answer_the_same_names():
     """Besides them one has its closed form's parts and limits, the other its chain and error estimates."""
-    shape, medium = mdr.Cone(0.3), mdr.Medium(1e9, 10.0)
+    shape, medium = mdr.Cone(0.3), mdr.Medium(1e9, q_c=10.0)
     hit, chain = mdr.impact(shape, medium, 1e-9, 0.1), mdr.chain_impact(shape, medium, 1e-9, 0.1)
     names, others = ({n for n in dir(each) if not n.startswith("_")} for each in (hit, chain))
-    assert names - others == {"turning_point", "plastic_depth_increase", "fast_limit"}
+    assert names - others == {"turning_point", "plastic_depth_increase", "fast_limit", "max_pressure"}
     assert others - names == {"error", "errors", "foundation"}
     assert hit.shape == chain.shape == ()
     for name in hit.to_dict():

@@ -16,7 +16,7 @@ from ..profiles.profile import Profile
 from . import adhesion, stress
 from .integrals import integrals, tabulated
 from .live_interval import LiveInterval
-from .pressure import displacement_integral, pressure_integral
+from .pressure import displacement_integral, largest_pressure, pressure_integral
 from .stress import Stress, StressPeak
 from .yielding import yield_rule
 
@@ -198,6 +198,29 @@ class Indentation(Result):
         if np.any(yielding):
             width = np.where(yielding, self._rule.yielding_width(interval), width)[()]
         return 2 * self.medium.E_star * width
+
+    @_check.frozen_property
+    def max_pressure(self):
+        """Largest contact pressure p = −σ_zz (Pa) over all radii of the contact; 0 without contact.
+
+        It is usually at the radius c of the plastic zone. If nothing has yielded, it is on the axis, at the
+        edge of a flat face, or farther out under shapes that rise faster than a parabola. It is infinite
+        under a sharp tip that has not yielded, at sharp edges and walls, and while dashpots carry load.
+        Vertices of a `Sampled` tip do not count, though the pressure is infinite there: it is the largest
+        value at c, in the middle of each facet, and on the axis of a flat face. Kinks of your own shapes
+        are not resolved. States are solved one by one, in up to 0.1 s each.
+
+        Examples
+        --------
+        >>> from mdr_core import Cone, Medium, indent
+        >>> gold = Medium.from_bodies(E1=78e9, nu1=0.42, q_c=100.0)
+        >>> state = indent(Cone(slope=0.3), gold, 8e-9)
+        >>> print(round(state.max_pressure / 1e9, 4), round(state.pressure(0.0) / 1e9, 4))  # GPa
+        10.1 3.3
+        """
+        shape = np.shape(self.depth)
+        result = [largest_pressure(self[index] if shape else self) for index in np.ndindex(shape)]
+        return np.reshape(result, shape)
 
     def pressure(self, r: ArrayLike) -> Array:
         """Contact pressure p = −σ_zz (Pa) at radii r (m), of the shape of `r`.

@@ -1,6 +1,7 @@
 """Integrals over the live interval that depend on the radius r, for one state and many radii.
 
     pressure_integral      ∫ ds/√(a(s)² − r²) over a(s) > r    contact pressure, Popov (2015), Eq. (10)
+    largest_pressure       its largest value over r
     displacement_integral  ∫ h(r, a(s)) ds                     surface displacement, residual imprint
 
 Each increment of depth is a flat punch of radius a(s), as in `integrals`.
@@ -10,6 +11,7 @@ import numpy as np
 
 from ..numerics.blocks import chunks
 from ..numerics.gauss import tanh_sinh
+from ..numerics.roots import largest_value
 from ..numerics.stable import log1p_ratio, root
 from .integrals import integrals
 from .live_interval import LiveInterval
@@ -86,6 +88,68 @@ def _pressure_from(profile, r, end):
     x = np.clip(x, r[:, None], np.nextafter(end, 0.0)[:, None])
     integral = (width * weight * profile.reduced_slope_at(x)).sum(axis=1)
     return np.where(np.isinf(profile.reduced_slope_at(r)), np.inf, integral)
+
+
+def largest_pressure(state):
+    """Largest contact pressure (Pa) of one state; 0 without contact.
+
+    Within the plastic zone, and under a flat face, it is largest at one of both ends: its slope times
+    (a² − r²)^(3/2)/r grows with r, also with the line load of adhesion. Outside it falls towards the rim,
+    or rises before where g′(x)/x grows.
+    """
+    profile, a, c = state.profile, state.contact_radius, state.plastic_radius
+    if a == 0:
+        return 0.0
+    if state.uniform_load > 0:
+        return np.inf
+    inner = max(c, profile.face_radius)
+    if profile.polygonal:
+        return np.max(state.pressure(_between_vertices(profile, inner, a, c)))
+    ends = np.max(state.pressure([0.0, a]))
+    if ends == np.inf or inner >= a:
+        return ends
+    at_inner = _pressure_at_c(state) if c > 0 else state.pressure(inner)
+
+    def pressure(share):
+        # At c the radius itself has too few digits.
+        return np.where(share > 0, state.pressure(inner + (a - inner) * share), at_inner)
+
+    # With four grids the best place is known to 10⁻⁴ of the width, and the pressure to rounding.
+    return max(ends, at_inner, largest_value(pressure, np.zeros((1, 1)), np.ones((1, 1)), grids=4)[0])
+
+
+def _between_vertices(profile, inner, a, c):
+    """Radii (m) at which the pressure of a polygon is looked at, in a contact up to `a` (m).
+
+    At vertices and on the axis of a sharp tip it is infinite. These are the middles of the facets outside
+    of c or of a flat face, c itself, and the axis of a face.
+    """
+    vertices = np.append(profile.face_radius, profile.radius_at(np.asarray(profile.kinks, dtype=float)))
+    middles = (vertices[1:] + vertices[:-1]) / 2
+    places = middles[(middles > inner) & (middles < a)].tolist()
+    if c > 0:
+        places.append(c)
+    if profile.face_radius > 0:
+        places.append(0.0)
+    return np.array(places or [(inner + a) / 2])
+
+
+def _pressure_at_c(state):
+    """Contact pressure (Pa) at the radius c of the plastic zone.
+
+    a(s) − c is free of the rounding of both radii: on its inner side the pressure has a vertical tangent.
+    """
+    profile, interval, c = state.profile, state.live_interval, state.plastic_radius
+    ends = (np.atleast_1d(end) for end in (interval.lower, interval.upper, interval.length))
+    _, _, start, stop, offset = pieces(profile, *ends)
+    # Squared, the first node is 10⁻⁴¹: the integrand begins as 1/√s.
+    node, weight = tanh_sinh()
+    node, weight = nodes(start, stop, offset, (node * node, 2 * node * weight))
+    # The last length is that of the whole contact, for the line load of adhesion.
+    lengths = np.append(node, interval.length)
+    weight = np.append(weight, state.uniform_load / state.medium.E_star)
+    drop = integrals(profile).radius_drop(LiveInterval.above(interval.lower, lengths))
+    return state.medium.E_star / np.pi * (weight @ (1 / np.sqrt(drop * (2 * c + drop))))
 
 
 def displacement_integral(profile, interval, r):

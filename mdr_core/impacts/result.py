@@ -102,6 +102,11 @@ class Impact(Entries, ImpactResult):
         """Largest force (N), with adhesion that at the turning point; a viscous one is before it."""
         return self.turning_point.force
 
+    @property
+    def max_pressure(self) -> Array:
+        """Largest contact pressure (Pa) at the turning point: `Indentation.max_pressure`, one by one."""
+        return self.turning_point.max_pressure
+
     @_check.frozen_property
     def max_deflection(self):
         """Largest deflection (m) of the structure under the contact; 0 without a structure.

@@ -36,7 +36,7 @@ def _to_legendre(count):
 def tanh_sinh(step=1 / 28):
     """Nodes and weights on [0, 1] for functions that behave as any power at both ends.
 
-    u = 1/(1 + e^(−2s)), s = (π/2) sinh t. The first node is 10⁻³⁹, so that a singularity just outside the
+    u = 1/(1 + e^(−2s)), s = (π/2) sinh t. The first node is 5·10⁻²¹, so that a singularity just outside the
     interval is resolved, too.
     """
     t = step * np.arange(-round(3.4 / step), round(3.4 / step) + 1)

@@ -88,6 +88,8 @@ class Profile(_check.Parameters, ABC):
     body_radius = np.inf
     #: Depths (m), ascending, at which the edge of the contact passes a kink of g, or reaches the wall.
     kinks = ()
+    #: Whether it is a polygon through samples, whose kinks are no edges of the body.
+    polygonal = False
     #: Depth (m) at which g changes from one power of x to another, None if it is not known.
     transition_depth = None
     #: Remarks on what was changed when the profile was made, as of a concave area function.
@@ -160,7 +162,8 @@ class Profile(_check.Parameters, ABC):
         depth = self._places("depth", depth, most=_check.LONGEST)
         _check.refuse("depth", depth, depth < 0, "is negative", unit="m", advice="it counts downward")
         depth = self._known(depth)
-        radius = self.radius_at(depth)
+        # At the known depth a search may end a rounding beyond the known radius.
+        radius = np.minimum(self.radius_at(depth), self.known_radius)
         bound, advice = "has a contact beyond double precision", "press less deep"
         _check.refuse("depth", depth, np.isinf(radius), bound, unit="m", advice=advice)
         advice = f"correct radius_at of {type(self).__name__}"

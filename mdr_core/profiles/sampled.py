@@ -208,6 +208,7 @@ class Sampled(Profile):
 
     # The samples are one indenter, not an ensemble.
     shape = ()
+    polygonal = True
     known_radius = property(lambda self: self.r[-1])
     known_depth = property(lambda self: float(self._g[-1]))
     face_radius = property(lambda self: float(self._r[np.count_nonzero(self._g == 0) - 1]))
