@@ -206,6 +206,34 @@ def refuse(quantity, array, bad, bound, *, unit="", advice="", remedy=()):
     return array
 
 
+def numbers_of(name, function, argument, refused):
+    """What a user's function of an array of radii gives, as an array of numbers.
+
+    If it fails, or gives anything else, the error is `refused` of what is wrong and of what to do.
+    """
+    try:
+        with np.errstate(all="ignore"):
+            value = function(argument)
+    except InvalidArgument:
+        raise
+    except (TypeError, ValueError, ArithmeticError) as error:
+        what = f"{name} fails for an array of radii ({type(error).__name__}: {error})"
+        raise refused(what, "write it for arrays, with NumPy's functions") from error
+    return doubles(name, value, refused)
+
+
+def doubles(name, value, refused):
+    """A value of a user's function as an array of double precision, else `refused` as by `numbers_of`."""
+    array = np.asarray(value)
+    if hasattr(value, "units") or hasattr(value, "unit") or array.dtype.kind not in "biuf":
+        kind = "complex numbers" if array.dtype.kind == "c" else shown(value)
+        raise refused(f"{name} gives {kind}", "give plain numbers in SI units")
+    if array.dtype.kind == "f" and array.dtype.itemsize < np.dtype(float).itemsize:
+        what = f"{name} gives {array.dtype}, which has {np.finfo(array.dtype).precision} digits"
+        raise refused(what, "compute it in double precision, float64")
+    return array.astype(float, copy=False)
+
+
 def common_shape(what, **values):
     """Shape to which the values broadcast; else an error that names their shapes."""
     for name, value in values.items():
@@ -267,19 +295,31 @@ def keywords_explained(function: "Callable[_Arguments, _Result]") -> "Callable[_
     return checked
 
 
+#: Last words of names of quantities of which a result has several.
+_SHARED = ("depth", "energy", "work", "speed", "velocity")
+
+
+def _is_misspelled(name, nearest):
+    """Whether a name is a misspelling of the nearest one, and not another energy, depth or velocity."""
+    (first, _, last), (other, _, same) = name.rpartition("_"), nearest.rpartition("_")
+    if same not in _SHARED and not difflib.get_close_matches(last, _SHARED, 1, 0.8):
+        return True
+    return all(difflib.get_close_matches(one, [two], 1, 0.8) for one, two in ((last, same), (first, other)))
+
+
 def no_attribute(owner, name, known):
     """AttributeError on an unknown name of a result or the package, which says what may be meant.
 
     That is the name that is known for what the field calls so, else the nearest one.
     """
     if owner == "mdr_core":
-        hint = above("show.hints").model_hint(name)
+        hint = above("show.hints").model_hint(name) or None
         suggestion = f": {hint}" if hint else ""
     else:
         hint = above("show.hints").quantity_hint(name, known)
         suggestion = f"; {hint}" if hint else ""
-    nearest = difflib.get_close_matches(name, known, 1)
-    if nearest and not hint:
+    nearest = difflib.get_close_matches(name, known, 1, 0.7)
+    if nearest and hint is None and _is_misspelled(name, nearest[0]):
         suggestion = f"; did you mean {nearest[0]!r}?"
     # With its name, Python does not add a suggestion of its own.
     return AttributeError(f"{owner} has no {name!r}{suggestion}", name=name)
@@ -288,10 +328,24 @@ def no_attribute(owner, name, known):
 class Parameters:
     """A frozen dataclass whose parameters may be arrays: equal where all entries are, and hashable."""
 
-    def __new__(cls, *_: Any, **keywords: Any) -> Self:
+    def __new__(cls, *positional: Any, **keywords: Any) -> Self:
         if keywords and (parameters := _parameters(cls.__init__)):
             _refuse_keywords(cls.__name__, keywords, parameters[1:])
+        if len(positional) > 1:
+            cls._refuse_positional(len(positional))
         return super().__new__(cls)
+
+    @classmethod
+    def _refuse_positional(cls, count):
+        """Refuses more values than there are parameters by position, with the names of the others."""
+        by_name = [each.name for each in fields(cls) if each.kw_only]
+        by_position = [each.name for each in fields(cls) if not each.kw_only]
+        if by_name and count > len(by_position):
+            alone = ", ".join(by_position)
+            raise TypeError(
+                f"{cls.__name__} takes {alone} by position, and {count} values are given so; give the "
+                f"others by name: {', '.join(by_name)}"
+            )
 
     def __getstate__(self):
         # Cached results are not pickled; some hold functions.

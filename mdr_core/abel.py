@@ -80,6 +80,11 @@ def kappa(n: ArrayLike) -> Array:
     return np.sqrt(np.pi) * scipy.special.gamma(n / 2 + 1) / scipy.special.gamma((n + 1) / 2)
 
 
+def _refused(what, advice):
+    """The error of a slope that gives no numbers."""
+    return _check.InvalidArgument(f"{what}; {advice}", "slope dz/dr", None, what, "", advice)
+
+
 def _slope_integral(slope, x, factor):
     """∫ slope(x sin t) factor(t) dt over 0 < t < π/2, for an array of x."""
     slope = _read_only.read_only(slope, "slope dz/dr")
@@ -88,8 +93,7 @@ def _slope_integral(slope, x, factor):
         node, weight = tanh_sinh(step)
         angle = np.pi / 2 * node
         radius = x[..., None] * np.sin(angle)
-        with np.errstate(all="ignore"):
-            values = np.broadcast_to(np.asarray(slope(radius), dtype=float), radius.shape)
+        values = np.broadcast_to(_check.numbers_of("slope dz/dr", slope, radius, _refused), radius.shape)
         bad = ~np.isfinite(values)
         if bad.any():
             raise ValueError(

@@ -1,7 +1,7 @@
 """Index of the public names in the reference, and the base classes that it shows.
 
 The index is made of the reference pages and the first lines of the docstrings, in the place of the comment
-`% index of names` in `reference/index.md`.
+`% index of names` in `reference/index.md`. Words for quantities are added to the glossary.
 """
 
 import re
@@ -15,9 +15,12 @@ from mdr_core.fit.oliver_pharr_result import OliverPharr
 from mdr_core.fit.report import Fit
 from mdr_core.numerics.motions import ImpactResult
 from mdr_core.numerics.results import Record, Result
+from mdr_core.show.synonyms import SYNONYMS
 
 _PAGES = Path(__file__).parent / "reference"
 _PLACE = "% index of names"
+#: In the glossary, the place of the words for quantities.
+_QUANTITIES = "   .. words for quantities"
 #: Base classes that a reader finds in the reference. Of others the page says nothing.
 _BASES = mdr_core.Profile, Result, ImpactResult, Fit, OliverPharr, ValueError, str
 
@@ -54,10 +57,30 @@ def index():
     return "\n".join(parts)
 
 
+def words_for_quantities():
+    """Entries of the glossary for the words of `SYNONYMS`."""
+    entries = []
+    for row in SYNONYMS:
+        names = " and ".join(map(_linked, row.meanings[0]))
+        words = "\n".join(f"   {word}" for word in row.words)
+        entries.append(f"{words}\n      {names}. {row.note}".rstrip())
+    return "\n\n".join(entries)
+
+
+def _linked(quantity):
+    """The name of a quantity with a link to the first result that describes it."""
+    owners = mdr_core.Indentation, mdr_core.Impact, mdr_core.Motion
+    owner = next((each.__name__ for each in owners if hasattr(each, quantity)), None)
+    return f"`{owner}.{quantity}`" if owner else f"``{quantity}``"
+
+
 def _write_index(app, docname, source):
     if docname == "reference/index":
         source[0] = source[0].replace(_PLACE, index())
         # It changes with docstrings and with the other pages, too.
+        app.env.note_reread()
+    if docname == "words":
+        source[0] = source[0].replace(_QUANTITIES, words_for_quantities())
         app.env.note_reread()
 
 

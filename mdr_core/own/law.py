@@ -5,7 +5,7 @@ cap, which a search may ask at any radius.
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import islice
 from typing import Any, NamedTuple, Self
 
@@ -211,21 +211,7 @@ def refused_law(law, what, advice):
 
 def law_numbers(law, name, a):
     """What a law's function of a name gives for radii (m), as an array of numbers, else refused."""
-    try:
-        with np.errstate(all="ignore"):
-            value = getattr(law, name)(a)
-    except _check.InvalidArgument:
-        raise
-    except (TypeError, ValueError, ArithmeticError) as error:
-        what = f"{name}(a) fails for an array of radii ({type(error).__name__}: {error})"
-        raise refused_law(law, what, "write it for arrays, with NumPy's functions") from error
-    plain = not (hasattr(value, "units") or hasattr(value, "unit") or np.iscomplexobj(value))
-    try:
-        if plain:
-            return np.asarray(value, dtype=float)
-    except (TypeError, ValueError):
-        pass
-    raise refused_law(law, f"{name}(a) gives {shown(value)}", "give plain numbers in SI units")
+    return _check.numbers_of(f"{name}(a)", getattr(law, name), a, partial(refused_law, law))
 
 
 def law_values(law, name, a):

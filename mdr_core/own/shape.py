@@ -11,7 +11,7 @@ A g′ that lacks a factor of 2 or π/2, or is z′, is wrong at all radii.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -155,7 +155,8 @@ def _end_of_own_radius(profile, looked, known):
     # Radii at which g rises on both sides; at a jump the same radius belongs to a range of depths.
     inner = 1 + np.flatnonzero(rises[:-1] & rises[1:] & (x[1:-1] > 0) & (reduced[1:-1] <= known))
     with np.errstate(all="ignore"):
-        radius = np.broadcast_to(profile.radius_at(reduced[inner]), inner.shape)
+        radius = profile.radius_at(reduced[inner])
+    radius = np.broadcast_to(_check.doubles("radius_at", radius, partial(_refused, profile)), inner.shape)
     wrong = ~(np.abs(radius - x[inner]) <= _SAME * x[inner])
     if not wrong.any():
         return None
@@ -191,15 +192,35 @@ def _values(profile, x):
             return np.full(1, np.nan), np.full(1, np.nan), np.ones(1, bool)
         # It ends somewhere: an interpolation, say, fails beyond its table.
         each = [_values(profile, x[i : i + 1]) for i in range(x.size)]
+        _check_pair(profile, x, ~np.concatenate([fault for *_, fault in each]))
         return tuple(np.concatenate(values) for values in zip(*each, strict=True))
     return reduced, slope, ~np.isfinite(reduced) | np.isnan(slope) | ~np.isfinite(height)
 
 
+def _check_pair(profile, x, sound):
+    """Refuses a shape whose functions fail for two radii (m), though they do not for each alone."""
+    if np.any(sound):
+        pair = x[[np.argmax(sound)] * 2]
+        try:
+            _functions_at(profile, pair)
+        except (ValueError, ArithmeticError) as error:
+            what = f"its functions fail for an array of radii ({type(error).__name__}: {error})"
+            raise _refused(profile, what, "write them for arrays, with NumPy's functions") from error
+
+
 def _functions_at(profile, x):
     """g (m), g′ and z (m) at radii (m), without warnings: also at radii that no solver reaches."""
-    with np.errstate(all="ignore"):
-        values = profile.reduced_at(x), profile.reduced_slope_at(x), profile.height_at(x)
-    return [np.broadcast_to(value, x.shape).astype(float) for value in values]
+    values = []
+    for name in ("reduced_at", "reduced_slope_at", "height_at"):
+        try:
+            with np.errstate(all="ignore"):
+                value = getattr(profile, name)(x)
+        except TypeError as error:
+            what = f"{name} fails for an array of radii (TypeError: {error})"
+            raise _refused(profile, what, "write it for arrays, with NumPy's functions") from error
+        value = _check.doubles(name, value, partial(_refused, profile))
+        values.append(np.broadcast_to(value, x.shape).copy())
+    return values
 
 
 def _said(profile, x):

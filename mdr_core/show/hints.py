@@ -1,5 +1,7 @@
 """Hints for symbols, words and models of the field that have other names in this package."""
 
+from .synonyms import MEANINGS, plain
+
 _ANGLE = (
     "A slope is the tangent of the angle to the surface; Cone.from_half_angle(degrees) takes the angle "
     "between axis and generator"
@@ -104,65 +106,33 @@ MODELS = {
     "viscoelastic": _VISCOUS,
 }
 
-#: What a result may have under another name, the first of these that it has. Symbols, as they are written.
+#: Symbols, as they are written, with the names that they may mean as in `Synonyms`.
 _SYMBOLS = {
-    "e": ("restitution",),
-    "F": ("force", "max_force"),
-    "P": ("force", "max_force"),
-    "P_max": ("max_force", "force"),
-    "Pmax": ("max_force", "force"),
-    "d": ("depth", "max_depth"),
-    "h": ("depth", "max_depth"),
-    "a": ("contact_radius",),
-    "c": ("plastic_radius",),
-    "A": ("contact_area", "damaged_area"),
-    "E": ("E_star", "medium"),
-    "Er": ("E_star", "medium"),
-    "E_star": ("medium",),
-    "q_c": ("medium",),
-    "eta": ("medium",),
-    "H": ("hardness", "mean_pressure"),
-    "S": ("stiffness",),
-    "p": ("pressure", "turning_point"),
-    "v": ("velocity", "rebound_speed"),
-    "t": ("time", "contact_time"),
-}
-_FORCES, _DEPTHS = ("force", "max_force"), ("depth", "max_depth")
-_MOST_FORCE, _MOST_DEPTH = _FORCES[::-1], _DEPTHS[::-1]
-_PRESSURE = ("pressure", "turning_point")
-#: Words, in small letters and without underscores.
-_WORDS = {
-    "cor": ("restitution",),
-    "coefficientofrestitution": ("restitution",),
-    "restitutioncoefficient": ("restitution",),
-    **dict.fromkeys(("load", "normalforce", "normalload", "contactforce", "reaction"), _FORCES),
-    **dict.fromkeys(("maxload", "peakload", "peakforce", "maximumforce", "fmax"), _MOST_FORCE),
-    **dict.fromkeys(("displacement", "indentation", "indentationdepth", "penetration"), _DEPTHS),
-    **dict.fromkeys(("penetrationdepth", "approach", "deformation", "overlap"), _DEPTHS),
-    **dict.fromkeys(("maxdisplacement", "maxindentation", "maxpenetration", "hmax", "dmax"), _MOST_DEPTH),
-    **dict.fromkeys(("maxpressure", "maximumpressure", "peakpressure", "pmax", "p0"), _PRESSURE),
-    **dict.fromkeys(("contactpressure", "pressuredistribution"), _PRESSURE),
-    **dict.fromkeys(("area", "projectedarea"), ("contact_area", "damaged_area")),
-    **dict.fromkeys(("youngsmodulus", "modulus", "reducedmodulus", "qc"), ("E_star", "medium")),
-    **dict.fromkeys(("vonmises", "mises", "maxstress", "maxvonmises"), ("stress_peak",)),
-    **dict.fromkeys(("duration", "impacttime", "collisiontime"), ("contact_time",)),
-    **dict.fromkeys(("velocity", "reboundvelocity", "finalspeed"), ("velocity", "rebound_speed")),
-    **dict.fromkeys(("energyloss", "dissipation", "dissipatedenergy"), ("plastic_work",)),
-    **dict.fromkeys(("pulloff", "adhesionforce"), ("pull_off_force",)),
-    **dict.fromkeys(("residualdepth", "finaldepth", "imprintdepth", "hf"), ("plastic_depth",)),
+    "e": (("restitution",),),
+    **dict.fromkeys(("F", "P"), (("force",), ("max_force",))),
+    **dict.fromkeys(("P_max", "Pmax"), (("max_force",), ("force",))),
+    **dict.fromkeys(("d", "h"), (("depth",), ("max_depth",))),
+    "a": (("contact_radius",),),
+    "c": (("plastic_radius",),),
+    "A": (("contact_area",), ("damaged_area",)),
+    **dict.fromkeys(("E", "E_star"), (("E_star",), ("medium",))),
+    **dict.fromkeys(("q_c", "qc", "eta"), (("medium",),)),
+    "H": (("hardness",), ("mean_pressure",)),
+    "S": (("stiffness",),),
+    "p": (("pressure",), ("turning_point",)),
+    "v": (("velocity",), ("speed", "rebound_speed"), ("speed",)),
+    "t": (("time",), ("contact_time",)),
 }
 #: What is said of a quantity beside its name.
 _SAID = {
-    "pressure": ", a function of the radius: on the axis it is .pressure(0.0)",
-    "turning_point": ", the state of largest depth: on the axis it has .turning_point.pressure(0.0)",
+    "pressure": ", a function of the radius",
+    "turning_point": ", the state of largest depth, with its pressures and stresses",
     "medium": ", which has the modulus .E_star, the hardness and the viscosity",
     "stress_peak": ": .stress_peak('von_mises') is the largest stress below the surface",
+    "speed": " (before the impact)",
+    "rebound_speed": " (after it)",
+    "states": ", the states of the contact, with their pressures",
 }
-
-
-def _plain(name):
-    """A name in small letters without underscores."""
-    return name.lower().replace("_", "")
 
 
 def keyword_hint(function, keyword):
@@ -171,12 +141,15 @@ def keyword_hint(function, keyword):
 
 
 def quantity_hint(name, known):
-    """What is meant by the name of a quantity, of those that are known; else nothing."""
-    meant = _SYMBOLS.get(name) or _WORDS.get(_plain(name), ())
-    found = next((each for each in meant if each in known), "")
-    return f"did you mean {found!r}{_SAID.get(found, '')}?" if found else ""
+    """What is meant by the name of a quantity, of those that are known; None if it is no known term."""
+    meanings = _SYMBOLS.get(name) or MEANINGS.get(plain(name))
+    if meanings is None:
+        return None
+    meant = next((names for names in meanings if set(names) <= set(known)), ())
+    said = " and ".join(f"{each!r}{_SAID.get(each, '')}" for each in meant)
+    return f"did you mean {said}?" if said else ""
 
 
 def model_hint(name):
     """What to take instead of a name that the package does not have; else nothing."""
-    return MODELS.get(_plain(name), "")
+    return MODELS.get(plain(name), "")
