@@ -183,13 +183,8 @@ def _law_alone(q_c, law, f_c):
 
 
 def refuse_sum(medium):
-    """Refuses a `Medium` whose hardness is 0, or has an infinite q_c beside another class, or adhesion."""
+    """Refuses a `Medium` whose hardness is 0, or has an infinite q_c beside another class."""
     if isinstance(medium.hardness, HardnessLaw):
-        if np.any(np.asarray(medium.work_of_adhesion) > 0):
-            raise ValueError(
-                "adhesion is modelled for the hardness q_c/a only, not for the law "
-                f"{shown(medium.hardness)}; set the work of adhesion work_of_adhesion to 0, or give q_c"
-            )
         return
     others = np.asarray(medium.hardness) + np.asarray(medium.f_c)
     q_c = np.broadcast_to(medium.q_c, np.broadcast_shapes(np.shape(medium.q_c), others.shape))
@@ -206,8 +201,28 @@ def refuse_sum(medium):
         ),
     ):
         _check.refuse("yield constant q_c", q_c, bad, bound, unit="N/m", advice=advice)
-    if np.any((np.asarray(medium.work_of_adhesion) > 0) & (others > 0)):
+
+
+def refuse_beside_adhesion(medium):
+    """Refuses a `Medium` with adhesion and a law, viscosity, H or f_c, also in different entries.
+
+    All entries of an ensemble are solved by one method, and that of adhesion has none of these.
+    """
+    sticks = np.broadcast_to(np.asarray(medium.work_of_adhesion) > 0, medium.shape)
+    if not np.any(sticks):
+        return
+    if isinstance(medium.hardness, HardnessLaw):
         raise ValueError(
-            "adhesion is modelled for the hardness q_c/a only; set the work of adhesion work_of_adhesion "
-            "to 0, or hardness and f_c"
+            "adhesion is modelled for the hardness q_c/a only, not for the law "
+            f"{shown(medium.hardness)}; set the work of adhesion work_of_adhesion to 0, or give q_c"
         )
+    for quantity, value, unit in (
+        ("viscosity eta", medium.eta, "Pa·s"),
+        ("hardness", medium.hardness, "Pa"),
+        ("yield constant f_c", medium.f_c, "N"),
+    ):
+        value = np.broadcast_to(value, medium.shape)
+        bound, advice = "is not modelled with adhesion", "set it or work_of_adhesion to 0"
+        _check.refuse(quantity, value, (value > 0) & sticks, bound, unit=unit, advice=advice)
+        bound, advice = "is not solved together with entries that have adhesion", "solve these apart"
+        _check.refuse(quantity, value, value > 0, bound, unit=unit, advice=advice)

@@ -8,7 +8,13 @@ import numpy as np
 from . import _check
 from ._check import Array, ArrayLike, Parameter, shown
 from ._door import above
-from .hardness import HardnessLaw, SumOfClasses, hardness_constants, refuse_sum
+from .hardness import (
+    HardnessLaw,
+    SumOfClasses,
+    hardness_constants,
+    refuse_beside_adhesion,
+    refuse_sum,
+)
 from .transverse_isotropy import effective_modulus
 
 
@@ -72,7 +78,8 @@ class Medium(_check.Parameters):
         (`from_transversely_isotropic`), for which neither is computed.
     work_of_adhesion : float, optional
         Work of adhesion w (J/m²), not negative: the energy that separates a unit area of the surfaces.
-        0 (the default) means no adhesion. It excludes viscosity, and yield of another class than (b).
+        0 (the default) means no adhesion. It excludes viscosity, and yield of another class than (b), in
+        all entries of an ensemble.
     hardness : float or HardnessLaw, optional
         Constant hardness H of class (a) (Pa), finite and not negative: glass, metals, ceramics. Or your own
         law σ_c(a), a `HardnessLaw`, without `q_c`, `f_c` and adhesion.
@@ -85,9 +92,9 @@ class Medium(_check.Parameters):
     ------
     ValueError
         If a parameter is not a number or out of its range, arrays do not broadcast, the hardness is 0,
-        `q_c` is infinite and `hardness` or `f_c` positive, `q_c` or `f_c` is given with a law, both `eta`
-        and `work_of_adhesion` are positive, or `work_of_adhesion` and one of `hardness` and `f_c`. A
-        calculation refuses a law that is not admissible at its contact radii.
+        `q_c` is infinite and `hardness` or `f_c` positive, `q_c` or `f_c` is given with a law, or
+        `work_of_adhesion` is positive and one of `eta`, `hardness` and `f_c`, too, also in other entries.
+        A calculation refuses a law that is not admissible at its contact radii.
 
     Examples
     --------
@@ -101,11 +108,11 @@ class Medium(_check.Parameters):
     """
 
     E_star: Parameter
+    _: KW_ONLY
     q_c: Parameter = None
     eta: Parameter = 0.0
     poisson: Parameter | None = 0.5
     work_of_adhesion: Parameter = 0.0
-    _: KW_ONLY
     hardness: Any = None
     f_c: Parameter = None
 
@@ -114,11 +121,11 @@ class Medium(_check.Parameters):
         def __init__(
             self,
             E_star: ArrayLike,
+            *,
             q_c: ArrayLike | None = None,
             eta: ArrayLike = 0.0,
             poisson: ArrayLike | None = 0.5,
             work_of_adhesion: ArrayLike = 0.0,
-            *,
             hardness: ArrayLike | HardnessLaw | None = None,
             f_c: ArrayLike | None = None,
         ) -> None: ...
@@ -142,11 +149,7 @@ class Medium(_check.Parameters):
             parameters |= {"hardness": np.empty(self.hardness.shape)}
         _check.common_shape("medium", **parameters)
         refuse_sum(self)
-        if np.any((np.asarray(self.eta) > 0) & (np.asarray(self.work_of_adhesion) > 0)):
-            raise ValueError(
-                "adhesion is not modelled on a viscous medium; set the viscosity eta or the work of "
-                "adhesion work_of_adhesion to 0"
-            )
+        refuse_beside_adhesion(self)
 
     @classmethod
     @_check.keywords_explained
@@ -184,7 +187,7 @@ class Medium(_check.Parameters):
         hardness = _check.positive("hardness", hardness, unit="Pa")
         radius = _check.positive("radius of the hardness", radius, unit="m")
         _check.common_shape("medium", hardness=hardness, radius=radius)
-        return cls(E_star, hardness * radius, **other)
+        return cls(E_star, q_c=hardness * radius, **other)
 
     @classmethod
     @_check.keywords_explained
@@ -221,7 +224,7 @@ class Medium(_check.Parameters):
         E_star = _check.positive("effective modulus E_star", E_star, unit="Pa")
         depth = _check.positive("critical depth", critical_depth, unit="m")
         _check.common_shape("medium", E_star=E_star, critical_depth=depth)
-        return cls(E_star, yield_constant(E_star, depth), **other)
+        return cls(E_star, q_c=yield_constant(E_star, depth), **other)
 
     @classmethod
     @_check.keywords_explained
@@ -231,10 +234,10 @@ class Medium(_check.Parameters):
         nu1: ArrayLike,
         E2: ArrayLike = np.inf,
         nu2: ArrayLike = 0.0,
+        *,
         q_c: ArrayLike | None = None,
         eta: ArrayLike = 0.0,
         work_of_adhesion: ArrayLike = 0.0,
-        *,
         hardness: "ArrayLike | HardnessLaw | None" = None,
         f_c: ArrayLike | None = None,
     ) -> "Medium":
@@ -270,7 +273,8 @@ class Medium(_check.Parameters):
             compliance = compliance + (1 - ratio) * (1 + ratio) / modulus
         if np.any(compliance == 0):
             raise ValueError("E1 and E2 are both infinite; at least one body must be elastic")
-        return cls(1 / compliance, q_c, eta, nu1, work_of_adhesion, hardness=hardness, f_c=f_c)
+        other = {"q_c": q_c, "hardness": hardness, "f_c": f_c, "work_of_adhesion": work_of_adhesion}
+        return cls(1 / compliance, eta=eta, poisson=nu1, **other)
 
     @classmethod
     @_check.keywords_explained
@@ -327,7 +331,8 @@ class Medium(_check.Parameters):
         10.7269
         """
         E_star = effective_modulus(E_in_plane, E_axial, nu_in_plane, nu_axial, G_axial)
-        return cls(E_star, q_c, eta, None, work_of_adhesion, hardness=hardness, f_c=f_c)
+        other = {"q_c": q_c, "hardness": hardness, "f_c": f_c, "work_of_adhesion": work_of_adhesion}
+        return cls(E_star, eta=eta, poisson=None, **other)
 
     @property
     def inverse_to_radius(self) -> bool:

@@ -9,16 +9,20 @@ arrays are lazy: `compute` solves them chunk by chunk, on the cores of a machine
                            quantities=("restitution", "damaged_area"))
     total = stream.damaged_area.sum().compute()
 
-A long run to disk that can be continued. Chunks of a region are written in any order, so that a region in
-which any number is missing has not been computed to the end. One without missing numbers is left out::
+A long run to disk: the same script continues it, wherever it was killed. A store gets its name when it is
+complete. Chunks of a region are written in any order, so that a region in which any number is missing has
+not been computed to the end. One without missing numbers is left out::
 
-    encoding = {name: {"_FillValue": numpy.nan} for name in stream}
-    stream.to_zarr("stream.zarr", compute=False, encoding=encoding)  # once
+    store = Path("stream.zarr")
+    if not store.exists():
+        new, encoding = Path("new.zarr"), {name: {"_FillValue": numpy.nan} for name in stream}
+        stream.to_zarr(new, mode="w", compute=False, encoding=encoding)
+        new.rename(store)
     for start in range(0, 10**9, 10**7):
         region = {"particle": slice(start, start + 10**7)}
-        done = xr.open_zarr("stream.zarr").isel(region)
+        done = xr.open_zarr(store).isel(region)
         if done.isnull().any().to_array().any():
-            stream.isel(region).to_zarr("stream.zarr", region=region)
+            stream.isel(region).to_zarr(store, region=region)
 
 While a sweep of arrays in memory runs, tqdm shows its progress where it is installed and the output is a
 terminal; of dask arrays ``dask.diagnostics.ProgressBar()`` does.
@@ -290,23 +294,30 @@ def _in_blocks(solve, shape, values, own, names, refused):
     results = np.full((len(names), *size), np.nan)
     flat = results.reshape(len(names), -1)
     for rows in tracked_chunks(flat.shape[1], _BLOCK, "entries"):
+        entries = np.arange(flat.shape[1])[rows]
         block = {k: varied[k][rows] if k in varied else np.ravel(v)[0] for k, v in values.items()}
-        valid = np.arange(flat.shape[1])[rows]
-        while valid.size:
-            others = {name: value for name, value in block.items() if name not in own}
-            try:
-                profile = shape(**{name: block[name] for name in own}) if isclass(shape) else shape
-                result = solve(profile, **others)
-                for row, name in zip(flat, names, strict=True):
-                    row[valid] = getattr(result, name)
-                break
-            except _check.InvalidEntries as error:
-                bad = np.broadcast_to(error.bad, valid.shape)
-                refused(error, np.unravel_index(valid[bad], size))
-            flat[:, valid[bad]] = np.nan
-            valid = valid[~bad]
-            block = {name: value[~bad] if np.ndim(value) else value for name, value in block.items()}
+        # Adhesion has a way of its own to be solved.
+        sticks = np.broadcast_to(np.asarray(block.get("work_of_adhesion", 0.0)) > 0, entries.shape)
+        for chosen in (sticks, ~sticks):
+            valid, part = entries[chosen], _some(block, chosen)
+            while valid.size:
+                others = {name: value for name, value in part.items() if name not in own}
+                try:
+                    profile = shape(**{name: part[name] for name in own}) if isclass(shape) else shape
+                    result = solve(profile, **others)
+                    for row, name in zip(flat, names, strict=True):
+                        row[valid] = getattr(result, name)
+                    break
+                except _check.InvalidEntries as error:
+                    bad = np.broadcast_to(error.bad, valid.shape)
+                    refused(error, np.unravel_index(valid[bad], size))
+                valid, part = valid[~bad], _some(part, ~bad)
     return tuple(results) if len(names) > 1 else results[0]
+
+
+def _some(block, chosen):
+    """Some entries of the arrays among the parameters of a block."""
+    return {name: value[chosen] if np.ndim(value) else value for name, value in block.items()}
 
 
 def _hit(
@@ -318,7 +329,7 @@ def _hit(
 
 
 def _hit_at_angle(profile, E_star, eta, poisson, q_c=None, hardness=None, f_c=None, **given):
-    medium = Medium(E_star, q_c, eta, poisson, hardness=hardness, f_c=f_c)
+    medium = Medium(E_star, q_c=q_c, eta=eta, poisson=poisson, hardness=hardness, f_c=f_c)
     return oblique_impact(profile, medium, **given)
 
 

@@ -76,6 +76,34 @@ def test_bad_bodies_are_refused(arguments, says):
         mdr.Medium.from_bodies(*arguments)
 
 
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: mdr.Medium(210e9, 0.3),
+        lambda: mdr.Medium.from_bodies(210e9, 0.3, 70e9, 0.3, 100.0),
+        lambda: mdr.Structure(1e3, math.inf, 2e-3),
+    ],
+)
+def test_what_could_be_taken_for_something_else_is_given_by_name(make):
+    """0.3 after E* was q_c in N/m, and no Poisson ratio."""
+    with pytest.raises(TypeError, match=r"positional|by name: q_c, eta, poisson|by name: edge, thickness"):
+        make()
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"eta": [0.0, 1.0]}, r"viscosity eta\[1\] = 1 Pa·s is not solved together"),
+        ({"hardness": [0.0, 1e8], "q_c": [10.0, 0.0]}, r"hardness\[1\] = 1e\+08 Pa is not solved together"),
+        ({"f_c": 1e-6}, r"yield constant f_c\[0\] = 1e-06 N is not modelled with adhesion"),
+    ],
+)
+def test_what_adhesion_excludes_it_excludes_in_all_entries(given, says):
+    """The viscosity of other entries was left out, without a word."""
+    with pytest.raises(ValueError, match=says):
+        mdr.Medium(1e9, work_of_adhesion=[0.1, 0.0], **given)
+
+
 def test_poisson_ratio_is_that_of_the_first_body():
     assert mdr.Medium(1e9).poisson == 0.5
     assert mdr.Medium.from_bodies(1e9, 0.3, 2e9, 0.2).poisson == 0.3
@@ -86,9 +114,9 @@ def test_poisson_ratio_is_that_of_the_first_body():
 
 
 def test_media_of_arrays_are_compared_and_hashed():
-    one, other = mdr.Medium([1e9, 2e9], 1.0), mdr.Medium([1e9, 2e9], 1.0)
+    one, other = mdr.Medium([1e9, 2e9], q_c=1.0), mdr.Medium([1e9, 2e9], q_c=1.0)
     assert one == other
-    assert len({one, other, mdr.Medium([1e9, 3e9], 1.0), mdr.Medium(1e9)}) == 3
+    assert len({one, other, mdr.Medium([1e9, 3e9], q_c=1.0), mdr.Medium(1e9)}) == 3
     assert mdr.Cone([0.1, 0.2]) == mdr.Cone([0.1, 0.2]) != mdr.Cone([0.1, 0.3])
     assert hash(mdr.Cone([0.1, 0.2])) == hash(mdr.Cone([0.1, 0.2])) != hash(mdr.Cone([[0.1, 0.2]]))
     assert mdr.Cone(0.1) != mdr.Paraboloid(0.1)
@@ -97,7 +125,7 @@ def test_media_of_arrays_are_compared_and_hashed():
 
 def test_medium_from_a_hardness():
     medium = mdr.Medium.from_hardness(95e9, 1e9, 100e-9, eta=2.0, poisson=0.4)
-    assert medium == mdr.Medium(95e9, 1e9 * 100e-9, 2.0, 0.4)
+    assert medium == mdr.Medium(95e9, q_c=1e9 * 100e-9, eta=2.0, poisson=0.4)
     # Deep below the critical depth the mean pressure at a radius is q_c/a: Popov (2015), Eq. (11).
     state = mdr.indent(mdr.Cone(0.01), medium, 1e4 * medium.critical_depth)
     assert state.mean_pressure * state.contact_radius == approx(medium.q_c, rel=1e-4)
@@ -119,7 +147,7 @@ class TestHardness:
 
     def test_what_is_not_given(self):
         assert (mdr.Medium(1e9, hardness=1e6).q_c, mdr.Medium(1e9, f_c=1.0).q_c) == (0.0, 0.0)
-        assert mdr.Medium(1e9, 5.0).hardness == mdr.Medium(1e9, 5.0).f_c == 0.0
+        assert mdr.Medium(1e9, q_c=5.0).hardness == mdr.Medium(1e9, q_c=5.0).f_c == 0.0
         glass = mdr.Medium.from_bodies(70e9, 0.2, hardness=9e9)
         assert (glass.q_c, glass.hardness, glass.poisson) == (0.0, 9e9, 0.2)
         assert repr(glass.entries(())) == repr(glass)

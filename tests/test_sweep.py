@@ -4,7 +4,9 @@ import io
 import os
 import signal
 import sys
+import textwrap
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -21,7 +23,7 @@ SPEED = xr.DataArray(np.geomspace(1e-2, 1.0, 5), dims="speed")
 RADIUS = xr.DataArray([1e-6, 1e-5, 1e-4], dims="radius", coords={"radius": [1, 10, 100]})
 SPHERES = {"E_star": 1e9, "q_c": 10.0, "mass": 1e-12, "radius": RADIUS, "speed": SPEED}
 REST = {"radius": 1e-5, "E_star": 1e9, "q_c": 10.0, "mass": 1e-12}
-ONE = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, 10.0), 1e-12, 0.1)
+ONE = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, q_c=10.0), 1e-12, 0.1)
 ALL = [name for name in ONE.to_dict() if name not in ("mass", "speed")]
 
 
@@ -30,11 +32,31 @@ def test_every_entry_is_the_impact_of_its_parameters(eta):
     table = sweep.impacts(mdr.Sphere, **SPHERES, eta=eta, quantities=ALL)
     assert dict(table.sizes) == {"radius": 3, "speed": 5}
     for place, speed in enumerate(SPEED.values):
-        hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, 10.0, eta), 1e-12, speed)
+        hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, q_c=10.0, eta=eta), 1e-12, speed)
         for name in ALL:
             # Dry ones differ by rounding; viscous ones come in steps of their own.
             expected = approx(float(getattr(hit, name)), rel=1e-9 if eta else 1e-12, abs=0.0)
             assert float(table[name].sel(radius=10)[place]) == expected, name
+
+
+def test_entries_with_adhesion_viscosity_and_plates_are_solved_apart():
+    """With each other they are refused by `impact`, which solves all entries in one way."""
+    given = {
+        "work_of_adhesion": [0.1, 0.0, 0.0, 0.0, 0.1], "eta": [0.0, 10.0, 0.0, 0.0, 0.0],
+        "impedance": [np.inf, np.inf, 1e-3, np.inf, 1e-3], "hardness": [0.0, 0.0, 0.0, 1e8, 0.0],
+        "q_c": [10.0, 10.0, 10.0, 0.0, 10.0],
+    }  # fmt: skip
+    arrays = {name: xr.DataArray(values, dims="kind") for name, values in given.items()}
+    one = {"radius": 1e-5, "E_star": 1e9, "mass": 1e-10, "speed": 1.0}
+    table = sweep.impacts(mdr.Sphere, **one, **arrays, invalid="nan")
+    # Adhesion on a plate is not modelled.
+    assert table.invalid_count == 1
+    assert np.isnan(table.restitution.values[4])
+    for i, found in enumerate(table.restitution.values[:4]):
+        own = {name: values[i] for name, values in given.items()}
+        structure = mdr.Structure(own.pop("impedance"))
+        hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, **own), 1e-10, 1.0, structure=structure)
+        assert found == approx(hit.restitution, rel=1e-9)
 
 
 def test_dimensions_are_matched_by_name():
@@ -75,7 +97,7 @@ def test_erosion_over_the_angle_of_attack():
 
 def test_numbers_alone_make_numbers():
     one = sweep.impacts(mdr.Cone(0.3), E_star=1e9, q_c=10.0, mass=1e-9, speed=0.1, quantities="max_depth")
-    hit = mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, 10.0), 1e-9, 0.1)
+    hit = mdr.impact(mdr.Cone(0.3), mdr.Medium(1e9, q_c=10.0), 1e-9, 0.1)
     assert one.max_depth.shape == ()
     assert float(one.max_depth) == approx(float(hit.max_depth), rel=1e-14)
 
@@ -87,7 +109,7 @@ def test_first_loadings():
     table = sweep.indentations(mdr.Cone, slope=slope, E_star=1e9, q_c=10.0, depth=depth, quantities=names)
     for i, s in enumerate(slope.values):
         for j, d in enumerate(depth.values):
-            state = mdr.indent(mdr.Cone(s), mdr.Medium(1e9, 10.0), d)
+            state = mdr.indent(mdr.Cone(s), mdr.Medium(1e9, q_c=10.0), d)
             for name in names:
                 found = float(table[name].isel(cone=i, depth=j))
                 assert found == approx(float(getattr(state, name)), rel=1e-12, abs=0.0), name
@@ -157,7 +179,7 @@ def test_imprints_before_the_impact():
         plastic_depth=first.plastic_depth,
         quantities=["restitution", "plastic_depth"],
     )
-    medium, imprint = mdr.Medium(1e9, 10.0), first.plastic_depth[1, 4]
+    medium, imprint = mdr.Medium(1e9, q_c=10.0), first.plastic_depth[1, 4]
     hit = mdr.impact(mdr.Sphere(1e-5), medium, 1e-12, 1.0, plastic_depth=float(imprint))
     assert float(table.restitution[1, 4]) == approx(hit.restitution, rel=1e-12)
     assert float(table.plastic_depth[1, 4]) == approx(hit.plastic_depth, rel=1e-12)
@@ -289,7 +311,7 @@ class TestLazily:
         # One chunk, once for both quantities.
         assert len(solved) == 1
         speeds = np.geomspace(1e-2, 1.0, 4000)[:10]
-        hits = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, 10.0), 1e-12, speeds)
+        hits = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, q_c=10.0), 1e-12, speeds)
         np.testing.assert_allclose(found.restitution, hits.restitution, rtol=1e-12)
         np.testing.assert_allclose(found.max_depth, hits.max_depth, rtol=1e-12)
 
@@ -330,6 +352,29 @@ class TestLazily:
             assert int(xr.open_zarr(store).restitution.isnull().sum()) == 2000
             assert fill(4000) == 2
             xr.testing.assert_allclose(xr.open_zarr(store).load(), stream.compute(), rtol=1e-13)
+
+    def test_the_recipe_goes_on_where_it_was_killed_while_it_made_the_store(self, tmp_path, monkeypatch):
+        """With all files of the store but its name, and with none, one, or half of them."""
+        pytest.importorskip("zarr")
+        lines = textwrap.dedent(sweep.__doc__[sweep.__doc__.index("    store = ") :].partition("\n\n")[0])
+        recipe = lines.replace("10**9", "4000").replace("10**7", "1000")
+        names = {"xr": xr, "numpy": np, "Path": Path, "stream": self.stream()}
+        monkeypatch.chdir(tmp_path)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            for kept in (None, 0, 1, 5):
+                with monkeypatch.context() as patch:
+                    patch.setattr(Path, "rename", lambda *_: os.kill(os.getpid(), signal.SIGINT))
+                    with pytest.raises(KeyboardInterrupt):
+                        exec(recipe, names)
+                for file in sorted(file for file in Path("new.zarr").rglob("*") if file.is_file())[kept:]:
+                    if kept is not None:
+                        file.unlink()
+                assert not Path("stream.zarr").exists()
+            exec(recipe, names)
+            xr.testing.assert_allclose(
+                xr.open_zarr("stream.zarr").load(), self.stream().compute(), rtol=1e-13
+            )
 
     @pytest.mark.parametrize("chunks", [1, 2, 3])
     def test_a_run_that_was_killed_between_chunks_leaves_no_holes(self, tmp_path, monkeypatch, chunks):

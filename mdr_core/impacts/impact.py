@@ -112,13 +112,17 @@ def _too_deep(profile, where):
 
 
 def _refuse_losses(medium, structure, shape):
-    """Refuses adhesion of an ensemble on structures, and viscosity of a row on one."""
-    refuse_adhesion(medium, "an impact on a structure")
+    """Refuses adhesion and viscosity of an entry on a structure, and adhesion of others in the ensemble."""
+    on_structure = np.broadcast_to(structure.is_plate | structure.is_support, shape)
+    work, quantity = np.broadcast_to(medium.work_of_adhesion, shape), "work of adhesion work_of_adhesion"
+    bound, advice = "is not computed together with a structure", "set work_of_adhesion = 0"
+    _check.refuse(quantity, work, (work > 0) & on_structure, bound, unit="J/m²", advice=advice)
+    bound, advice = "is not solved together with entries on a structure", "solve these apart"
+    _check.refuse(quantity, work, work > 0, bound, unit="J/m²", advice=advice)
     eta = np.broadcast_to(medium.eta, shape)
-    bad = (eta > 0) & (structure.is_plate | structure.is_support)
     bound = "is not computed together with a structure by `impact`"
     advice = "take chain_impact(…, structure=…), or set eta = 0"
-    _check.refuse("viscosity eta", eta, bad, bound, unit="Pa·s", advice=advice)
+    _check.refuse("viscosity eta", eta, (eta > 0) & on_structure, bound, unit="Pa·s", advice=advice)
 
 
 def _solved(profile, medium, mass, speed, imprint_depth, structure, in_time):

@@ -33,9 +33,8 @@ _SOFTEST = 1e3
 _STIFFEST = 1e13
 #: Range of H/E* of the media that there are, and d(a σ_c)/da over σ_c from which on a contact flows.
 _SOFT, _HARD, _FLOWS = 1e-5, 0.3, 0.5
-#: Depth (m) of an atom: no medium yields at less. Largest Poisson ratio, for which a q_c may be mistaken.
+#: Depth (m) of an atom: no medium yields at less.
 _ATOM = 1e-10
-_INCOMPRESSIBLE = 0.5
 
 
 def contact_limits(profile, medium, radius, *, slow=False):
@@ -103,7 +102,7 @@ def _modulus_limit(medium):
 
 
 def _critical_depth_limit(medium):
-    """Critical depth below the size of an atom, as of a Poisson ratio that is taken for q_c."""
+    """Critical depth below the size of an atom, as of a q_c in other units."""
     if not medium.inverse_to_radius:
         return
     depths, q_c = np.broadcast_arrays(medium.critical_depth, medium.q_c)
@@ -114,14 +113,9 @@ def _critical_depth_limit(medium):
     least, q_c = float(np.min(depths[small])), float(np.min(q_c[small]))
     text = (
         f"The critical depth π q_c/(2E*) is {engineering(least, 'm')}, less than an atom (0.1 nm), so that "
-        f"the medium carries nearly no force: check that q_c = {q_c:.3g} is a yield constant in N/m"
+        f"the medium carries nearly no force: check that q_c = {q_c:.3g} is a yield constant in N/m."
     )
-    if q_c <= _INCOMPRESSIBLE:
-        text += (
-            " and not a Poisson ratio: Medium(E_star, q_c) takes E* and q_c, Medium.from_bodies(E1, nu1) "
-            "Young's modulus and the Poisson ratio"
-        )
-    yield Limit("critical depth", least, _ATOM, True, f"{text}.")
+    yield Limit("critical depth", least, _ATOM, True, text)
 
 
 def _hardness_limit(medium):
