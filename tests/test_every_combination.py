@@ -1,12 +1,14 @@
 """All shapes, all classes and sums of hardness, all quantities, against springs over x.
 
-Cases are random by their seed. By default each shape has two of the sums, with --full all of them;
-`python -m tests.benchmarks.combinations` tries thousands.
+Cases are random by their seed. By default each shape has two of the sums, with --full all of them. Calls
+with arrays of shapes, laws, structures and solvers are compared with a loop of single calls: 40 by default,
+200 with --full. `python -m tests.benchmarks.combinations` tries thousands of both.
 """
 
 import pytest
 
 from .random_cases import BOUNDS, SUMS, TIPS, Case, deviations
+from .random_ensembles import compared, random_ensemble
 
 #: Seeds of one case of each shape with each sum; shapes take turns first.
 ALL = range(len(TIPS) * len(SUMS))
@@ -25,3 +27,15 @@ def test_a_random_case(seed):
     case = Case.random(seed)
     beyond = {name: miss for name, miss in deviations(case).items() if not miss <= BOUNDS[name]}
     assert not beyond, case
+
+
+@pytest.mark.parametrize(
+    "seed", [pytest.param(i, marks=[pytest.mark.full] * (i >= 40)) for i in range(200)]
+)
+def test_a_random_ensemble_is_a_loop_of_single_calls(seed):
+    """To twice the error that each call may have; an error of one is raised for all, and names an entry."""
+    ensemble = random_ensemble(seed)
+    if ensemble.solver.startswith("sweep"):
+        pytest.importorskip("xarray")
+    beyond = {name: miss for name, miss in compared(ensemble).items() if not miss <= 1}
+    assert not beyond, ensemble
