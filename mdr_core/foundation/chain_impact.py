@@ -21,7 +21,7 @@ from .cap import plastic_depth
 from .foundation import Foundation, foundation_of
 from .free_body import ImpactSolver, impact_depth_bound, row_before
 from .refinement import refine
-from .row import element_count
+from .row import NarrowRow, element_count
 
 #: Elements, and steps per time scale, of the coarsest run; number of runs.
 _ELEMENTS, _STEPS, _RUNS = 150, 12, 8
@@ -106,7 +106,13 @@ def chain_impact(
 
     def solve(elements, depth, steps):
         row = row_before(profile, medium, history, count or elements, depth)
-        return ImpactSolver(row, mass, speed, steps, bound, structure, depth).solved()
+        try:
+            return ImpactSolver(row, mass, speed, steps, bound, structure, depth).solved()
+        except NarrowRow:
+            if depth == bound:
+                raise
+            # On a support a coarse run may end far above the largest depth, where the force jumps at yield.
+            return solve(elements, bound, steps)
 
     # A first run determines the largest depth, at whose radius the next one has an edge.
     runs = [solve(_ELEMENTS, bound, _STEPS / 2)]

@@ -184,9 +184,10 @@ class ImpactSolver:
             self._accept(step)
             if done():
                 return
+        why = f": the relaxation time tau = {self.tau:g} s is far from the contact time" * (self.tau > 0)
+        instead = "set eta = 0" if self.tau > 0 else "take impact, or a larger tolerance"
         raise ValueError(
-            f"the impact needs more than {_MAX_STEPS} steps: the relaxation time tau = {self.tau:g} s is "
-            "far from the contact time; check the units, or set eta = 0"
+            f"the impact needs more than {_MAX_STEPS} steps{why}; check the units, or {instead}"
         )
 
     def _trial(self, rate, dt, velocity):
@@ -341,6 +342,10 @@ class ImpactSolver:
         # The parabola stays between first contact and turning point, and does not cross the kink at yield.
         i = min(max(int(np.argmax(force)), 1), len(force) - 2)
         if depth[i - 1] < self.yield_depth * (1 - 1e-3) and depth[i + 1] > self.yield_depth * (1 + 1e-3):
+            return float(force.max())
+        # Beside a kink, as where a plateau begins behind a wall, the force does not bend as much.
+        bends = np.diff(np.diff(force) / np.diff(time)) / (time[2:] - time[:-2])
+        if np.any(bends[max(i - 2, 0) : i + 1] > bends[i - 1] / 4):
             return float(force.max())
         x, y = (time[i - 1 : i + 2] - time[i]) / (time[i + 1] - time[i]), force[i - 1 : i + 2] - force[i]
         curvature, slope, _ = np.polyfit(x, y, 2)

@@ -31,6 +31,10 @@ def element_count(n):
     return int(count)
 
 
+class NarrowRow(ValueError):
+    """The error of a contact that is wider than its row of elements."""
+
+
 @dataclass(frozen=True, eq=False)
 class Row:
     """Independent elements on one side of the axis, in one state; immutable.
@@ -169,7 +173,7 @@ class Row:
             check_known(self.profile, np.asarray(ramp.depth))
         if ramp.depth > self.edge_depth:
             radius = self.profile.contact_radius(ramp.depth)
-            raise ValueError(
+            raise NarrowRow(
                 f"half_width = {self.half_width:g} m is less than the contact radius {radius:g} m at "
                 f"depth = {ramp.depth:g} m; give at least that"
             )

@@ -24,7 +24,7 @@ def speed_to_depth(shape, depth):
 
 def viscous(speed, depth, times):
     """A medium with τ = times depth/speed."""
-    return mdr.Medium(DRY.E_star, DRY.q_c, eta=times * depth / speed * DRY.E_star / 4)
+    return mdr.Medium(DRY.E_star, q_c=DRY.q_c, eta=times * depth / speed * DRY.E_star / 4)
 
 
 @pytest.mark.parametrize("times", [0.03, 1.0])
@@ -210,12 +210,30 @@ class TestSecondImpact:
 
 def test_units_do_not_matter():
     """Mass, modulus, yield constant and viscosity times a power of two, which is exact."""
-    base = mdr.chain_impact(mdr.Cone(0.5), mdr.Medium(1.0, 1.0, 1.0), 1.0, 1.0, tolerance=1e-4)
+    base = mdr.chain_impact(mdr.Cone(0.5), mdr.Medium(1.0, q_c=1.0, eta=1.0), 1.0, 1.0, tolerance=1e-4)
     scaled = mdr.chain_impact(
-        mdr.Cone(0.5), mdr.Medium(2.0**40, 2.0**40, 2.0**40), 2.0**40, 1.0, tolerance=1e-4
+        mdr.Cone(0.5), mdr.Medium(2.0**40, q_c=2.0**40, eta=2.0**40), 2.0**40, 1.0, tolerance=1e-4
     )
     assert scaled.restitution == approx(base.restitution, rel=1e-9)
     assert scaled.max_depth == approx(base.max_depth, rel=1e-9)
+
+
+def test_the_largest_force_behind_a_wall_is_that_of_the_plateau():
+    """All of the face yields, F = π q_c b; a parabola over the beginning of the plateau had 8 % more."""
+    tip, medium = mdr.ParabolicPunch(9e-6, cylinder_radius=1.4e-7), mdr.Medium(1e10, q_c=3.4)
+    hit = mdr.chain_impact(tip, medium, 1.4e-11, 0.35, tolerance=1e-3)
+    assert hit.max_force == approx(np.pi * 3.4 * 1.4e-7, rel=hit.errors.max_force)
+
+
+@pytest.mark.slow
+def test_a_coarse_run_on_a_soft_support_may_end_far_above_the_largest_depth():
+    """Where the force of f_c jumps at the onset of yield, six steps of a support end 13 % above it."""
+    tip, medium = mdr.Paraboloid(5e-7), mdr.Medium(6.7e9, f_c=1.7e-6)
+    support = mdr.Structure(stiffness=3.1e4)
+    hit = mdr.chain_impact(tip, medium, 1e-10, 0.32, structure=support, tolerance=1e-3)
+    dry = mdr.impact(tip, medium, 1e-10, 0.32, structure=support)
+    for quantity in hit.errors._fields:
+        assert getattr(hit, quantity) == approx(getattr(dry, quantity), rel=getattr(hit.errors, quantity))
 
 
 def test_bad_arguments_are_refused():
