@@ -1,6 +1,7 @@
 """Measured force–depth curves from files of instruments."""
 
 import re
+from contextlib import suppress
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -20,7 +21,7 @@ from .numerics.remark import Remark, Remedy, refused
 __all__ = ["SIZES", "WORDS", "UnknownColumns", "read_curve", "read_curves"]
 
 
-def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> MeasuredCurve:
+def read_curve(path: str | PathLike[str], index: int | None = None, **given: Any) -> MeasuredCurve:
     """Read depth, force and time of one measured curve from a file of an instrument.
 
     Parameters
@@ -28,7 +29,8 @@ def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> Measu
     path : path-like
         A file, see `read_curves`.
     index : int, optional
-        Number of the curve in a map, or in an Excel file with several sheets.
+        Number of the curve in a map, or in an Excel file with several sheets. By default the first curve,
+        or the first one of a table that `columns` describe.
     **given
         `spring_constant`, `sensitivity`, `columns` and `by` as in `read_curves`, where the file lacks them.
 
@@ -56,6 +58,8 @@ def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> Measu
     ('left out line 4: a cell is missing or not a number',)
     """
     curves = read_curves(path, **given)
+    if index is None:
+        index = _first_told(curves) if given.get("columns") and len(curves) > 1 else 0
     if not 0 <= index < len(curves):
         raise ValueError(f"index = {index} must be from 0 to less than {len(curves)}, the curves of {path}")
     curve = curves[index]
@@ -71,6 +75,15 @@ def read_curve(path: str | PathLike[str], index: int = 0, **given: Any) -> Measu
     return replace(curve, remarks=(other, *curve.remarks))
 
 
+def _first_told(curves):
+    """Number of the first curve of a table whose columns are given, 0 without one."""
+    for number in range(len(curves)):
+        with suppress(UnknownColumns):
+            if curves[number].source == "as told":
+                return number
+    return 0
+
+
 def read_curves(
     path: str | PathLike[str],
     *,
@@ -84,8 +97,8 @@ def read_curves(
     A table is read where it says plainly what it is: depth and force each have one column with an exact
     name and a plain unit, as "Depth (nm)" and "Load (mN)", no other column may be meant, and the depth does
     not start anew. For any other table `UnknownColumns` is raised, with a suggestion that reads the file if
-    it is right: ``read_curves(path, **error.suggestion)``. Where a file has several tables or sheets, the
-    question is raised when the curve is taken, or at once where none is plain.
+    it is right: ``read_curves(path, **error.suggestion)``. If a file has several tables or sheets, curves
+    of plain ones come first. The error is raised when another curve is taken, or at once if none is plain.
 
     Signs are found by the numbers, as force and depth are positive in compression. `remarks` of a curve
     lists reversed signs, constants that are taken from the file, and lines that are left out. Numbers of

@@ -1,6 +1,7 @@
 """The constants of a cantilever, given or in the header of a file: those that a curve needs, no others."""
 
 from dataclasses import dataclass
+from math import inf
 
 from ..numerics.remark import Remark, Remedy, refused
 from .names import normal, parted
@@ -126,7 +127,7 @@ def constant(header, kind, names):
             number, text = _number(right)
             if own == "":
                 own, unit = (unit_alone(text.strip("()[] ")) if text else None) or ("", "")
-            if number is None or number <= 0:
+            if number is None or not 0 < number < inf:
                 continue
             if own == kind:
                 return number * size_of(unit)

@@ -39,7 +39,8 @@ def curves_of_tables(tables, file, options):
 
     What is told holds for the tables with the heads and units of the one that is asked about: the first one
     that is not plain, or the first one that has the columns that are told by their names. Tables of results
-    and settings are left out, with a remark.
+    and settings are left out, with a remark. Plain tables come first, so that an unclear one keeps its
+    number after its columns are given.
     """
     columns, by, given = options["columns"], options["by"], options["given"]
     plain = [_tried(table, file, None, None, given) for table in tables]
@@ -50,16 +51,17 @@ def curves_of_tables(tables, file, options):
             _tried(table, file, columns, by, given) if table.key == key else old
             for table, old in zip(tables, plain, strict=True)
         ]
-    left, makers = [], []
+    left, makers, doubtful = [], [], []
     wanted = [not _no_curve(outcome) for outcome in found]
     first = _asked(plain)
-    for table, outcome in zip(tables, found, strict=True):
+    for table, outcome, before in zip(tables, found, plain, strict=True):
         if isinstance(outcome, list):
-            makers += outcome
+            (makers if isinstance(before, list) else doubtful).extend(outcome)
         elif any(wanted) and _no_curve(outcome):
             left.append(Remark(f"{table.name!r} is left out, as it has no curve", "left out"))
         else:
-            makers.append(partial(_refuse, _for_pasting(outcome, table, tables, first)))
+            doubtful.append(partial(_refuse, _for_pasting(outcome, table, tables, first)))
+    makers += doubtful
     if all(make.func is _refuse for make in makers):
         makers[0]()
     return [partial(_said, make, tuple(left)) for make in makers] if left else makers

@@ -9,7 +9,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.files import packed
 
-from .curves import DEPTH, FORCE, assert_curve, rows
+from .curves import DEPTH, FORCE, PIEZO, SMALL, STIFFNESS, assert_curve, rows
 
 NM, MN = 1e9 * DEPTH, 1e3 * FORCE
 #: Lines of 10 kB that patterns over a line may take long for.
@@ -40,6 +40,18 @@ def test_a_line_longer_than_a_header_has_no_constant(write):
     path = write(f"{line}\nZ (nm),F (nN)\n" + rows(NM, MN))
     with pytest.raises(mdr.UnknownColumns, match="give spring_constant="):
         mdr.read_curve(path, columns={"piezo": (0, "nm"), "force": (1, "nN")})
+
+
+@pytest.mark.parametrize("value", ["0.05", "-0.05", "0", "none", "", "nan", "inf"])
+def test_a_stiffness_of_a_header_is_a_positive_number_or_it_is_asked_for(write, value):
+    """With a positive one the depth is the position minus the deflection F/k."""
+    path = write(f"Spring constant: {value} N/m\nZ (nm),F (nN)\n" + rows(1e9 * PIEZO, 1e9 * SMALL))
+    columns = {"piezo": (0, "nm"), "force": (1, "nN")}
+    if value == f"{STIFFNESS}":
+        assert_curve(mdr.read_curve(path, columns=columns), DEPTH, SMALL)
+    else:
+        with pytest.raises(mdr.UnknownColumns, match="give spring_constant="):
+            mdr.read_curve(path, columns=columns)
 
 
 def test_numbers_of_1e30_and_more_are_missing(write):

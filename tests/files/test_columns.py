@@ -394,3 +394,19 @@ def test_an_adhesion_above_the_load_does_not_turn_the_force(write, share, sign):
         write(table("Depth (nm)", "Load (mN)", columns=(sign * 1e9 * depth, 1e3 * force)))
     )
     assert_curve(curve, depth, force)
+
+
+@pytest.mark.parametrize(
+    ("names", "pairs"),
+    [
+        ("Weg A (nm),Weg B (nm),Kraft A (mN),F C (mN)", [(0, 3)]),
+        ("z (nm),Weg B (nm),Tiefe C (nm),Kraft A (mN),Kraft B (mN),F C (mN)", [(0, 5), (1, 4), (2, 3)]),
+    ],
+)
+def test_of_columns_that_are_nearly_as_likely_two_are_a_choice_and_three_are_curves(asked, names, pairs):
+    """F C is a little more likely as a force than Kraft A: of two it is offered alone."""
+    half = len(names.split(",")) // 2
+    error = asked(f"{names}\n" + rows(*[NM] * half, *[MN] * half))
+    columns = error.suggestion["columns"]
+    columns = columns if isinstance(columns, list) else [columns]
+    assert [(each["depth"][0], each["force"][0]) for each in columns] == pairs

@@ -220,11 +220,13 @@ def test_one_table_that_is_asked_about_does_not_stop_the_others(write):
     path = write("\n".join(head + rows(*each) for head, each in zip(tables, columns, strict=True)))
     curves = mdr.read_curves(path)
     assert len(curves) == 4
-    assert_curve(curves[2], force=3 * FORCE)
+    assert_curve(curves[1], force=3 * FORCE)
     with pytest.raises(mdr.UnknownColumns, match="table 2: which column is the force") as error:
-        curves[1]
+        curves[2]
     assert error.value.table.name == "table 2"
-    assert_curves(mdr.read_curves(path, columns={"depth": (0, "nm"), "force": (1, "mN")}), 4)
+    told = mdr.read_curves(path, columns={"depth": (0, "nm"), "force": (1, "mN")})
+    for curve, times in zip(told, (1, 3, 2, 4), strict=True):
+        assert_curve(curve, force=times * FORCE)
 
 
 def test_segments_with_a_header_each_are_parts_of_one_curve(asked, write):
@@ -317,6 +319,31 @@ def test_a_sheet_that_is_asked_about_is_not_left_out(tmp_path):
     # Numbers would be those of the second sheet: names are those of the third.
     assert error.value.suggestion["columns"]["depth"] == ("Tiefe (nm)", "nm")
     assert_curve(mdr.read_curves(path, **error.value.suggestion)[2], force=3 * FORCE)
+
+
+def test_a_plain_sheet_is_taken_before_one_in_doubt(tmp_path):
+    """Results and means of tests come first in the file; both functions take the first test."""
+    means = [*sheet(["Depth Mean", "Depth StdDev", "Load Mean", "Load StdDev"], NM, NM / 99, MN, MN / 99)]
+    test = [*sheet(["Markers", "Time", "Load", "Depth"], NM, TIME, MN, NM)]
+    test = [test[0], ["", "s", "mN", "nm"], *(["", *row[1:]] for row in test[1:])]
+    sheets = {
+        "Results": [["Test", "Pmax", "Maximum Displacement", "E", "H"], ["", "mN", "nm", "GPa", "GPa"]]
+        + [[i, 4 + i / 10, 70 + i, 70 + i, 9] for i in range(1, 6)],
+        "Means": [means[0], ["nm", "nm", "mN", "mN"], *means[1:]],
+        "Test 1": test,
+        "Test 2": test,
+    }
+    path = workbook(tmp_path, sheets)
+    curves = mdr.read_curves(path)
+    assert [curve.name for curve in curves[:2]] == [f"{path.name}, Test {i}" for i in (1, 2)]
+    assert_curve(curves[0])
+    assert_curve(mdr.read_curve(path))
+    with pytest.raises(mdr.UnknownColumns, match="Means") as error:
+        curves[2]
+    columns = error.value.suggestion["columns"][0]
+    # The columns that are given are those of one sheet, which is meant.
+    for index in (None, 2):
+        assert mdr.read_curve(path, index, columns=columns).name == f"{path.name}, Means"
 
 
 def test_where_no_sheet_is_plain_the_question_is_raised_at_once(tmp_path):

@@ -85,7 +85,7 @@ def test_what_has_no_meaning_is_refused(curve):
 
 @pytest.fixture
 def many(tmp_path):
-    """Three tables with another sign of the depth; the second is asked about when it is taken."""
+    """Three tables with another sign of the depth; that in the middle is asked about, and comes last."""
     depth = np.append(np.linspace(0, 60e-9, 60), np.linspace(60e-9, 0, 60))
     texts = []
     for E in (10e9, 20e9):
@@ -102,11 +102,11 @@ def test_curves_of_a_file_are_fitted_at_once(many):
     with pytest.raises(mdr.UnknownColumns):
         mdr.fit_indentation(CONE, many, q_c=np.inf)
     fit = mdr.fit_indentation(CONE, many, q_c=np.inf, invalid="nan")
-    assert fit.medium.E_star[[0, 2]] == approx([10e9, 20e9], rel=1e-6)
-    assert np.isnan(fit.medium.E_star[1])
-    assert list(fit.invalid) == [1]
-    assert "Tiefe" in fit.invalid[1]
-    assert "columns=" not in fit.invalid[1].text
+    assert fit.medium.E_star[[0, 1]] == approx([10e9, 20e9], rel=1e-6)
+    assert np.isnan(fit.medium.E_star[2])
+    assert list(fit.invalid) == [2]
+    assert "Tiefe" in fit.invalid[2]
+    assert "columns=" not in fit.invalid[2].text
     # What was said of its file is said first of a curve, and once of all.
     assert fit[0].remarks[0] == many[0].remarks[0]
     assert [remark.kind for remark in fit.remarks] == ["sign", "invalid"]
@@ -115,6 +115,6 @@ def test_curves_of_a_file_are_fitted_at_once(many):
 
 
 def test_a_list_of_curves_is_many(many):
-    fit = mdr.fit_indentation(CONE, [many[0], many[2]], q_c=np.inf, time=None)
+    fit = mdr.fit_indentation(CONE, [many[0], many[1]], q_c=np.inf, time=None)
     assert fit.medium.E_star == approx([10e9, 20e9], rel=1e-6)
     assert fit.time is None
