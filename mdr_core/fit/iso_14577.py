@@ -24,14 +24,16 @@ _CLASS, _NOISE, _TIMES, _FEW = 0.02, 8.0, 5.0, 10
 _HELD = 5e-4
 #: Classes of force that have no hold, by which the others are measured.
 _MOVING = 0.9
+#: Share of the largest force above which a remark names the extrapolation: 0.05 % of the work.
+_NAMED = 0.01
 
 
-def iso_numbers(profile: Profile, depth, force, time, part: slice, laws) -> tuple[float, float, float]:
-    """n_IT, C_IT and HM (Pa) of the unloading in a part of a record; NaN for those that it lacks.
+def iso_numbers(profile: Profile, depth, force, time, part: slice, laws) -> tuple[tuple, str]:
+    """n_IT, C_IT and HM (Pa) of the unloading in a part of a record; and a remark on n_IT, or none, "".
 
-    Depths (m) and forces (N) of the whole record count from first contact. Without times (s) those of a
-    uniform sampling are taken. `laws` are the values and errors of the unloading with and without a
-    correction for creep, arrays (2, 5) in the order of `OliverPharr`.
+    NaN for those that the part lacks. Depths (m) and forces (N) of the whole record count from first
+    contact. Without times (s) those of a uniform sampling are taken. `laws` are the values and errors of
+    the unloading with and without a correction for creep, arrays (2, 5) in the order of `OliverPharr`.
     """
     corrected, measured = (values for values, _ in laws)
     stiffness, *_, exponent = measured if np.isfinite(measured).all() else corrected
@@ -39,7 +41,7 @@ def iso_numbers(profile: Profile, depth, force, time, part: slice, laws) -> tupl
     first = depth[:top].max(initial=-np.inf) <= (1 + _DEEPER) * depth[top]
     moments = np.arange(depth.size) if time is None else time
     held = hold(moments[part], force[part], depth[part])
-    work, creep = np.nan, np.nan
+    work, creep, remark = np.nan, np.nan, ""
     end, height = top, force[top]
     if held is not None:
         height = np.median(force[part][held])
@@ -49,10 +51,21 @@ def iso_numbers(profile: Profile, depth, force, time, part: slice, laws) -> tupl
     if first:
         total = _work_of_loading(profile, depth[: top + 1], force[: top + 1])
         unloaded = slice(top, part.stop)
-        elastic = _work_of_unloading(depth[unloaded], force[unloaded], stiffness, exponent)
+        elastic, share = _work_of_unloading(depth[unloaded], force[unloaded], stiffness, exponent)
         work = elastic / total
+        if np.isfinite(work) and share > _NAMED:
+            remark = f"{_end_of(share)}: n_IT is extrapolated to 0 by the power law"
     martens = height / (_SIDES * depth[end] ** 2) if first and is_pyramid(profile) else np.nan
-    return float(work), float(creep), float(martens)
+    return (float(work), float(creep), float(martens)), remark
+
+
+def remark_on_beginning(force: np.ndarray) -> str:
+    """A remark on a record of forces (N) whose unloading has hardly begun."""
+    return f"{_end_of(force[-1] / force.max())}: n_IT, C_IT and HM are not computed"
+
+
+def _end_of(share):
+    return f"the unloading ends at {100 * share:.3g} % of the largest force"
 
 
 def is_pyramid(profile: Profile) -> bool:
@@ -81,14 +94,15 @@ def _work_of_loading(profile, depth, force):
 
 
 def _work_of_unloading(depth, force, stiffness, exponent):
-    """Work (J) that an unloading from the first sample on gives back, to the force 0; or NaN."""
+    """Work (J) that an unloading gives back, to the force 0, or NaN; and the share of force at its end."""
     end = _end(force)
-    if force[end] > _EXTRAPOLATED * force[0]:
-        return np.nan
+    share = max(force[end], 0.0) / force[0]
+    if share > _EXTRAPOLATED:
+        return np.nan, share
     # F ∝ u^m, u = 1 at the first sample, where dh = (m F/S) du.
-    u = (max(force[end], 0.0) / force[0]) ** (1 / exponent)
+    u = share ** (1 / exponent)
     rest = force[0] ** 2 * exponent / stiffness * u ** (exponent + 1) / (exponent + 1)
-    return rest - trapezoid(force[: end + 1], depth[: end + 1])
+    return rest - trapezoid(force[: end + 1], depth[: end + 1]), share
 
 
 def _end(force):

@@ -17,7 +17,7 @@ from . import creep as creeping
 from .columns import Times, columns_of, finite_columns, measured_stiffness, remarks_of_one
 from .continuous import over_depth
 from .exponent import doubt
-from .iso_14577 import iso_numbers
+from .iso_14577 import iso_numbers, remark_on_beginning
 from .materials import doubts
 from .moduli import moduli, not_from_contact, remaining
 from .oliver_pharr_result import ISO_14577, OliverPharr
@@ -114,7 +114,8 @@ def oliver_pharr(
     from above 20 % of the largest force; a hold after the unloading is no part of it. `indentation_creep`
     is C_IT = (h₂ − h₁)/h₁ of the depths at both ends of a hold, `martens_hardness` HM = F/(26.43 h²) at
     the end of the loading, for cones of 70.2° to 70.4°, which stand for Berkovich and Vickers pyramids.
-    Those that a record lacks are None, and NaN for such an unloading of several.
+    Those that a record lacks are None, and NaN for such an unloading of several. If the force falls by less
+    than a tenth they are NaN, with a remark. Another remark names the force from which n_IT is continued.
 
     Examples
     --------
@@ -184,8 +185,12 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
         moments = None if time is None else time[part]
         try:
             both, notes = _with_creep(profile, depth[part], force[part], moments, constants, contact)
-            whole = part if every or not parts else slice(0, parts[taken - 1].stop)
-            iso = iso_numbers(profile, depth, force, time, whole, both)
+            if parts:
+                whole = part if every else slice(0, parts[taken - 1].stop)
+                iso, text = iso_numbers(profile, depth, force, time, whole, both)
+            else:
+                iso, text = None, remark_on_beginning(force)
+            notes += [Remark(text, "missing")] if text else []
             results[number] = *both, iso
             remarks += [each.after(f"{which}: ") for each in notes] if cycles and len(parts) > 1 else notes
         except ValueError as error:
@@ -278,8 +283,12 @@ def _collected(profile, results, iso, contact, epsilon, numbers, remarks):
     values |= {"contact_point": _check.frozen(np.full(shape, contact.depth)), "unloading": numbers}
     if contact.depth_error:
         errors["contact_point"] = _check.frozen(np.full(shape, contact.depth_error))
-    of_standard = zip(ISO_14577, np.array(iso if numbers.ndim else iso[0]).T, strict=True)
-    values |= {name: _check.frozen(each) for name, each in of_standard if not np.all(np.isnan(each))}
+    # An unloading that has hardly begun has none of these numbers: all are NaN.
+    begun, iso = iso[0] is not None, np.array([each or (np.nan,) * 3 for each in iso])
+    for name, each in zip(ISO_14577, (iso if numbers.ndim else iso[0]).T, strict=True):
+        # A number that no unloading of the record has is not there.
+        if not (begun and np.all(np.isnan(each))):
+            values[name] = _check.frozen(each)
     S, h_c, E, H, m = (values[name] for name in names)
     remains = remaining(profile, h_c, S, H, m, epsilon)
     remarks = [*remarks, *doubts(E, H, remains), *profile.remarks]

@@ -165,7 +165,7 @@ def texts_of(result: OliverPharr) -> dict[str, str]:
     }
     for name in ISO_14577:
         value = getattr(result, name)
-        if value is not None:
+        if value is not None and not np.isnan(value):
             texts[name] = engineering(*((100 * value, "%") if name in _RATIOS else (value, "Pa")))
     return texts
 

@@ -29,7 +29,7 @@ KINDS = {
     "glass, class (a)": Kind(
         CONE, mdr.Medium(70e9, hardness=10e9), (-20e-9, 600e-9, 300e-9), 60.0, {"hardness": None}
     ),
-    "metal, class (b)": Kind(CONE, mdr.Medium(70e9, 8e3), (-20e-9, 600e-9, 400e-9), 60.0, {}),
+    "metal, class (b)": Kind(CONE, mdr.Medium(70e9, q_c=8e3), (-20e-9, 600e-9, 400e-9), 60.0, {}),
 }
 #: Families and the sizes of the deviation: see `curve`.
 FAMILIES = {

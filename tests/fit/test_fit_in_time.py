@@ -69,7 +69,7 @@ class TestInverse:
 
     def test_yielding(self):
         profile, medium = mdr.Cone.from_half_angle(65.0), mdr.Medium.from_critical_depth(E, 2e-7)
-        medium = mdr.Medium(E, medium.q_c, ETA)
+        medium = mdr.Medium(E, q_c=medium.q_c, eta=ETA)
         z, force = made(profile, medium, PATHS["hold"])
         fit = mdr.fit_indentation(profile, z, force, time=TIME, **FREE)
         values = fit.medium.E_star, fit.medium.q_c, fit.medium.eta, fit.drag
@@ -146,7 +146,7 @@ class TestRealCurves:
 class TestSamples:
     PROFILE = mdr.Cone(0.3)
     DEPTH = np.append(np.linspace(-5e-9, 60e-9, 100), np.linspace(60e-9, 35e-9, 80))
-    MEDIUM = mdr.Medium(10e9, 127.3)
+    MEDIUM = mdr.Medium(10e9, q_c=127.3)
 
     def noisy(self, rows=1, seed=0):
         force = mdr.indent(self.PROFILE, self.MEDIUM, self.DEPTH).force
@@ -264,7 +264,7 @@ class TestYieldAndViscosity:
     DEPTH = np.interp(TIME, [0, 10, 20], 200e-9 * np.array([-0.5, 1, -0.5]))
 
     def force(self, tau):
-        medium = mdr.Medium(1e9, self.MEDIUM.q_c, tau * 1e9 / 4)
+        medium = mdr.Medium(1e9, q_c=self.MEDIUM.q_c, eta=tau * 1e9 / 4)
         return mdr.indent_in_time(self.CONE, medium, self.DEPTH, self.TIME, tolerance=1e-6).force
 
     @pytest.mark.parametrize("tau", [0.8, 1.2, 2.0, 4.0])

@@ -12,7 +12,7 @@ from .test_creep import record, triangle
 TIP, E, DEEP = mdr.Cone.berkovich(), 70e9, 400e-9
 MEDIA = {
     "class (a)": mdr.Medium(E, hardness=9e9),
-    "class (b)": mdr.Medium(E, 2e3),
+    "class (b)": mdr.Medium(E, q_c=2e3),
     "class (c)": mdr.Medium(E, f_c=1e-3),
 }
 
@@ -63,6 +63,28 @@ def test_without_the_beginning_of_the_loading_there_is_no_work_of_it():
         result = mdr.oliver_pharr(TIP, depth[part], force[part])
         assert result.elastic_work_ratio is None
         assert result.hardness > 0
+
+
+@pytest.mark.parametrize("cycles", [False, True])
+@pytest.mark.parametrize("timed", [False, True])
+def test_an_unloading_that_has_hardly_begun_gives_a_modulus_and_no_works(cycles, timed):
+    """It ends at 95 % of the force. The power law of an elastic cone is exact, so that E* is."""
+    depth, force = pressed(TIP, mdr.Medium(E), back=np.sqrt(0.95) * DEEP)
+    time = 0.1 * np.arange(depth.size) if timed else None
+    result = mdr.oliver_pharr(TIP, depth, force, time=time, cycles=cycles, epsilon=2 - 4 / np.pi)
+    assert result.E_star == approx(E, rel=1e-9)
+    assert np.all(np.isnan([result.elastic_work_ratio, result.indentation_creep, result.martens_hardness]))
+    (remark,) = (each for each in result.remarks if each.kind == "missing")
+    assert "95 % of the largest force" in remark
+    assert "nan" not in repr(result)
+
+
+@pytest.mark.parametrize(("end", "said"), [(0.12, True), (0.005, False)])
+def test_a_work_below_the_last_force_is_said_to_be_extrapolated(end, said):
+    depth, force = pressed(TIP, mdr.Medium(E), back=np.sqrt(end) * DEEP)
+    result = mdr.oliver_pharr(TIP, depth, force)
+    assert result.elastic_work_ratio == approx(1.0, abs=2e-5)
+    assert any(f"ends at {100 * end:g} % of the largest force" in each for each in result.remarks) == said
 
 
 def test_air_and_holds_after_the_unloading_are_no_part_of_the_works():

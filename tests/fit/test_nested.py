@@ -15,7 +15,7 @@ BALL, GEL = mdr.Paraboloid(1e-5), mdr.Medium(1e4)
 TIME = np.linspace(0.0, 2.0, 600)
 #: Approach and retract with a baseline of twice the depth.
 DEPTH = np.interp(TIME, [0, 1, 2], [-2e-6, 1e-6, -2e-6])
-CONE, METAL = mdr.Cone(0.358), mdr.Medium(70e9, 8e3)
+CONE, METAL = mdr.Cone(0.358), mdr.Medium(70e9, q_c=8e3)
 
 
 def elastic(depth=DEPTH, extra=0.0, drift=0.0, time=TIME, **parameters):
@@ -136,12 +136,12 @@ class TestYielding:
     def test_a_hold_is_seen_in_noise(self, noise):
         """In 20 s at the largest load, with the noise of the force and none of the depth."""
         depth = 1e-9 * np.interp(self.TIME, [0, 5, 85, 105, 140], [-20, 0, 300, 300, 250])
-        fit = self.fit(depth, 1e-10, noise, mdr.Medium(70e9, 2e3))
+        fit = self.fit(depth, 1e-10, noise, mdr.Medium(70e9, q_c=2e3))
         (remark,) = [remark for remark in fit.remarks if remark.kind == "rest"]
         rate = float(re.search(r"depth changes by (\S+) pm/s", remark)[1])
         assert rate == approx(100, rel=0.05)
         # A ramp is none, whatever the noise.
-        ramp = self.fit(self.RAMP, 1e-10, noise, mdr.Medium(70e9, 2e3))
+        ramp = self.fit(self.RAMP, 1e-10, noise, mdr.Medium(70e9, q_c=2e3))
         assert "rest" not in {remark.kind for remark in ramp.remarks}
 
 
@@ -181,7 +181,7 @@ class TestData:
     def test_columns_of_a_yielding_cone_pressed_only(self, baseline, noise):
         """Its force is nearly linear in the depth: by the loading alone E* is not determined."""
         depth = np.linspace(-20e-9, 600e-9, 400)
-        force = mdr.indent(CONE, mdr.Medium(70e9, 2e3), depth).force
+        force = mdr.indent(CONE, mdr.Medium(70e9, q_c=2e3), depth).force
         force = force + noise * force.max() * np.random.default_rng(3).normal(size=force.size)
         swapped = mdr.fit_indentation(CONE, force, depth, baseline=baseline)
         assert "depth and force are swapped" in swapped.remarks[0]

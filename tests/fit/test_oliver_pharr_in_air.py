@@ -14,7 +14,7 @@ TIP = mdr.Cone.berkovich()
 MEDIA = {
     "elastic": mdr.Medium(70e9),
     "glass, class (a)": mdr.Medium(70e9, hardness=9e9),
-    "metal, class (b)": mdr.Medium(70e9, 2e3),
+    "metal, class (b)": mdr.Medium(70e9, q_c=2e3),
 }
 LOADED = np.append(np.linspace(0, 400e-9, 300), np.linspace(400e-9, 150e-9, 200))
 

@@ -10,7 +10,7 @@ TIPS = (mdr.Paraboloid(1e-6), mdr.Cone(0.3))
 
 
 def record(tip, noise=0.004):
-    force = mdr.indent(tip, mdr.Medium(10e9, 100.0), DEPTH).force
+    force = mdr.indent(tip, mdr.Medium(10e9, q_c=100.0), DEPTH).force
     return force + noise * force.max() * np.random.default_rng(0).normal(size=force.size)
 
 
