@@ -6,9 +6,19 @@ from math import isfinite
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from .changes import equivalent, put
 from .courses import LAST_PROGRESS
 from .quantities import CHOICES, QUANTITIES
-from .state import LISTS, OF_EXTRAS, OPENING, State, checked, preset_state, used
+from .state import (
+    LISTS,
+    OF_EXTRAS,
+    OPENING,
+    State,
+    checked,
+    preset_state,
+    used,
+    used_by,
+)
 from .tip import MAX_SAMPLES
 
 #: Most characters of a link and of a text in it.
@@ -23,15 +33,26 @@ _APPENDED = re.compile(
 
 def write(state: State) -> str:
     """State as a query, without the theme, which is of a browser. Raises ValueError if it is too long."""
-    start = preset_state(state.preset).replace(preset=OPENING)
+    start, sizes = preset_state(state.preset).replace(preset=OPENING), _sizes(state)
     names = dict.fromkeys(["preset", *CHOICES, *used(state), *OF_EXTRAS, "tiles", "at"])
-    given = {name: _text(state[name]) for name in names if _known(name) and state[name] != start[name]}
+    given = {
+        name: _text(state[name])
+        for name in names
+        if _known(name) and (name in sizes or state[name] != start[name])
+    }
     if state.shape == "sampled":
         given["samples"] = " ".join(f"{r},{z}" for r, z in zip(*state.samples, strict=True))
     query = urlencode(given, safe=",*")
     if len(query) > MAX_LENGTH:
         raise ValueError("there are too many samples in this scene for a link")
     return query
+
+
+def _sizes(state: State) -> set[str]:
+    """Numbers of a drive other than the preset's that its links need: they say how large the scene is."""
+    if state.drive == preset_state(state.preset).drive:
+        return set()
+    return {"mass", "max_depth", "max_force"} & {*used_by(state, "drive")}
 
 
 def _text(value: Any) -> str:
@@ -80,6 +101,12 @@ def read(query: str) -> State:
     needed = [state[name] for name in used(state)] + [state.samples] * (state.shape == "sampled")
     if any(value in (None, ()) for value in needed):
         raise ValueError("this link has a shape without its numbers")
+    if _sizes(state) - values.keys():
+        # As the button of this drive sets them: the depth stays.
+        before = state.replace(drive=preset_state(state.preset).drive)
+        for name, number in equivalent(before, state.drive).items():
+            if name not in values:
+                state = put(state, name, number)
     return state
 
 

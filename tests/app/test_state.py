@@ -118,6 +118,28 @@ GONE = {
 }  # fmt: skip
 
 
+@pytest.mark.parametrize("drive", ["depth", "force", "impact", "oblique"])
+@pytest.mark.parametrize("key", PRESETS)
+def test_a_link_without_the_size_of_its_drive_has_that_of_the_button(key, drive):
+    """Mass, force or depth; a link that gives it keeps it, be it the one that a state has at first."""
+    chosen = changes.choose(preset_state(key), "drive", drive)
+    read = link.read(f"preset={key}&drive={drive}")
+    if drive in ("depth", "force") or "mass" not in PRESETS[key].values:
+        assert [read[name] for name in used(read)] == [chosen[name] for name in used(chosen)]
+    else:
+        assert read.mass == preset_state(key).mass
+    of_default = chosen.replace(mass=1.0, max_force=1.0)
+    again = link.read(link.write(of_default))
+    assert [again[name] for name in used(again)] == [of_default[name] for name in used(again)]
+
+
+def test_a_body_of_a_link_that_names_the_drive_alone_is_seen():
+    """One of 1 kg went 42 mm into gold under the nanocone, and the plots were empty."""
+    states = view_of(link.read("drive=impact")).course.states
+    assert states.depth.max() < 1e-7
+    assert states.force.max() > 0
+
+
 @pytest.mark.parametrize("query", GONE)
 def test_names_that_are_gone_are_left_out_of_a_link_with_one_line(query, monkeypatch):
     names, left = GONE[query]
