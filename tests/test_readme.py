@@ -40,6 +40,36 @@ DRIVES = {
 }
 
 
+def test_the_restitution_on_a_plate_is_the_exponential_in_the_range_that_is_said():
+    """exp(−1.72 λ) against impacts of paraboloids, and the ball on the laminate of `Structure`."""
+    laminate = mdr.Structure.laminate(D11=293.0, D12=87.9, D22=293.0, D66=102.55, mass_per_area=6.4)
+    hit = mdr.impact(mdr.Sphere(5e-3), mdr.Medium(10e9), 4.1e-3, 5.0, structure=laminate)
+    assert f"returns with {hit.restitution:.2f} of its speed" in README
+    lam, mass, speed, E, R = np.append(np.linspace(0.01, 1, 100), 2.0), 1e-3, 1.0, 1e9, 1e-2
+    k = 4 / 3 * E * np.sqrt(R)
+    plates = mdr.Structure(impedance=mass**0.6 * (k**2 * speed) ** 0.2 / lam)
+    e = mdr.impact(mdr.Paraboloid(R), mdr.Medium(E), mass, speed, structure=plates).restitution
+    *within, beyond = np.exp(-1.72 * lam) / e - 1
+    assert f"exp(−1.72 λ), within {100 * max(map(abs, within)):.1f} % up to λ = 1" in README
+    assert f"{100 * beyond:.0f} % too large" in README
+
+
+def test_a_fit_of_a_layer_is_too_stiff_by_what_is_said():
+    """Force on a bonded incompressible layer by Dimitriadis et al. (Biophys. J. 82, 2002, 2798)."""
+    h, R, E = 1e-6, 2.5e-6, 1e4
+    ratios = []
+    for held in ({}, {"contact_point": 0.0}):
+        for share in (0.05, 0.3):
+            depth = np.linspace(0, share * h, 200)
+            chi = np.sqrt(R * depth) / h
+            series = 1 + 1.133 * chi + 1.283 * chi**2 + 0.769 * chi**3 + 0.0975 * chi**4
+            force = 4 / 3 * E * np.sqrt(R) * depth**1.5 * series
+            fit = mdr.fit_indentation(mdr.Paraboloid(R), depth, force, q_c=np.inf, **held)
+            ratios.append(f"{fit.medium.E_star / E:.3g}")
+    (text,) = re.findall(r"With a ball of R = 2\.5 h[^-]*", README)
+    assert re.findall(r"\d\.\d\d", text) == ratios
+
+
 def test_the_table_has_all_drives():
     assert set(TABLE) == {*DRIVES, "fit_indentation"}
     assert {len(row) for row in TABLE.values()} == {len(COLUMNS) + 1}
