@@ -208,7 +208,7 @@ def refuse_beside_adhesion(medium):
 
     All entries of an ensemble are solved by one method, and that of adhesion has none of these.
     """
-    sticks = np.broadcast_to(np.asarray(medium.work_of_adhesion) > 0, medium.shape)
+    sticks = np.asarray(medium.work_of_adhesion) > 0
     if not np.any(sticks):
         return
     if isinstance(medium.hardness, HardnessLaw):
@@ -221,7 +221,7 @@ def refuse_beside_adhesion(medium):
         ("hardness", medium.hardness, "Pa"),
         ("yield constant f_c", medium.f_c, "N"),
     ):
-        value = np.broadcast_to(value, medium.shape)
+        value, sticks = (np.broadcast_to(each, medium.shape) for each in (value, sticks))
         bound, advice = "is not modelled with adhesion", "set it or work_of_adhesion to 0"
         _check.refuse(quantity, value, (value > 0) & sticks, bound, unit=unit, advice=advice)
         bound, advice = "is not solved together with entries that have adhesion", "solve these apart"

@@ -354,7 +354,7 @@ def test_a_rim_that_jumps_from_facet_to_facet_names_the_way_out():
     [
         (lambda: mdr.Medium(1e9, work_of_adhesion=-1.0), "work of adhesion .*not negative"),
         (lambda: mdr.Medium(1e9, work_of_adhesion=math.nan), "work of adhesion"),
-        (lambda: mdr.Medium(1e9, eta=1.0, work_of_adhesion=1.0), "viscous"),
+        (lambda: mdr.Medium(1e9, eta=1.0, work_of_adhesion=1.0), "viscosity"),
         (lambda: mdr.indent(mdr.PowerLaw(1.0, 0.5), ELASTIC, 1e-9), "spreads without limit"),
         (lambda: mdr.indent_in_time(mdr.Cone(0.2), ELASTIC, [0, 1e-9], [0, 1]), "path in time"),
         (lambda: mdr.chain_impact(mdr.Cone(0.2), ELASTIC, 1e-12, 1.0), "chain"),
