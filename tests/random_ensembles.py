@@ -24,6 +24,8 @@ APART = {
 DIMENSIONS = ("row", "column")
 #: Depths of a path over the largest one before the last: loading, unloading, reloading.
 PATH = np.array([0.0, 0.4, 1.0, 0.98, 0.7, 1.1])
+#: Largest error of a stiffness, which has g′: of a `Smooth` tip that is the derivative of an interpolation.
+STIFFNESS = 1e-10
 #: Largest errors of a state, of a dry impact, and of an impact in time, on a plate or a viscous medium, and
 #: of any contact time. Two calls may deviate by twice as much.
 STATE, DRY, IN_TIME = 1e-12, 1e-10, 1e-9
@@ -220,7 +222,8 @@ def _misses(result, expected, bound):
         if miss == 0:
             allowed = 1.0
         elif errors is None:
-            allowed = (2 * IN_TIME if name == "contact_time" else bound) * _size(name, expected)
+            own = {"contact_time": 2 * IN_TIME, "stiffness": 2 * STIFFNESS}
+            allowed = own.get(name, bound) * _size(name, expected)
         else:
             allowed = getattr(errors, name) * np.abs(other) if other else CHAIN
         misses[name] = float(miss / allowed)
