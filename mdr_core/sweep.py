@@ -311,6 +311,8 @@ def _in_blocks(solve, shape, values, own, names, refused):
                 except _check.InvalidEntries as error:
                     bad = np.broadcast_to(error.bad, valid.shape)
                     refused(error, np.unravel_index(valid[bad], size))
+                # Some of the quantities may have been written.
+                flat[:, valid[bad]] = np.nan
                 valid, part = valid[~bad], _some(part, ~bad)
     return tuple(results) if len(names) > 1 else results[0]
 

@@ -192,12 +192,12 @@ def _values(profile, x):
             return np.full(1, np.nan), np.full(1, np.nan), np.ones(1, bool)
         # It ends somewhere: an interpolation, say, fails beyond its table.
         each = [_values(profile, x[i : i + 1]) for i in range(x.size)]
-        _check_pair(profile, x, ~np.concatenate([fault for *_, fault in each]))
+        _check_for_arrays(profile, x, ~np.concatenate([fault for *_, fault in each]))
         return tuple(np.concatenate(values) for values in zip(*each, strict=True))
     return reduced, slope, ~np.isfinite(reduced) | np.isnan(slope) | ~np.isfinite(height)
 
 
-def _check_pair(profile, x, sound):
+def _check_for_arrays(profile, x, sound):
     """Refuses a shape whose functions fail for two radii (m), though they do not for each alone."""
     if np.any(sound):
         pair = x[[np.argmax(sound)] * 2]
