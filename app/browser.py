@@ -4,7 +4,7 @@ Private ends of Panel and Pyodide are here alone, with what they gain.
 """
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from functools import partial
 from typing import Any
 
@@ -53,6 +53,9 @@ class Browser(Sliced):
 
     def soon(self, act: Callable[[], None]) -> None:
         self.later(act, 0)
+
+    def run(self, act: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        pn.state.execute(act)
 
     def search(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
         # Not within the press that asks for it.

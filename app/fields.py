@@ -9,16 +9,16 @@ from markupsafe import Markup
 from mdr_core.show.units import UNITS, Unit, fitting, written
 
 from . import changes
+from .common.folders import Files
+from .common.process import Here, Refused, Replaced, Worker, queue_text
+from .common.units import entry, read
+from .common.upload import Uploaded, in_line
 from .extra import EXTRAS
-from .fit.refusals import Message, refusal
-from .fit.tips import Tips
 from .parts import Part, Parts, button, text, upload
 from .plot import View
 from .quantities import QUANTITIES, Quantity
 from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, folded, regions, used_by
-from .tip import Uploaded, in_line
 from .ui import LAYOUT, as_html, linked, marked, symbol
-from .units import entry, read
 
 #: Option of the list of shapes that asks for a file.
 _FILE = "file"
@@ -127,7 +127,8 @@ class Form:
         self._altered: set[str] = set()
         # Why the last file of a tip was refused, or that it is being read.
         self._tip_refused = self._tip_busy = ""
-        self._tips: Tips | None = None
+        self._files, self._worker = Files(), Worker() if page.host.processes else Here()
+        page.host.at_end(self._end_reading)
         self.view = Parts("form", stylesheets=LAYOUT)
 
     def show(self, view: View) -> None:
@@ -200,17 +201,36 @@ class Form:
         try:
             data = file.read()
         except ValueError as error:
-            self._have_tip("refused", Message(*refusal(error)))
+            self._tip_refused = str(error)
             return
-        self._tips = self._tips or Tips(self._page.host)
-        self._tips.read(in_line(file.name), data, self._have_tip)
+        self._page.host.run(partial(self._read_tip, in_line(file.name), data))
 
-    def _have_tip(self, kind: str, answer: Any) -> None:
-        self._tip_refused = answer.text if kind == "refused" else ""
-        self._tip_busy = answer if kind == "busy" else ""
-        if kind == "done":
-            self._page.apply(lambda state: changes.take_tip(state, *answer), self._refuse_tip)
+    async def _read_tip(self, name: str, data: bytes) -> None:
+        """Read a tip, in a process that ends with the answer."""
+        self._show_busy(f"Reading {name}")
+        try:
+            path = self._files.keep(data)
+            samples, note = await self._worker.run(
+                "common.tip.read", path, name, waits=lambda before: self._show_busy(queue_text(before))
+            )
+        except Replaced:
+            return
+        except Refused as error:
+            self._tip_refused = error.text
+        else:
+            self._page.apply(lambda state: changes.take_tip(state, samples, note), self._refuse_tip)
+        self._tip_busy = ""
+        self._end_reading()
         self._page.refresh()
+
+    def _show_busy(self, text: str) -> None:
+        self._tip_refused, self._tip_busy = "", f"{text} …"
+        self._page.refresh()
+
+    def _end_reading(self) -> None:
+        """End the process, and remove the file."""
+        self._worker.stop()
+        self._files.clear()
 
     def _refuse_tip(self, text: str) -> None:
         self._tip_refused = text

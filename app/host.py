@@ -3,7 +3,8 @@
 At once here; in a server by server.py; in a browser, without threads and processes, by browser.py.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Coroutine, Iterator
+from contextlib import suppress
 from functools import partial
 from time import perf_counter
 from typing import Any
@@ -50,6 +51,11 @@ class Host:
     def soon(self, act: Callable[[], None]) -> None:
         """Do something where the page may be changed, from whichever thread."""
         act()
+
+    def run(self, act: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        """Do something that may wait for a process; without processes nothing waits."""
+        with suppress(StopIteration):
+            act().send(None)
 
     def search(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
         """Take the steps of a search beside the page, and give what is found to `done` if it is wanted."""

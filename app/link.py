@@ -7,10 +7,10 @@ from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
 from .changes import equivalent, put
+from .common.upload import MAX_SAMPLES
 from .courses import LAST_PROGRESS
 from .quantities import CHOICES, QUANTITIES
 from .state import LISTS, OF_EXTRAS, OPENING, State, checked, preset_state, used, used_by
-from .tip import MAX_SAMPLES
 
 #: Most characters of a link and of a text in it.
 MAX_LENGTH, _MAX_TEXT = 8000, 300

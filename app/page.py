@@ -14,6 +14,7 @@ from panel.io.location import Location
 
 from . import changes, link
 from .board import Board
+from .common.errors import in_words
 from .drives import follow
 from .extra import EXTRAS
 from .fields import Field
@@ -22,7 +23,6 @@ from .host import Host
 from .parts import Part, choice
 from .player import frames_in_steps
 from .plot import View
-from .quantities import in_words
 from .scales import Scales
 from .server import host_of
 from .state import VIEW, State, as_shown, preset_state

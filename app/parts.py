@@ -13,9 +13,9 @@ import panel as pn
 import param
 
 from .changes import option, options
+from .common.upload import TIP_BYTES, Uploaded
 from .quantities import CHOICES
 from .state import PRESETS, State, altered
-from .tip import MAX_BYTES, Uploaded
 from .ui import JS, WIDE, as_html, linked, show
 
 #: Letters of all options of a choice below which it is shown as radio buttons, else as a list.
@@ -54,7 +54,7 @@ def upload(
     label: str, accept: str, take: Callable[[Uploaded], None], refused: str = "", busy: str = ""
 ) -> Part:
     """A field for a file, with why the last one was refused, or what is done with it."""
-    look = {"label": as_html(label), "accept": accept, "most": MAX_BYTES, "refused": refused, "busy": busy}
+    look = {"label": as_html(label), "accept": accept, "most": TIP_BYTES, "refused": refused, "busy": busy}
     return Part("file", label, look, lambda message: take(Uploaded(**message)))
 
 

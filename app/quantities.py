@@ -6,9 +6,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from mdr_core._errors import InvalidArgument
 from mdr_core.show.quantities import QUANTITIES as RESULTS
-from mdr_core.show.units import KINDS, written
 
 from .registry import Registry
 
@@ -144,17 +142,3 @@ _LOWERED = str.maketrans("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆�
 def lowered(text):
     """Text with indices, as in v_0, as Unicode subscripts where they exist."""
     return re.sub("_([a-z0-9]+)", lambda index: index[1].translate(_LOWERED), text)
-
-
-def in_words(error: ValueError) -> str:
-    """Message of an error of the core: of a refused number its symbol, value with unit, bound and advice.
-
-    All other messages are as they stand, without names of Python where they have a text.
-    """
-    if not isinstance(error, InvalidArgument) or not isinstance(error.value, int | float):
-        return getattr(error, "text", str(error))
-    known = QUANTITIES.get(error.argument)
-    name = f"{lowered(known.symbol)}, {known.label}," if known else error.quantity
-    value = written(float(error.value), KINDS.get(error.unit, "number"))
-    advice = f"; {error.advice}" if error.advice and "SI units" not in error.advice else ""
-    return f"{name} = {value} {error.bound}{advice}"

@@ -1,6 +1,6 @@
 """A page in a server: searches in threads, changes of the page in its session."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import Any
@@ -37,6 +37,9 @@ class Server(Sliced):
 
     def soon(self, act: Callable[[], None]) -> None:
         self._document.add_next_tick_callback(act)
+
+    def run(self, act: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        pn.state.execute(act)
 
     def search(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
         _THREADS.submit(Host.search, self, steps, wanted, done)

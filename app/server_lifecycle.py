@@ -3,7 +3,7 @@
 import gc
 
 from . import extras, page, private
-from .fit import folders
+from .common import folders
 from .fit import page as measurement
 
 #: Loaded here, so that the first visitor does not wait, and that the server does not start if one fails.

@@ -11,9 +11,9 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.show.units import fitting, written
 
+from .common.units import entry, read
 from .quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
 from .registry import Registry
-from .units import entry, read
 
 _DATA = read_data(ASSETS / "presets.json")
 #: The preset that the page opens with.

@@ -13,18 +13,19 @@ from mdr_core.show.quantities import QUANTITIES as RESULTS
 from mdr_core.show.units import KINDS, digits
 
 from ..changes import option
+from ..common.errors import in_words
+from ..common.units import in_full
 from ..extra import Extra
 from ..fields import slider_range
 from ..host import last
 from ..parts import Part, button
 from ..plot import OF_AXIS, Plot, View, axis
-from ..quantities import CHOICES, QUANTITIES, Option, in_words, lowered, quantity, read_data
+from ..quantities import CHOICES, QUANTITIES, Option, lowered, quantity, read_data
 from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
 from ..state import PRESETS, State, used, used_by
 from ..sweeps import CLASSES, FAST, SOLVERS, Sweep
 from ..ui import marked
-from ..units import in_full
 
 _DATA = read_data(Path(__file__).with_suffix(".json"))
 _RESULTS = _DATA["results"]

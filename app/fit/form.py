@@ -1,313 +1,302 @@
-"""The left column: the file and how it is read, the tip, the sample, and the parameters of the fit."""
+"""The left column: file, tip, sample and parameters. Its widgets are the state of the page."""
 
-from collections.abc import Callable
-from pathlib import Path
+from functools import partial
+from math import inf
 from typing import Any
 
 import panel as pn
+from markupsafe import Markup
 
 from mdr_core.reading import SIZES
+from mdr_core.show.units import written
 
-from ..tip import MAX_BYTES as TIP_BYTES
-from ..ui import WIDE, html, own_html, show
-from .dropper import MAX_BYTES, Dropper
-from .preview import drawing
-from .refusals import NOTHING, Message
-from .said import Said
-from .setting import CORRECTIONS, IN_TIME, MEDIA, NUMBERS, TIPS, Setting, parameter
-from .told import heads_of, of_parts
-from .typed import GROUP, Typed, field, heading
+from ..common.upload import CURVE_BYTES, TIP_BYTES, Uploads
+from ..ui import WIDE, html, show
+from . import texts
+from .analysis import modulus_of_sample
+from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, IN_TIME, MEDIA, MODULI, NUMBERS, TIPS
+from .widgets import FileField, UnitInput, button, fold, select, show_errors
 
-_FOCUS = Path(__file__).with_name("focus.js").read_text(encoding="utf-8")
-#: What holds for every number, which no remark repeats.
-_HELP = own_html(Path(__file__).with_name("help.html"))
-#: The option for no column, and for one that is still to be chosen.
-_NONE, _ASK = "none", "choose"
-#: The options for one curve of a table, and for curves or parts of one side by side.
-_ONE, _PAIRS, _SEGMENTS = "whole", "pairs", "segments"
+_PART, _GROUP = Markup("<h2>{}</h2>"), Markup('<h3 class="group">{}</h3>')
+_FILE = Markup("<b>{}</b>{}: {} samples")
+_LINKED = Markup("This link was made with <b>{}</b>: drop that file here.")
+_TOGETHER = Markup("{}. Of {} files that were dropped together this one was taken: drop one at a time.")
+#: Shown in empty fields of corrections.
+_NO_CORRECTION = {"drift": "0 nm/s", "frame": "0 nm/mN", "depth_noise": "0 nm"}
+#: What parts the curves of a table, besides the values of a column.
+_BY = {
+    "one curve": "whole",
+    "curves parted by empty lines or words": "gaps",
+    "curves where the depth starts anew": "restart",
+}
+_CHOOSE = {"choose": ""}
 
 
 class Form:
-    """The left column of a page, shown for a setting; what is set goes to `change(make)` of the page."""
+    """The left column of a page."""
 
     def __init__(self, page: Any):
-        self._page = page
-        self._quiet = False
-        # Columns of several parts, and what their options mean to the reader.
-        self._layouts: list[dict[str, Any]] = []
-        self._several: dict[str, Any] = {}
-        self._file()
-        self._reader()
-        self._tip()
-        self._medium()
-        self._moduli()
-        parts = [
-            heading("1 · Curve"), self.drop, self.samples, self.about, self.refused.view, self.reader,
-            heading("2 · Tip"), self.tip, self.tip_file, self.of_tip, self.tip_refused.view,
-            self.numbers["radius"].view, self.numbers["half_angle"].view,
-            heading("3 · Sample"), self.medium, self.more, self.parameters, self.help, self._to,
-        ]  # fmt: skip
-        self.view = pn.Column(*parts, css_classes=["asked"], width=360, margin=0)
-
-    # The parts.
-
-    def _file(self) -> None:
-        label = f"Drop a file of depth and force here (up to {MAX_BYTES / 1e6:g} MB)"
-        self.drop = Dropper(self._page.take_file, self._page.worker.start, MAX_BYTES, label=label)
-        self.samples = pn.Row(css_classes=["tools"], **WIDE)
-        for label, name in (("Sample: fused silica", "silica"), ("Sample: gel by AFM", "gel")):
-            button = pn.widgets.Button(label=label, css_classes=["button"], margin=0)
-            button.on_click(lambda event, name=name: self._page.take_sample(name))
-            self.samples.append(button)
-        self.about, self.refused = html("", "note"), Said(self._page, alert=True)
-        # The name of the field to be led to, and how often one was.
-        self._to = pn.widgets.TextInput(visible=False)
-        self._to.jscallback(value=_FOCUS)
-        self._led = 0
-
-    def _reader(self) -> None:
-        """What a file lacks: spring constant, sensitivity, columns and their units."""
-        self.numbers = {
-            name: Typed(name, known, lambda value, name=name: self._put(name, value))
-            for name, known in NUMBERS.items()
-        }
-        select = pn.widgets.Select
-        self.columns = {role: field(select, f"to-{role}", label=f"Column of {role}") for role in SIZES}
-        self.units = {
-            role: field(select, f"to-unit-{role}", label=f"Unit of {role}", options=[_ASK, *sizes])
-            for role, sizes in SIZES.items()
-        }
-        for role in SIZES:
-            for widget in (self.columns[role], self.units[role]):
-                widget.param.watch(self._told, "value")
-        meanings = {"the depth of the tip": "depth", "the position of a piezo": "piezo"}
-        self.meaning = field(select, label="The depth is", options=meanings)
-        self.parts = field(select, "to-by", label="The table has", options={"one curve": _ONE})
-        for widget in (self.meaning, self.parts):
-            widget.param.watch(self._told, "value")
-        self.preview = html("", "note", visible=False)
-        self.confirm = pn.widgets.Button(label="Read", css_classes=["button"], margin=0, visible=False)
-        self.confirm.on_click(lambda event: self._confirmed())
-        depth, *others = [
-            pn.Row(self.columns[role], self.units[role], css_classes=["pair"], **WIDE) for role in SIZES
-        ]
-        parts = [self.preview, depth, self.meaning, *others, self.parts, self.confirm]
-        self._of_table = pn.Column(*parts, **WIDE)
-        self._of_cantilever = pn.Column(
-            self.numbers["spring_constant"].view, self.numbers["sensitivity"].view, **WIDE
-        )
-        self.reader = pn.Card(
-            self._of_table, self._of_cantilever, title="How the file is read", collapsed=True,
-            css_classes=["fold"], visible=False, **WIDE,
+        uploads = Uploads()
+        self.drop = FileField(
+            uploads, CURVE_BYTES, partial(page.do, page.take_file), page.refuse,
+            label=f"Drop a file of depth and force here (up to {CURVE_BYTES / 1e6:g} MB)",
         )  # fmt: skip
+        self.tip_file = FileField(
+            uploads, TIP_BYTES, partial(page.do, page.take_tip), page.refuse_tip,
+            label="Drop the file of the tip, radii and heights, here", visible=False,
+        )  # fmt: skip
+        self.about, self.errors, self.tip_about = html("", "note"), pn.Column(**WIDE), html("", "note")
+        self.columns = Columns(page)
+        self.numbers = {
+            name: UnitInput(known, css_classes=["choice", "typed", f"to-{name}"])
+            for name, known in (NUMBERS | FITTED).items()
+        }
+        tips = {"choose the tip": ""} | {each.label: name for name, each in TIPS.items()}
+        media = {"choose the kind of sample": ""} | {each.label: name for name, each in MEDIA.items()}
+        #: Radii and heights (m) of a measured tip.
+        self.tip_samples: Any = None
+        self.tip, self.medium = select("Tip", tips, "to-profile"), select("Sample", media)
+        for name, widget in self.numbers.items():
+            again = page.read if name in CANTILEVER else page.fit
+            widget.param.watch(page.when_changed(again), "si")
+        self.tip.param.watch(page.when_changed(page.fit), "value")
+        self.medium.param.watch(page.when_changed(page.medium_chosen), "value")
+        self.view = self._column(page)
 
-    def _tip(self) -> None:
-        options = {"choose the tip": ""} | {tip.label: name for name, tip in TIPS.items()}
-        self.tip = field(pn.widgets.Select, "to-profile", label="Tip", options=options)
-        self.tip.param.watch(lambda event: self._change(lambda s: s.replace(tip=event.new)), "value")
-        label = "Drop the file of the tip, radii and heights, here"
-        self.tip_file = Dropper(self._page.take_tip, lambda: None, TIP_BYTES, label=label, visible=False)
-        self.of_tip, self.tip_refused = html("", "note"), Said(self._page, alert=True)
+    def _column(self, page: Any) -> Any:
+        """Return the widgets below each other."""
+        number = self.numbers
+        samples = pn.Row(css_classes=["tools"], **WIDE)
+        for name, each in EXAMPLES.items():
+            samples.append(button(each.button, partial(page.do, page.take_example, name)))
+        self.cantilever = pn.Column(*(number[name] for name in CANTILEVER), **WIDE)
+        reader = self.columns.view, show_errors(self.cantilever)
+        self.reader = fold("How the file is read", *reader, visible=False)
+        rows = (number[name] for name in (*FITTED, *CORRECTIONS))
+        group = html(_GROUP.format("Model: an empty parameter is fitted"), "title")
+        self.model = pn.Column(group, *rows, css_classes=["parameters"], visible=False, **WIDE)
+        moduli = show_errors(pn.Column(*(number[name] for name in MODULI), **WIDE))
+        parts = [
+            html(_PART.format("1 · Curve"), "title"), self.drop, samples, self.about, self.errors,
+            self.reader,
+            html(_PART.format("2 · Tip"), "title"), self.tip, self.tip_file, self.tip_about,
+            number["radius"], number["half_angle"],
+            html(_PART.format("3 · Sample"), "title"), self.medium,
+            fold("Young’s modulus of the sample", moduli), show_errors(self.model),
+            fold("What the number assumes", html(texts.HELP)),
+        ]  # fmt: skip
+        return show_errors(pn.Column(*parts, css_classes=["asked"], width=360, margin=0))
 
-    def _medium(self) -> None:
-        options = {"choose the kind of sample": ""} | {kind.label: name for name, kind in MEDIA.items()}
-        self.medium = field(pn.widgets.Select, label="Sample", options=options)
-        self.medium.param.watch(lambda event: self._page.choose_medium(event.new), "value")
-        self.free: dict[str, Any] = {}
-        self.held: dict[str, Typed] = {}
-        names = dict.fromkeys(name for kind in MEDIA.values() for name in kind.free)
-        self._rows: dict[str, Any] = {}
-        for name in (*names, "tilt", *CORRECTIONS):
-            typed = Typed(name, parameter(name), lambda value, name=name: self._page.hold(name, value))
-            self.held[name] = typed
-            free = pn.widgets.Checkbox(label="free", css_classes=["free"], margin=0, width=48)
-            free.param.watch(lambda event, name=name: self._page.free(name, event.new), "value")
-            if name not in CORRECTIONS:
-                self.free[name] = free
-                typed.row.insert(1, free)
-            self._rows[name] = typed.view
-        rows = heading("Model", GROUP), *self._rows.values()
-        self.parameters = pn.Column(*rows, css_classes=["parameters"], visible=False, **WIDE)
+    # What is chosen.
 
-    def _moduli(self) -> None:
-        names = ("poisson", "tip_modulus", "tip_poisson")
-        note = html(
-            "With ν the page gives Young’s modulus E of the sample; a tip without a modulus is rigid."
-        )
-        look = {"collapsed": True, "css_classes": ["fold"], **WIDE}
-        self.more = pn.Card(
-            note,
-            *(self.numbers[name].view for name in names),
-            title="Young’s modulus of the sample",
-            **look,
-        )
-        self.help = pn.Card(html(_HELP), title="What the number assumes", **look)
+    def value(self, name: str) -> float | None:
+        """Return a number (SI), None if its field is empty."""
+        return self.numbers[name].si
 
-    # What is set.
+    def given(self, *names: str) -> dict[str, float]:
+        """Return those of some numbers that are typed."""
+        return {name: value for name in names if (value := self.value(name)) is not None}
 
-    def _change(self, make: Callable[[Setting], Setting]) -> None:
-        if not self._quiet:
-            self._page.change(make)
+    def request(self, timed: bool, samples: tuple[int, ...]) -> dict[str, Any]:
+        """Return what `analysis.fit` is asked for. Raises ValueError for a tip that is none."""
+        medium, corrections = self.medium.value, self.corrections()
+        request = {"profile": self.profile(), "medium": medium, "arguments": self.arguments(timed)}
+        return request | {"corrections": corrections, "samples": samples}
 
-    def _put(self, name: str, value: float) -> None:
-        if name in ("spring_constant", "sensitivity"):
-            self._page.reread(**{name: value})
-        else:
-            self._change(lambda setting: setting.replace(**{name: value}))
+    def modulus(self, quoted: Any) -> tuple[float, float] | None:
+        """Return Young's modulus of the sample and its error (Pa), None without Poisson's ratio."""
+        poisson, *of_tip = map(self.value, MODULI)
+        if poisson is None or quoted.value is None:
+            return None
+        return modulus_of_sample(quoted.value, quoted.standard_error, poisson, *of_tip)
 
-    def _told(self, event: Any) -> None:
-        """Read a file that was read again, once its columns and units are told; a question is confirmed."""
-        if self._quiet:
-            return
-        if self._page.question is None:
-            self._confirmed()
-        else:
-            # What is drawn is what was suggested.
-            show(self.preview, visible=False)
+    def unusual_numbers(self) -> dict[str, float | None]:
+        """Return numbers that differ from the first ones of the kind of sample, None for an empty field."""
+        medium = self.medium.value
+        first = dict.fromkeys(MEDIA[medium].at_zero if medium else (), 0.0)
+        return {name: each.si for name, each in self.numbers.items() if each.si != first.get(name)}
 
-    def _confirmed(self) -> None:
-        """Read the file as the choosers say."""
-        given: dict[str, Any] = {}
-        for role in SIZES:
-            column, unit = self.columns[role].value, self.units[role].value
-            key = self.meaning.value if role == "depth" else role
-            if column == _NONE and role == "time":
-                given[key] = None
-            elif column not in (_NONE, _ASK) and unit != _ASK:
-                given[key] = (column, unit)
-        if not ({"depth", "piezo"} & given.keys() and "force" in given):
-            self.refused.show(Message("Choose the columns of depth and force, and their units"))
-            return
-        by = self._several.get(self.parts.value, self.parts.value)
-        layouts = self._layouts
-        if layouts and self.parts.value in (_PAIRS, _SEGMENTS):
-            self._page.reread(columns=of_parts(layouts, given), by=by)
-        else:
-            self._page.reread(columns=given, by=by)
+    def corrections(self) -> dict[str, float]:
+        """Return what is subtracted from the depth, as `analysis.samples` has it."""
+        return {name: value for name, value in self.given("drift", "frame").items() if value}
 
-    def focus(self, name: str) -> None:
-        """Lead to a field by its name, as "drag", or "unit-depth" for the unit of depth."""
-        show(self.reader, collapsed=False)
-        self._led += 1
-        show(self._to, value=f"to-{name} {self._led}")
+    def missing(self) -> str:
+        """Return what is still to be given before a fit, in words; nothing if that is all."""
+        if not self.tip.value:
+            return "the tip"
+        if self.tip.value == "measured" and self.tip_samples is None:
+            return "the file of the tip"
+        for name in TIPS[self.tip.value].numbers:
+            if self.value(name) is None:
+                return f"the {NUMBERS[name].label} {NUMBERS[name].symbol}"
+        return "" if self.medium.value else "the sample"
+
+    def profile(self) -> Any:
+        """Return the indenter. Raises ValueError for a tip that is none."""
+        known = TIPS[self.tip.value]
+        sizes = [self.value(name) for name in known.numbers]
+        return known.profile(*(self.tip_samples if self.tip.value == "measured" else sizes))
+
+    def parameters(self, timed: bool) -> list[str]:
+        """Return the names of the parameters of the kind of sample, with or without times."""
+        if not self.medium.value:
+            return []
+        medium = MEDIA[self.medium.value]
+        names = dict.fromkeys([*medium.fitted, *medium.at_zero])
+        return [name for name in names if timed or name not in IN_TIME]
+
+    def arguments(self, timed: bool) -> dict[str, Any]:
+        """Return arguments of `mdr_core.fit_indentation`: None for a parameter that is fitted."""
+        arguments: dict[str, Any] = {name: self.value(name) for name in self.parameters(timed)}
+        if not MEDIA[self.medium.value].letter:
+            return arguments | {"q_c": inf}
+        return arguments | self.given("depth_noise")
+
+    def set_medium(self, name: str) -> None:
+        """Choose a kind of sample: what it fits is empty, all else 0."""
+        self.medium.value = name
+        for each in FITTED if name else ():
+            self.numbers[each].si = 0.0 if each in MEDIA[name].at_zero else None
 
     # What is shown.
 
-    def show(self, setting: Setting) -> None:
-        """Show a setting, and what the page knows of the file."""
-        self._quiet = True
-        try:
-            self._show(setting)
-        finally:
-            self._quiet = False
-
-    def _show(self, setting: Setting) -> None:
-        page = self._page
-        show(self.about, object=page.about)
-        self.refused.show(page.refused)
-        show(self.tip, value=setting.tip)
-        show(self.tip_file, visible=setting.tip == "measured")
-        show(self.of_tip, object=page.of_tip, visible=setting.tip == "measured")
-        self.tip_refused.show(page.tip_refused if setting.tip == "measured" else NOTHING)
-        show(self.medium, value=setting.medium)
-        asked = TIPS[setting.tip].numbers if setting.tip else ()
-        for name, typed in self.numbers.items():
-            typed.show(getattr(setting, name))
-            show(typed.view, visible=name in asked or name not in ("radius", "half_angle"))
-        self._show_reader(setting)
-        self._show_parameters(setting)
-
-    def _show_reader(self, setting: Setting) -> None:
-        page = self._page
-        table = page.table
-        show(self.reader, visible=table is not None or bool(page.wants))
-        if page.wants:
-            show(self.reader, collapsed=False)
-        show(self._of_table, visible=table is not None and not page.is_afm)
-        show(
-            self._of_cantilever,
-            visible=page.is_afm
-            or bool(page.wants & {"spring_constant", "sensitivity"})
-            or table is not None,
-        )
-        if table is None:
-            return
-        question = page.question
-        known, by = self._suggested(setting)
-        self._layouts = known if isinstance(known, list) else []
-        known = dict(known[0] if isinstance(known, list) else known)
-        if "piezo" in known:
-            known["depth"] = known.pop("piezo")
-            show(self.meaning, value="piezo")
-        else:
-            show(self.meaning, value="depth")
-        heads = heads_of(table)
-        for role in SIZES:
-            column = known.get(role)
-            nothing = (
-                {"none, rows in order": _NONE} if role == "time" else {"choose": _ASK} if not column else {}
-            )
-            number, unit = column or (_NONE if role == "time" else _ASK, _ASK)
-            number = number if number in heads.values() else _ASK
-            show(self.columns[role], options=nothing | heads, value=number)
-            show(self.units[role], value=unit if unit in SIZES[role] else _ASK)
-        self._show_parts(table, by)
-        drawn = drawing(question.preview) if question is not None else ""
-        show(self.preview, object=drawn, visible=bool(drawn))
-        show(self.confirm, visible=question is not None)
-
-    def _suggested(self, setting: Setting) -> tuple[Any, Any]:
-        """Columns and what parts the curves, as they are suggested, told or read."""
-        question, curve = self._page.question, self._page.curve
-        if question is not None:
-            return question.suggestion.get("columns") or {}, question.suggestion.get("by")
-        if isinstance(setting.columns, list) or curve is None:
-            return setting.columns, setting.by
-        return curve.columns, setting.by
-
-    def _show_parts(self, table: Any, by: Any) -> None:
-        """What may part the curves of a table, with what is suggested or told."""
-        options: dict[str, Any] = {"one curve": _ONE}
-        self._several = {_ONE: None if by is None else "whole", _PAIRS: None}
-        if self._layouts:
-            options = {f"{len(self._layouts)} pairs of columns": _PAIRS}
-            if len(self._layouts) > 1:
-                options["loading and unloading side by side"] = _SEGMENTS
-            value = _SEGMENTS if by == "segments" else _PAIRS
-        else:
-            names = heads_of(table, table.words)
-            options |= {f"a curve for each value of {name}": str(k) for name, k in names.items()}
-            self._several |= {str(k): k for k in names.values()}
-            options["curves parted by empty lines or words"] = "gaps"
-            options["curves where the depth starts anew"] = "restart"
-            if by == "segments":
-                options["loading and unloading below each other"] = "segments"
-            if isinstance(by, list):
-                of = " and ".join(name for name, k in names.items() if k in by)
-                options[f"a curve for each value of {of}"] = value = ",".join(map(str, by))
-                self._several[value] = by
-            value = _ONE if by in (None, "whole") else value if isinstance(by, list) else str(by)
-        show(self.parts, options=options, value=value)
-
-    def _show_parameters(self, setting: Setting) -> None:
-        page = self._page
-        show(self.parameters, visible=bool(setting.medium))
-        if not setting.medium:
-            return
-        timed = page.curve is None or page.curve.time is not None
-        names = setting.parameters(timed)
-        corrections = [name for name in CORRECTIONS if timed or name not in IN_TIME]
-        if not setting.kind.letter:
-            corrections.remove("depth_noise")
-        for name, row in self._rows.items():
-            show(row, visible=name in names or name in corrections)
+    def show(self, page: Any) -> None:
+        """Show the fields that the curve, the tip and the kind of sample have."""
+        tip, medium, curve = self.tip.value, self.medium.value, page.curve
+        timed = curve is None or curve.time is not None
+        names = self.parameters(timed)
+        seen = dict.fromkeys(names, True) | {name: False for name in FITTED if name not in names}
+        seen |= {name: bool(tip) and name in TIPS[tip].numbers for name in ("radius", "half_angle")}
+        seen |= {"drift": timed, "depth_noise": bool(medium) and bool(MEDIA[medium].letter)}
+        for name, visible in seen.items():
+            show(self.numbers[name], visible=visible)
         for name in names:
-            free = name not in setting.held
-            show(self.free[name], value=free)
-            found = page.value_of(name) if free else ""
-            # A free parameter shows what was found.
-            self.held[name].show(
-                None if free else setting.held[name], disabled=free, placeholder=found or "free"
+            text = (
+                texts.value_of(page.found.fit, name)
+                if page.found and self.value(name) is None
+                else "fitted"
             )
-        for name in corrections:
-            self.held[name].show(page.correction(name), placeholder=self.held[name].zero)
+            show(self.numbers[name], placeholder=text)
+        noise = page.found.fit.depth_noise if page.found else 0.0
+        found = {"depth_noise": written(float(noise), "length", 2)} if noise else {}
+        for name, text in (_NO_CORRECTION | found).items():
+            show(self.numbers[name], placeholder=text)
+        show(self.model, visible=bool(medium))
+        show(self.tip_file, visible=tip == "measured")
+        show(self.tip_about, visible=tip == "measured")
+        self._show_reader(page)
+
+    def _show_reader(self, page: Any) -> None:
+        """Show how the file is read, opened if something is missing."""
+        is_table, wanted = page.table is not None, page.wanted
+        show(self.reader, visible=is_table or bool(wanted) or page.is_afm)
+        if wanted:
+            show(self.reader, collapsed=False)
+        show(self.columns.view, visible=is_table and not page.is_afm)
+        show(self.columns.confirm, visible=page.question is not None)
+
+    def show_about(self, page: Any) -> None:
+        """Show the name of the file, and what is known of it."""
+        about = Markup("")
+        if page.curve is not None:
+            of = f", curve {page.results.number.value} of {page.count}" if page.count > 1 else ""
+            about = _FILE.format(page.file, of, len(page.curve))
+        elif page.file and not page.path and not page.busy:
+            about = _LINKED.format(page.file)
+        if page.others:
+            about = _TOGETHER.format(about or page.file, page.others + 1)
+        show(self.about, object=about)
+
+
+class Columns:
+    """The choosers of a page for the table of its file."""
+
+    def __init__(self, page: Any):
+        roles = {role: f"to-{role}" for role in SIZES}
+        self.columns = {role: select(f"Column of {role}", _CHOOSE, each) for role, each in roles.items()}
+        self.units = {
+            role: select(
+                f"Unit of {role}", _CHOOSE | {unit: unit for unit in SIZES[role]}, f"to-unit-{role}"
+            )
+            for role in SIZES
+        }
+        meanings = {"the depth of the tip": "depth", "the position of a piezo": "piezo"}
+        self.meaning, self.by = select("The depth is", meanings), select("The table has", {}, "to-by")
+        self.confirm = button("Read", partial(page.do, page.read_as_chosen))
+        for each in (*self.columns.values(), *self.units.values(), self.meaning, self.by):
+            each.param.watch(page.when_changed(page.columns_changed), "value")
+        depth, *others = [
+            pn.Row(self.columns[role], self.units[role], css_classes=["pair"], **WIDE) for role in SIZES
+        ]
+        self.view = pn.Column(depth, self.meaning, *others, self.by, self.confirm, visible=False, **WIDE)
+        # Columns of each part of a table, and what parts the curves, as they are shown.
+        self._parts: list[dict[str, Any]] = []
+        self._by: Any = None
+
+    def show(self, table: Any, columns: Any, by: Any) -> None:
+        """Show the columns of a table as they are suggested, or as the file was read by them."""
+        self._parts, self._by = columns if isinstance(columns, list) else [], by
+        # Of several parts the first one is shown; the others have its units.
+        first = dict(columns[0] if self._parts else columns)
+        self.meaning.value = "piezo" if "piezo" in first else "depth"
+        first["depth"] = first.pop("piezo", first.get("depth"))
+        heads = column_labels(table)
+        for role in SIZES:
+            number, unit = first.get(role) or ("", "")
+            nothing = {"none, rows in order": ""} if role == "time" else _CHOOSE if number == "" else {}
+            self.columns[role].param.update(options=nothing | heads, value=number)
+            self.units[role].value = unit if unit in SIZES[role] else ""
+        options, value = self._ways_to_part(table, by)
+        self.by.param.update(options=options, value=value)
+
+    def _ways_to_part(self, table: Any, by: Any) -> tuple[dict[str, Any], Any]:
+        """Return what may part the curves, and which of it is shown."""
+        if self._parts:
+            options = {f"{len(self._parts)} pairs of columns": ""}
+            if len(self._parts) > 1:
+                options["loading and unloading side by side"] = "segments"
+            return options, by or ""
+        names = column_labels(table, table.words)
+        options = _BY | {f"a curve for each value of {name}": k for name, k in names.items()}
+        if by == "segments":
+            options["loading and unloading below each other"] = by
+        if isinstance(by, list):
+            several = " and ".join(name for name, k in names.items() if k in by)
+            options[f"a curve for each value of {several}"] = by
+        return options, "whole" if by is None else by
+
+    def options(self) -> dict[str, Any]:
+        """Return what is chosen, as `mdr_core.read_curves` has it. Raises ValueError if it is not all."""
+        chosen: dict[str, Any] = {}
+        for role in SIZES:
+            column, unit = self.columns[role].value, self.units[role].value
+            if column != "" and unit:
+                chosen[self.meaning.value if role == "depth" else role] = (column, unit)
+            elif role == "time" and column == "":
+                chosen[role] = None
+        if not ({"depth", "piezo"} & chosen.keys() and "force" in chosen):
+            raise ValueError("Choose the columns of depth and force, and their units")
+        by = self.by.value
+        is_suggested = by == "" or (by == "whole" and self._by is None)
+        columns = self._all_parts(chosen) if self._parts else chosen
+        return {"columns": columns} | ({} if is_suggested else {"by": by})
+
+    def _all_parts(self, chosen: dict[str, Any]) -> list[dict[str, Any]]:
+        """Return the columns of all parts: the first as it is chosen, the others with its units."""
+        place, parts = "piezo" if "piezo" in chosen else "depth", [chosen]
+        for part in self._parts[1:]:
+            own = part | {place: part.get("piezo") or part["depth"]}
+            parts.append(
+                {role: (own[role][0], chosen[role][1]) for role in chosen if chosen[role] and own.get(role)}
+            )
+        return parts
+
+
+def column_labels(table: Any, words: Any = ()) -> dict[str, int]:
+    """Return numbers of columns by their names, or by their first numbers; `words` are columns of words."""
+    firsts = {k: ", ".join(f"{x:.3g}" for x in values[:3]) for k, values in table.values.items()}
+    found = {f"{k + 1}: {head or firsts[k] + ' …'}": k for k, head in table.heads.items()}
+    for key in words:
+        number, _, head = key.partition(" ")
+        found[f"{number}: {head or 'words'}"] = int(number) - 1
+    return found

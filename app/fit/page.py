@@ -1,211 +1,398 @@
 """The page of one person for a measurement: a file in, the number to quote out."""
 
-from collections.abc import Callable
+import re
+from dataclasses import replace
 from functools import partial
-from io import StringIO
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import panel as pn
 from bokeh.events import ConnectionLost, DocumentReady
-from bokeh.models import ColumnDataSource, CustomJS
+from bokeh.models import CustomJS
 from markupsafe import Markup
 
 from mdr_core.numerics.remark import Remark
 
-from ..tip import in_line
-from ..ui import JS, WIDE, html, landmarks
-from . import words
-from .files import as_csv, as_json
-from .fits import Fits
+from ..common.errors import Refused
+from ..common.folders import Files
+from ..common.process import Here, Worker
+from ..common.upload import in_line
+from ..ui import JS, WIDE, html, landmarks, show
+from . import analysis, query
+from .actions import Actions
+from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, MEDIA, NUMBERS
 from .form import Form
-from .refusals import NOTHING
 from .results import Results
-from .samples import EXAMPLES, example_named
-from .setting import MEDIA, Setting
-from .tips import Tips
-from .worker import Here, Worker
 
+_BOTH = {"sizing_mode": "stretch_both", "margin": 0}
+_ERROR = Markup('<p class="refused" role="alert">{}</p>')
 #: Roles and names of the parts of the page, by their classes.
 _LANDMARKS = {
     "fit-header": ("banner", "Measurement"),
     "asked": ("complementary", "Curve, tip and sample"),
     "found": ("main", "Result"),
 }
-#: What has the plots in it.
-_BOTH = {"sizing_mode": "stretch_both", "margin": 0}
-_OVER = "addEventListener('dragenter', () => { over.tags = ['file'] }, { once: true })"
-_NAMES = Path(__file__).with_name("names.js").read_text(encoding="utf-8")
+#: Beginnings of the suffixes of files that are no tables.
+_AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
+#: Seconds after a file in which others begin that were dropped together with it: the browser sends two
+#: files at once, and the next two 2 s later.
+_SECOND, _NEXT = 0.5, 3.0
 
 
-class Measurement(Fits):
-    """The page: a setting, the curve that is read, its samples and its fit, and what is shown of them."""
+class Measurement(Actions):
+    """The page. What is typed and chosen is in its widgets alone, and so in its link.
 
-    def __init__(self, query: str = "", worker: Worker | Here | None = None):
-        super().__init__(Setting.read(query), Worker() if worker is None else worker)
-        # What is said below the file of the tip, and why it is refused.
-        self.of_tip, self.tip_refused = "", NOTHING
-        self._tips = Tips(self.host)
+    Its main actions are `take_file`, `read` and `fit`, each of which goes on with the next one.
+    """
+
+    def __init__(self, link: str = "", worker: Worker | Here | None = None):
+        super().__init__(worker)
+        # The file, its path on the server, the name of the example that it is, and when it was taken (s).
+        self.file, self.path, self._example, self._taken_at = "", "", "", -_NEXT
+        self._files, self._tip_files = Files(), Files()
+        #: Columns and what parts curves, as the reader is given them; and for tables with known heads.
+        self.options: dict[str, Any] = {}
+        self._known: dict[Any, tuple[dict[str, Any], dict[str, float]]] = {}
+        self._asked_about: Any = None
+        #: The curve with the number of curves, samples of it without what is subtracted, and the question
+        #: about its file.
+        self.curve = self.taken = self.question = None
+        self.count = 0
+        #: The fit, Young's modulus of the sample and its error (Pa), and rows of all curves.
+        self.found = self.E = None
+        self.rows: list[tuple[Any, ...]] = []
+        self.others = 0
+        # Samples that are fitted, () for those of the kind of sample, which was the last one.
+        self._samples: tuple[int, ...] = ()
+        self._medium = ""
         self.form, self.results = Form(self), Results(self)
-        self._address = pn.widgets.TextInput(visible=False)
-        self._address.jscallback(value="history.replaceState(null, '', source.value)")
+        self._view()
+        self._open(query.read(link))
+
+    def _view(self) -> None:
         header = (
-            html(Markup("<h1>Measurement</h1>"), "name", sizing_mode="stretch_width"),
+            html(Markup("<h1>Measurement</h1>"), "name"),
             html(Markup('<a href="?">Indentation explorer</a>'), "links", sizing_mode=None),
         )
+        self.address = pn.widgets.TextInput(visible=False)
+        self.address.jscallback(value="history.replaceState(null, '', source.value)")
         columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **_BOTH)
         self.view = pn.Column(
-            pn.Row(*header, self._address, css_classes=["fit-header"], **WIDE), columns,
+            pn.Row(*header, self.address, css_classes=["fit-header"], **WIDE), columns,
             css_classes=["fit-page"], **_BOTH,
         )  # fmt: skip
-        # The address restores what was told when the session is lost.
-        self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
         landmarks(self.document, _LANDMARKS, "found", "Skip to the result")
-        self.document.js_on_event(DocumentReady, CustomJS(code=_NAMES))
-        # The process starts while a file is still dragged over the page.
-        over = ColumnDataSource()
-        over.on_change("tags", lambda attr, old, new: self.worker.start())
-        self.document.add_root(over)
-        self.document.js_on_event(DocumentReady, CustomJS(args={"over": over}, code=_OVER))
+        # The address restores what was typed when the session is lost.
+        self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
         self.host.at_end(self.close)
-        self._begin()
 
     def __panel__(self) -> Any:
-        """What Panel shows of it, so that `pn.panel(page)` and a layout take a page as it is."""
         return self.view
 
-    def _begin(self) -> None:
-        """Show what a link asks for: an example once the page is there, another file by its name."""
-        asked = self.setting
-        name = example_named(asked.file)
-        if name and not self.host.processes:
-            self._open_example(name)
-            return
-        if name:
-            # A process is for a page that has connected, which a request alone has not.
-            self.document.on_event(DocumentReady, lambda event: self._path or self._open_example(name))
-            self.busy = f"Reading {asked.file}"
-        elif asked.file:
-            about = Markup("This link was made with <b>{}</b>: drop that file here.")
-            self.about = about.format(asked.file)
-        self.show()
-
-    def _open_example(self, name: str) -> None:
-        """Read an example with the setting of the link."""
-        self._take(EXAMPLES[name].name, EXAMPLES[name].read(), self.setting, name)
-
     def close(self) -> None:
-        """End the process and remove the file."""
+        """End the process, and remove the files."""
         self.worker.stop()
         self._files.clear()
+        self._tip_files.clear()
 
-    # What is set.
+    def message(self, text: str, remedy: tuple[Any, ...] = ()) -> Refused:
+        """Return a text with the name of the file that was dropped, instead of that of the kept one."""
+        return Refused(text.replace(Path(self.path).name or "\0", self.file), remedy)
 
-    def change(self, make: Callable[[Setting], Setting]) -> None:
-        """Change the setting, and fit again."""
-        self.setting = make(self.setting)
-        self.fit_again()
+    def cancel(self) -> None:
+        """Stop what is done."""
+        self.stop()
+        if self.found is None:
+            self.problem = Refused("Cancelled. Change something, or drop the file again")
+        self.show()
 
-    def choose_medium(self, name: str) -> None:
-        """Take another kind of sample, whose parameters are free as it says.
+    # The link.
 
-        Of one that yields, too, what is held stays.
-        """
-        if name == self.setting.medium or self.form._quiet:
-            return
-        if self.setting.medium and self.setting.kind.letter and name and MEDIA[name].letter:
-            self.take_class(name)
-        else:
-            self.change(lambda s: s.with_medium(name) if name else s.replace(medium="", held={}))
-
-    def take_class(self, medium: str) -> None:
-        """Fit the hardness of another class; what else is free or held, and the samples, stay."""
-        constants = {"E_star", "contact_point", "baseline", "tilt", "drag"}
-        held = {name: v for name, v in self.setting.held.items() if name in constants}
-        self.change(lambda setting: setting.replace(medium=medium, held=held))
-
-    def take_tip(self, name: str, data: bytes) -> None:
-        """Take a measured tip from a file."""
-        self._tips.read(in_line(name), data, partial(self._have_tip, in_line(name)))
-
-    def _have_tip(self, name: str, kind: str, answer: Any) -> None:
-        self.of_tip, self.tip_refused = ("", answer) if kind == "refused" else (answer, NOTHING)
-        if kind == "done":
-            columns, self.of_tip = answer
-            samples = tuple(map(tuple, columns))
-            self.change(lambda s: s.replace(tip="measured", tip_samples=samples, tip_name=name))
-        else:
-            self.form.show(self.setting)
-
-    def hold(self, name: str, value: float) -> None:
-        """Hold a parameter at a value, or correct the depth by one."""
-        if name in ("drift", "frame", "depth_noise"):
-            self.setting = self.setting.replace(corrections=self.setting.corrections | {name: value})
-            if self.curve is not None:
-                self._place()
-            self.fit_again()
-        else:
-            self.change(lambda setting: setting.replace(held=setting.held | {name: value}))
-
-    def free(self, name: str, free: bool) -> None:
-        """Let the fit find a parameter, or hold it at what was found."""
-        held = dict(self.setting.held)
-        if self.form._quiet or free == (name not in held):
-            return
-        if free:
-            del held[name]
-        else:
-            held[name] = float(self.fit.to_dict()[name]) if self.fit is not None else 0.0
-            if self.fit is None and name in ("E_star", "hardness", "q_c", "f_c"):
-                self.show()
+    def _open(self, link: query.Link) -> None:
+        """Show what a link asks for: an example once the page is there, another file by its name."""
+        self._begin(link.tip, link.medium, link.numbers)
+        self.file, self.options, self._samples = link.file, link.options, link.samples
+        with self.setting():
+            self.results.number.param.update(end=link.curve + 1, value=link.curve + 1)
+        if example := next((name for name, each in EXAMPLES.items() if each.name == self.file), ""):
+            begin = partial(self.do, self._take, self.file, EXAMPLES[example].read(), example)
+            if not self.host.processes:
+                begin()
                 return
-        self.change(lambda setting: setting.replace(held=held))
+            # A process is for a page that has connected, which a request alone has not.
+            self.document.on_event(DocumentReady, lambda event: self.path or begin())
+            self.busy = f"Reading {self.file}"
+        self.show()
 
-    def choose_samples(self, ends: tuple[int, ...]) -> None:
-        """Fit the samples from one number to another."""
-        if self.taken is not None and tuple(ends) != self.ends:
-            whole = tuple(ends) == self._ends_of(self.setting.kind.part if self.setting.medium else "all")
-            self.change(lambda setting: setting.replace(samples=() if whole else tuple(map(int, ends))))
+    def _begin(self, tip: str, medium: str, numbers: dict[str, float | None]) -> None:
+        """Begin with a tip, a kind of sample and numbers, for the first curve of another file."""
+        with self.setting():
+            self.form.tip.value = tip
+            self._set_medium(medium)
+            for name, value in numbers.items():
+                self.form.numbers[name].si = value
+            self.results.number.value = 1
+        self.options, self._samples, self.others = {}, (), 0
 
-    def choose_part(self, part: str) -> None:
-        """Fit all samples, those of loading, or those of unloading."""
-        if self.taken is not None:
-            self.choose_samples(self._ends_of(part))
+    def link(self) -> query.Link:
+        """Return the link of what is typed and chosen."""
+        tip, medium, curve = self.form.tip.value, self.form.medium.value, self.results.number.value - 1
+        numbers = self.form.unusual_numbers()
+        return query.Link(self.file, curve, tip, medium, numbers, self._samples, self.options)
 
-    def correction(self, name: str) -> float | None:
-        """What the depth is corrected by: as typed, or the noise that is estimated."""
-        value = self.setting.corrections.get(name)
-        if value is None and name == "depth_noise" and self.taken is not None:
-            value = self.taken.depth_noise
-        return value or None
+    # Files.
 
-    def value_of(self, name: str) -> str:
-        """A parameter as it was found, in words."""
-        return words.value_of(self.fit, name) if self.fit is not None else ""
+    async def take_file(self, name: str, data: bytes, began: float) -> None:
+        """Read a file that was dropped. Tip and sample stay, unless they were those of an example."""
+        now = monotonic()
+        if began < self._taken_at + (_NEXT if self.others else _SECOND):
+            self._taken_at, self.others = now, self.others + 1
+            self.form.show_about(self)
+            return
+        self._taken_at, self.others, name = now, 0, in_line(name)
+        form = self.form
+        if self._example:
+            self._begin("", "", dict.fromkeys(form.numbers))
+        elif name != self.file:
+            # What is known of another curve does not hold for this one.
+            self._begin(form.tip.value, form.medium.value, dict.fromkeys((*CORRECTIONS, *CANTILEVER)))
+        await self._take(name, data)
 
-    # What is shown and saved.
+    async def take_example(self, name: str) -> None:
+        """Read a measured example with its tip and sample."""
+        example = EXAMPLES[name]
+        numbers = dict.fromkeys((*NUMBERS,)) | example.numbers
+        self._begin(example.tip, example.medium, numbers)
+        await self._take(example.name, example.read(), name)
+
+    async def _take(self, name: str, data: bytes, example: str = "") -> None:
+        self.file, self._example, self._asked_about = name, example, None
+        self.curve, self.question, self.found, self.count, self.path = None, None, None, 0, ""
+        suffix = re.sub(r"[^\w.-]", "", Path(name).suffix)[:20] if "\0" not in name else ""
+        self.path = self._files.keep(data, suffix)
+        await self.read()
+
+    async def take_tip(self, name: str, data: bytes, began: float) -> None:
+        """Read a measured tip."""
+        name = in_line(name)
+        try:
+            path = self._tip_files.keep(data)
+            self.form.tip_samples, note = await self.run(f"Reading {name}", "common.tip.read", path, name)
+            show(self.form.tip_about, object=note)
+        except Refused as error:
+            self.refuse_tip(error.text)
+        await self.fit()
+
+    def refuse_tip(self, text: str) -> None:
+        """Show why the file of a tip was not taken; the tip before it stays."""
+        show(self.form.tip_about, object=_ERROR.format(text))
+
+    # Reading.
+
+    @property
+    def is_afm(self) -> bool:
+        """Whether the file is no table."""
+        return Path(self.path).suffix.lower().startswith(_AFM)
+
+    @property
+    def table(self) -> Any:
+        """The first rows of the table that is read or asked about, or None."""
+        return getattr(self.question or self.curve, "table", None)
+
+    @property
+    def deflection(self) -> Remark | None:
+        """The remark that the depth lacks the stiffness of the cantilever, or None."""
+        return analysis.deflection(self.curve) if self.curve is not None else None
+
+    @property
+    def wanted(self) -> set[str]:
+        """Names of what the reader of the file asks for."""
+        asked = (self.problem if self.curve is None else None), self.deflection
+        remedies = [each for one in asked if one for each in one.remedy]
+        names = {each.what for each in remedies if each.action == "give"}
+        return names | {"columns"} if self.question else names
+
+    async def read(self) -> None:
+        """Read the curve of the file, and fit it; or ask what its columns are."""
+        self.curve = self.taken = self.found = self.question = None
+        self.rows = []
+        if not self.path:
+            self.show()
+            return
+        options = self.form.given(*CANTILEVER) | self.options
+        number = self.results.number.value - 1
+        answer = await self.run(f"Reading {self.file}", "fit.analysis.read", self.path, options, number)
+        curve, self.count, question = answer
+        if question is not None:
+            await self._ask(question)
+            return
+        if self._asked_about is not None:
+            self._known[self._asked_about] = self.options, self.form.given(*CANTILEVER)
+        remarks = tuple(analysis.with_text(each, self.message(each.text).text) for each in curve.remarks)
+        self.curve = replace(curve, remarks=remarks)
+        if self.table is not None:
+            columns = self.options.get("columns")
+            with self.setting():
+                shown = columns if isinstance(columns, list) else curve.columns
+                self.form.columns.show(self.table, shown, self.options.get("by"))
+        await self.fit()
+
+    async def _ask(self, question: Any) -> None:
+        """Ask what the columns of a table are, or read it as another table with the same heads."""
+        self._asked_about = question.table.key
+        known = self._known.get(self._asked_about)
+        if known and not self.options:
+            self.options, cantilever = known
+            with self.setting():
+                for name, value in cantilever.items():
+                    self.form.numbers[name].si = value
+            await self.read()
+            return
+        why = question.text if question.text.endswith("?") else f"{question.text.rstrip('.')}."
+        text = f"{self.file}: {why} Check what is chosen below, and press Read"
+        self.question, self.problem = question, self.message(text, question.remedy)
+        suggestion = question.suggestion
+        with self.setting():
+            self.form.columns.show(question.table, suggestion.get("columns") or {}, suggestion.get("by"))
+        self.show()
+
+    async def columns_changed(self) -> None:
+        """Read a file again that was read; a question is confirmed by its button."""
+        if self.question is None:
+            await self.read_as_chosen()
+        else:
+            # What is drawn is what was suggested.
+            self.question.preview = None
+            show(self.results.figures, visible=False)
+
+    async def read_as_chosen(self) -> None:
+        """Read the file by the columns that are chosen."""
+        await self.read_with(self.form.columns.options())
+
+    async def read_with(self, options: dict[str, Any]) -> None:
+        """Read the file by other columns, or by what else parts its curves."""
+        self.options = options if "columns" in options else self.options | options
+        self._samples = ()
+        await self.read()
+
+    async def curve_chosen(self) -> None:
+        """Read another curve of the file."""
+        self._samples = ()
+        await self.read()
+
+    # Fits.
+
+    @property
+    def ends(self) -> tuple[int, int]:
+        """Numbers of the first and the last sample that are fitted."""
+        count = len(self.curve)
+        if self._samples and self._samples[0] < min(self._samples[1], count):
+            return self._samples[0], min(self._samples[1], count)
+        return self._ends_of(MEDIA[self.form.medium.value].part if self.form.medium.value else "all")
+
+    def _ends_of(self, part: str) -> tuple[int, int]:
+        return analysis.ends_of(self.taken, len(self.curve), part)
+
+    @property
+    def part(self) -> str | None:
+        """Which part of the curve is fitted: "all", "loading", "unloading", or None."""
+        parts = "all", "loading", "unloading"
+        return next((part for part in parts if self._ends_of(part) == self.ends), None)
+
+    def _set_medium(self, name: str) -> None:
+        self.form.set_medium(name)
+        self._medium = name
+
+    async def medium_chosen(self) -> None:
+        """Fit another kind of sample. Of one hardness and another, what is held stays."""
+        before, name = self._medium, self.form.medium.value
+        held = self.form.given("E_star", "contact_point", "baseline", "tilt", "drag")
+        both_yield = before and name and MEDIA[before].letter and MEDIA[name].letter
+        with self.setting():
+            self._set_medium(name)
+            if both_yield:
+                for each in FITTED:
+                    self.form.numbers[each].si = held.get(each)
+            else:
+                self._samples = ()
+        await self.fit()
+
+    async def take_medium(self, name: str) -> None:
+        """Choose a kind of sample, and fit it."""
+        with self.setting():
+            self.form.medium.value = name
+        await self.medium_chosen()
+
+    async def part_chosen(self, part: str) -> None:
+        """Fit a part of the curve: "all", "loading" or "unloading"."""
+        if self.curve is not None and part:
+            await self._fit_samples(self._ends_of(part))
+
+    async def samples_chosen(self) -> None:
+        """Fit the samples between the handles of the range."""
+        if self.curve is not None and self.results.ends.value_throttled:
+            first, last = (round(each) for each in self.results.ends.value_throttled)
+            if first < last:
+                await self._fit_samples((first, last))
+
+    async def _fit_samples(self, ends: tuple[int, int]) -> None:
+        self._samples = ()
+        self._samples = () if ends == self.ends else ends
+        await self.fit()
+
+    async def fit(self) -> None:
+        """Fit the curve, once tip and sample are known."""
+        self.found, self.E, self.rows = None, None, []
+        if self.curve is not None:
+            self.problem = None
+            self.taken = analysis.samples(self.curve, **self.form.corrections())
+        if self.curve is not None and self.busy:
+            # The fit that runs is that of another tip or sample.
+            self.stop()
+        if self.curve is None or self.form.missing() or self.deflection:
+            self.show()
+            return
+        request = self.form.request(self.curve.time is not None, self.ends if self._samples else ())
+        self.found = await self.run("Fitting", "fit.analysis.fit", self.curve, request)
+        self.E = self.form.modulus(self.found.quoted)
+        self.show()
+
+    async def fit_all(self) -> None:
+        """Fit each curve of the file as the one that is shown."""
+        self.rows = []
+
+        def one(row: tuple[Any, ...]) -> None:
+            number, E, error, reason = row
+            self.rows.append((number, E, error, self.message(reason).text))
+            self.busy = f"Fitting curve {min(len(self.rows) + 1, self.count)} of {self.count}"
+            self.show_busy()
+            self.results.show_progress()
+
+        options = self.form.given(*CANTILEVER) | self.options
+        request = self.form.request(True, self.ends if self._samples else ())
+        text = f"Fitting curve 1 of {self.count}"
+        await self.run(text, "fit.analysis.fit_all", self.path, options, request, part=one)
+        self.show()
+
+    # What is shown.
+
+    def show_busy(self) -> None:
+        self.results.show_headline()
 
     @pn.io.hold()
     def show(self) -> None:
         """Show everything as it is."""
-        self.form.show(self.setting)
-        self.results.show()
-        query = self.setting.query()
-        self._address.value = "?fit" + f"&{query}" * bool(query)
-
-    def written(self, name: str) -> StringIO:
-        """The fit as a file: "json" or "csv"."""
-        write = {"json": as_json, "csv": as_csv}[name]
-        told = {"told": self.told, "remarks": self.remarks, "samples": self.ends, "count": len(self.curve)}
-        return StringIO(write(self.setting, self.fit, told | {"E": self.E}))
-
-    @property
-    def remarks(self) -> tuple[Remark, ...]:
-        """All remarks on the number, the fit, and the reading of the file."""
-        told = self.told
-        return tuple(dict.fromkeys((*told.above, *told.below, *told.remarks, *self.curve.remarks)))
+        with self.setting():
+            self.form.show(self)
+            self.results.show()
+            self.form.show_about(self)
+            problems = (self.problem,) if self.problem and self.curve is None else ()
+            self.results.fill(self.form.errors, problems, _ERROR)
+            link = self.link().query()
+            self.address.value = "?fit" + f"&{link}" * bool(link)
 
 
-def served(query: str) -> Any:
-    """The page of a session."""
-    return Measurement(query)
+def served(link: str) -> Any:
+    """Return the page of a session."""
+    return Measurement(link)

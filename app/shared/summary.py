@@ -2,9 +2,9 @@
 
 import re
 
+from ..common.units import in_full
 from ..quantities import CHOICES, QUANTITIES
 from ..state import PRESETS, State, altered, formed, regions, used, used_by
-from ..units import in_full
 
 #: Letters of the name of a file, without what is in it: of 255 bytes, of which some letters take two.
 _LONGEST = 100

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from app import changes
+from app.common.tip import read_tip
 from app.draw import Picture
 from app.drives import EXACT, follow
 from app.extras.drag import Dragging
 from app.page import Page
 from app.shared.rest import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
-from app.tip import read_tip
 
 from ..approx import approx
 from .conftest import DROP, GOLD

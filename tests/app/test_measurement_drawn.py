@@ -6,9 +6,19 @@ import numpy as np
 
 import mdr_core as mdr
 
+from .measuring import (
+    choose,
+    choose_samples,
+    curve_file,
+    headline,
+    opened,
+    saved,
+    take_file,
+    take_tip,
+    text,
+)
 from .states import table
 from .test_drawn import SIZES
-from .test_measurement import curve_file, headline, opened, plain
 
 
 def unit(axis):
@@ -27,14 +37,14 @@ def test_measured_model_residuals_and_noise_are_named_and_in_the_units_of_their_
     named = {item.label.value: item.renderers[0].data_source.name for item in legend.items}
     assert named == {"not fitted": "others", "measured": "measured", "model": "model"}
     assert [item.visible for item in legend.items] == [False, True, True]
-    page.choose_samples((1, 350))
+    choose_samples(page, 1, 350)
     assert [item.visible for item in legend.items] == [True, True, True]
-    axes, fit = (plots.residual.xaxis, plots.force.yaxis, plots.residual.yaxis), page.fit
+    axes, fit = (plots.residual.xaxis, plots.force.yaxis, plots.residual.yaxis), page.found.fit
     length, force, small = map(unit, axes)
     # Otherwise a wrong unit would not be seen.
     assert small < force
     drawn = {name: (source.data["x"] * length, source.data["y"]) for name, source in plots.sources.items()}
-    for name, used in (("measured", page.used), ("others", ~page.used)):
+    for name, used in (("measured", page.found.used), ("others", ~page.found.used)):
         np.testing.assert_allclose(drawn[name][0], page.taken.depth[used], rtol=1e-12)
         np.testing.assert_allclose(drawn[name][1] * force, page.taken.force[used], rtol=1e-12)
     model = mdr.indent(fit.profile, fit.medium, fit.depth - fit.contact_point).force
@@ -52,24 +62,24 @@ def test_measured_model_residuals_and_noise_are_named_and_in_the_units_of_their_
 def test_the_modulus_of_the_sample_goes_with_its_poisson_ratio():
     page = opened(curve_file(), poisson=0.2)
     assert re.search(r"E = [\d.]+ .*GPa", headline(page))
-    assert "E_sample" in page.written("json").read()
-    page.change(lambda setting: setting.replace(poisson=None))
+    assert "E_sample" in saved(page, "json")
+    choose(page, poisson=None)
     assert "Give ν on the left" in headline(page)
     assert "E = " not in headline(page)
-    assert "E_sample" not in page.written("json").read()
+    assert "E_sample" not in saved(page, "json")
 
 
 def test_what_was_said_of_a_file_is_gone_with_the_next():
     """Of a curve, also where the next file cannot be read; of a tip."""
     page = opened(curve_file())
-    page.hold("contact_point", 1e-3)
-    assert "First contact" in plain(page.results.not_fitted)
-    page.take_file("damaged.csv", b"nothing")
-    assert plain(page.results.not_fitted) == ""
-    assert "damaged.csv" in plain(page.form.refused)
-    page.change(lambda setting: setting.replace(tip="measured"))
-    page.take_tip("wrong.csv", b"nothing")
-    assert "wrong.csv" in plain(page.form.tip_refused)
+    choose(page, contact_point=1e-3)
+    assert "First contact" in text(page.results.errors)
+    take_file(page, "damaged.csv", b"nothing")
+    assert text(page.results.errors) == ""
+    assert "damaged.csv" in text(page.form.errors)
+    choose(page, tip="measured")
+    take_tip(page, "wrong.csv", b"nothing")
+    assert "wrong.csv" in text(page.form.tip_about)
     r = np.linspace(0, 1000, 30)
-    page.take_tip("tip.csv", table({"r (nm)": r, "z (nm)": r**2 / 1e4}).encode())
-    assert plain(page.form.tip_refused) == ""
+    take_tip(page, "tip.csv", table({"r (nm)": r, "z (nm)": r**2 / 1e4}).encode())
+    assert text(page.form.tip_about) == "30 samples, as in the file"

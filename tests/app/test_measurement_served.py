@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app.fit.worker import Worker
 
 from .conftest import ROOT, Explorer, Server
+from .measuring import TIP
 from .states import table
-from .test_judged import heights
+from .test_plausible import heights
 
 READY = "Bokeh.documents.length && Bokeh.documents.every((each) => each.is_idle)"
-TIP = mdr.Cone.from_half_angle(70.3)
 
 
 @pytest.fixture
@@ -37,7 +36,7 @@ def number(opened, text):
 
 
 def drop(opened, *files):
-    opened.page.locator('.filepond--browser, input[type="file"]').first.set_input_files(*files)
+    opened.page.locator('.filepond--browser, input[type="file"]').first.set_input_files(files)
 
 
 def curve(path, medium, depth=None):
@@ -79,11 +78,11 @@ def test_a_sample_is_one_click_and_all_of_it_is_in_sight(measurement):
 def test_a_narrow_window_has_one_column_and_nothing_over_another(measurement):
     """No scrolling sideways; the number, the buttons, the classes and the plots stand below each other."""
     page = measurement.page
-    page.set_viewport_size({"width": 400, "height": 800})
+    page.set_viewport_size({"width": 390, "height": 800})
     measurement.press("Sample: fused silica")
     number(measurement, "69")
     page.get_by_text("The curve is of class (a), constant hardness.").wait_for()
-    for width in (400, 720, 1040, 1100):
+    for width in (390, 720, 1040, 1100):
         page.set_viewport_size({"width": width, "height": 800})
         measurement.wait("document.documentElement.scrollWidth <= innerWidth")
         places = (".big output", ".second >> nth=-1", ".tools button:visible >> nth=2", ".classes table")
@@ -129,7 +128,7 @@ def test_no_file_ends_the_session(measurement, tmp_path):
     words.write_text("force after\ndepth\n")
     for path in (large, packed, words):
         drop(measurement, path)
-        refusal = page.locator(".refusal p", has_text=re.compile(re.escape(path.name)))
+        refusal = page.locator("p.refused", has_text=re.compile(re.escape(path.name)))
         refusal.first.wait_for(timeout=60_000)
     # More than the limit is refused before it is sent, in words.
     huge = tmp_path / "huge.csv"
@@ -182,35 +181,6 @@ def test_the_explorer_leads_there_and_back(explorer):
     assert explorer.chosen("Shape") == "Paraboloid"
 
 
-def test_a_job_is_stopped_and_the_next_one_is_done(tmp_path):
-    """A process that ends says so; what is stopped says nothing more."""
-    heard, worker = [], Worker()
-    path = str(ROOT / "assets" / "silica.csv")
-
-    def tell(kind, answer):
-        heard.append(kind)
-
-    def wait(count):
-        for _ in range(600):
-            if len(heard) >= count:
-                return
-            __import__("time").sleep(0.05)
-        raise AssertionError(heard)
-
-    try:
-        worker.ask("read", path, {}, 0, tell=tell)
-        wait(1)
-        worker.ask("nothing", tell=tell)
-        wait(2)
-        worker.ask("read", path, {}, 0, tell=lambda kind, answer: heard.append("of the stopped"))
-        worker.ask("read", path, {}, 0, tell=tell)
-        wait(3)
-        worker.stop()
-        assert heard == ["done", "ended", "done"]
-    finally:
-        worker.stop()
-
-
 def test_a_question_is_answered_by_one_click(measurement, tmp_path):
     """A German file: the choosers have the suggestion, which is drawn, and a folder is asked about once."""
     page = measurement.page
@@ -221,7 +191,8 @@ def test_a_question_is_answered_by_one_click(measurement, tmp_path):
         (tmp_path / name).write_text(text, encoding="utf-8")
     drop(measurement, tmp_path / "eine_datei.csv")
     page.get_by_text("eine_datei.csv: which column is the depth").wait_for()
-    assert page.locator("figure.preview polyline").count() == 1
+    # The suggestion is drawn.
+    page.locator(".of-force canvas").first.wait_for()
     page.get_by_role("button", name="Read", exact=True).click()
     page.get_by_text("eine_datei.csv: 400 samples").wait_for()
     drop(measurement, tmp_path / "noch_eine.csv")
@@ -281,3 +252,68 @@ def test_an_afm_file_without_a_stiffness_is_asked_for_it_above_the_fold(measurem
     page.keyboard.type("0.05")
     page.keyboard.press("Enter")
     assert number(measurement, "kPa").startswith("20")
+
+
+def test_of_several_files_that_are_dropped_together_one_is_taken_and_the_page_says_so(
+    measurement, tmp_path
+):
+    page = measurement.page
+    files = [curve(tmp_path / f"run_{k}.csv", mdr.Medium(k * 1e10, hardness=14e9)) for k in (5, 6, 7)]
+    drop(measurement, *files)
+    page.get_by_text("Of 3 files that were dropped together").wait_for()
+    # The next one is another.
+    page.wait_for_timeout(2000)
+    drop(measurement, curve(tmp_path / "next.csv", mdr.Medium(8e10, hardness=14e9)))
+    page.get_by_text("next.csv: 400 samples").wait_for()
+    assert page.get_by_text("dropped together").count() == 0
+
+
+def test_a_long_job_is_cancelled_and_the_next_one_is_done(measurement, tmp_path):
+    """A map of 60 curves takes many seconds."""
+    page, count = measurement.page, 60
+    page.goto(f"{page.url}&tip=berkovich&medium=constant")
+    measurement.wait(READY)
+    depth = 1e-6 * np.append(np.linspace(-0.05, 1, 240), np.linspace(1, 0.7, 160))
+    force = mdr.indent(TIP, mdr.Medium(80e9, hardness=14e9), depth).force
+    columns = {"Depth (nm)": np.tile(1e9 * depth, count), "Load (mN)": np.tile(1e3 * force, count)}
+    text = table({"x (um)": np.repeat(np.arange(count), depth.size)} | columns)
+    (tmp_path / "map.csv").write_text(text, encoding="utf-8")
+    drop(measurement, tmp_path / "map.csv")
+    page.get_by_role("button", name="Read", exact=True).click()
+    number(measurement, "70")
+    page.get_by_role("button", name=f"Fit all {count}").click()
+    page.get_by_text(re.compile(r"Fitting curve [2-9] of 60")).wait_for()
+    page.locator("button.bk-btn:visible", has_text="Cancel").click()
+    page.get_by_text(re.compile(r"^\d+ of 60 curves fitted: median E\* 70")).wait_for()
+    page.get_by_text("Fitting curve").wait_for(state="detached")
+    measurement.press("Sample: gel by AFM")
+    number(measurement, "kPa")
+
+
+def test_the_figures_are_dark_on_a_first_visit_with_a_dark_system(server, browser):
+    """No cookie tells the server: letters of the legend are light, as those of the page."""
+    with browser.new_context(color_scheme="dark") as context:
+        opened = Explorer(context.new_page(), f"{server.url}?fit", READY)
+        opened.press("Sample: fused silica")
+        number(opened, "69")
+        parts = "Bokeh.documents[0].get_model_by_name('force plot').center"
+        colour = opened.page.evaluate(f"{parts}.find((each) => each.type === 'Legend').label_text_color")
+        assert all(int(colour[k : k + 2], 16) > 0xA0 for k in (1, 3, 5))
+        assert opened.problems == []
+
+
+def test_a_wrong_number_has_its_error_below_the_field(measurement):
+    page = measurement.page
+    measurement.press("Sample: gel by AFM")
+    number(measurement, "kPa")
+    field = page.get_by_label("R tip radius")
+    field.fill("10 furlongs")
+    field.press("Enter")
+    error = page.get_by_role("alert").filter(has_text="10 furlongs")
+    error.wait_for()
+    below = error.bounding_box()["y"] - field.bounding_box()["y"]
+    assert 0 < below < 60
+    field.fill("20 µm")
+    field.press("Enter")
+    error.wait_for(state="detached")
+    number(measurement, "13.9")

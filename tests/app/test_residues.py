@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from app import changes, link, readouts
+from app.common.tip import read_tip
 from app.drives import follow
 from app.extras.held import is_held, toggle_hold
 from app.extras.share import csv
 from app.fields import Field
 from app.page import Page
 from app.state import PRESETS, preset_state
-from app.tip import read_tip
 from mdr_core.show.units import UNITS
 
 from ..approx import approx

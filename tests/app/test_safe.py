@@ -260,7 +260,7 @@ def test_hostile_names_run_nothing(fresh, context):
         column = text.replace('"', "'")
         drop(page, name, f'"{column} h (nm)","{column} F"\n0,0\n1,1\n2,3\n'.encode())
         shown = " ".join(name.split())[:60]
-        page.locator(".refusal p", has_text=shown).first.wait_for()
+        page.locator("p.refused", has_text=shown).first.wait_for()
         quiet()
         page.get_by_label("Column of depth").locator("option").nth(1).wait_for(state="attached")
         drop(page, name, b"h (nm), F (mN)\n0, 0\n1, 1\n2, 3\n")

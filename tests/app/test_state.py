@@ -9,12 +9,13 @@ from scipy.integrate import trapezoid
 
 import mdr_core as mdr
 from app import changes, link
+from app.common.tip import read_tip
+from app.common.upload import MAX_SAMPLES
 from app.drives import DRIVES, follow, scene_of, turning_point
 from app.extras import share
 from app.page import Page
 from app.quantities import CHOICES, QUANTITIES
 from app.state import OPENING, PRESETS, VIEW, altered, medium, preset_state, profile, used
-from app.tip import MAX_SAMPLES, read_tip
 
 from ..approx import approx
 from .conftest import DROP

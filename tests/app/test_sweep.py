@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from app import changes
+from app.common.units import in_full
 from app.drives import follow
 from app.extras import sweep
 from app.extras.guide import TOURS, step_state
 from app.state import OPENING, medium, profile
-from app.units import in_full
 
 from ..approx import approx
 from .conftest import DROP, PUNCH

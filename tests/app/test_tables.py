@@ -8,7 +8,7 @@ import pytest
 import mdr_core as mdr
 from app import tables
 from app.extras import share
-from app.fit.files import map_csv
+from app.fit.export import curves_csv
 from app.state import preset_state
 
 from .states import view_of
@@ -24,7 +24,7 @@ NAMES = (
 def test_no_cell_of_somebodys_text_is_a_formula(delimiter):
     for name in NAMES:
         rows = [(0, 1e9, 2e7, name), (1, None, None, f"no contact in {name}")]
-        text = map_csv(name, rows)
+        text = curves_csv(name, rows)
         for row in csv.reader(text.splitlines(), delimiter=delimiter):
             for cell in row:
                 assert not cell.startswith(("=", "+", "-", "@", "\t")), cell

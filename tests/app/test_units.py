@@ -4,7 +4,7 @@ from math import pi, radians, tan
 
 import pytest
 
-from app.units import entry, read
+from app.common.units import entry, read
 from mdr_core.show.units import UNITS, fitting
 
 from ..approx import approx

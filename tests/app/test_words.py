@@ -7,15 +7,16 @@ import pytest
 
 import mdr_core as mdr
 from app import changes, theory
+from app.common.errors import in_words
+from app.common.tip import read_tip
 from app.drives import follow
 from app.extras.guide import TOURS
 from app.page import Page
 from app.plots import PLOTS
-from app.quantities import CHOICES, QUANTITIES, in_words, lowered
+from app.quantities import CHOICES, QUANTITIES, lowered
 from app.readouts import READOUTS, explained, heads, line
 from app.shared.rest import Searched
 from app.state import PRESETS, preset_state
-from app.tip import read_tip
 from app.ui import linked, marked
 
 from ..approx import approx

@@ -8,6 +8,8 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
+from .errors import Refused
+
 try:
     import fcntl
 except ImportError:
@@ -15,26 +17,26 @@ except ImportError:
     fcntl = None  # type: ignore[assignment]
 
 _PREFIX, _LOCK = "mdr-explorer-", "in use"
-
-
-#: What is said where a file cannot be kept.
 NOT_KEPT = "The server cannot keep this file for reading, as its disk is full. Try again later"
 
 
 class Files:
-    """Files of a session, in a folder that is made with the first one."""
+    """Files of a session. The first file creates the folder."""
 
     def __init__(self) -> None:
         self._folder: Path | None = None
         self._count = 0
 
     def keep(self, data: bytes, suffix: str = "") -> str:
-        """Path of a file in the place of the last one, each with a new name. Raises OSError."""
+        """Keep a file instead of the last one, and return its path, a new one each time. Raises Refused."""
         self.clear()
-        self._folder = Path(tempfile.mkdtemp(dir=own()))
         self._count += 1
-        path = self._folder / f"file {self._count}{suffix}"
-        path.write_bytes(data)
+        try:
+            self._folder = Path(tempfile.mkdtemp(dir=own()))
+            path = self._folder / f"file {self._count}{suffix}"
+            path.write_bytes(data)
+        except OSError:
+            raise Refused(NOT_KEPT) from None
         return str(path)
 
     def clear(self) -> None:
@@ -46,7 +48,7 @@ class Files:
 
 @cache
 def own() -> Path:
-    """The folder of this process, which is locked as long as it runs."""
+    """Return the folder of this process, which is locked as long as the process runs."""
     folder = Path(tempfile.mkdtemp(prefix=_PREFIX))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     # Never closed: the system does that at the end of the process, however it ends.
@@ -65,7 +67,7 @@ def clear() -> None:
 
 
 def _locked(path: Path, flags: int) -> int | None:
-    """A descriptor of a file that is locked, or None if another process has locked it."""
+    """Lock a file; return its descriptor, or None if another process has locked it."""
     if fcntl is None:
         return None
     descriptor = os.open(path, os.O_RDWR | flags, 0o600)

@@ -49,7 +49,7 @@ def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
 
     Examples
     --------
-    >>> from app.units import read
+    >>> from app.common.units import read
     >>> from mdr_core.show.units import Unit
     >>> read("12,5 um", "length", Unit("nm", 1e-9))
     (1.25e-05, Unit(name='µm', factor=1e-06))

@@ -1,4 +1,4 @@
-"""What is said of the number for the sample that was chosen, and what the buttons of remarks do."""
+"""Whether the number is plausible for the sample that was chosen, and what the buttons of remarks do."""
 
 import json
 import re
@@ -7,49 +7,55 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app.fit.setting import Setting
+from app.fit.texts import HELP
 from app.quantities import ASSETS
 
 from ..approx import approx
-from .conftest import ROOT
+from .measuring import (
+    DATA,
+    DEPTH,
+    GLASS,
+    TIP,
+    buttons,
+    choose,
+    choose_samples,
+    curve_file,
+    headline,
+    link_of,
+    measured,
+    opened,
+    page_of,
+    plain,
+    press,
+    said,
+    saved,
+    take_file,
+    take_sample,
+    text,
+)  # fmt: skip
 from .states import table
-from .test_measurement import DEPTH, GLASS, TIP, curve_file, headline, opened, page_of, plain, press, said
-
-DATA = ROOT / "tests" / "data"
-
-
-def of(name, medium, tip="berkovich", **numbers):
-    """A page with a measured curve of the tests."""
-    return opened((DATA / f"{name}.csv").read_bytes(), medium, tip, f"{name}.csv", **numbers)
-
-
-def offer(said, label):
-    """Press a button beside a remark."""
-    press(said.offers[label])
-
 
 # The other half.
 
 
 def test_steel_is_no_gel():
     """46 GPa from the loading, 2.1 TPa from the unloading: no number is shown, not that of either."""
-    page = of("steel", "gel")
+    page = measured("steel", "gel")
     assert headline(page) == "No E* to quote"
-    text = said(page)
-    assert "Loading and unloading differ by a factor of ten or more in E*" in text
-    assert not re.search(r"[GT]Pa", text)
-    told = json.loads(page.written("json").read())
+    assert "Loading and unloading differ by a factor of ten or more in E*" in said(page)
+    assert not re.search(r"[GT]Pa", said(page))
+    told = json.loads(saved(page, "json"))
     assert told["numbers"]["quoted"]["value"] is None
     assert told["quoted"]["source"] is None
     # The kind of sample is a click away.
-    offer(page.results.below, "Take glass, metal or ceramic")
-    assert page.setting.medium == "constant"
-    assert page.fit.medium.E_star == approx(210e9, rel=0.1)
+    press(buttons(page.results.below)["Take glass, metal or ceramic"])
+    assert page.form.medium.value == "constant"
+    assert page.found.fit.medium.E_star == approx(210e9, rel=0.1)
 
 
 def test_a_gel_that_sticks_has_one_line_on_its_unloading():
     """7.8 kPa from the loading, 14.6 kPa from the unloading by the fit of the library: 1.86 times."""
-    page = of("map2x2-2", "gel", "paraboloid", radius=1e-5)
+    page = measured("map2x2-2", "gel", "paraboloid", radius=1e-5)
     curve = mdr.read_curve(DATA / "map2x2-2.csv")
     part = curve.segment == "retract"
     tip = mdr.Paraboloid(1e-5)
@@ -57,50 +63,50 @@ def test_a_gel_that_sticks_has_one_line_on_its_unloading():
     found = re.fullmatch(
         r"Of the loading; the unloading alone gives (\d+) kPa, ([\d.]+) times: the sample yields, sticks "
         r"or loses energy\.",
-        plain(page.results.below),
+        text(page.results.below),
     )
     # Two digits, of every second sample.
     assert float(found[1]) * 1e3 == approx(float(other.medium.E_star), rel=0.05)
-    assert float(found[2]) == approx(float(other.medium.E_star) / page.told.quoted.value, rel=0.05)
+    assert float(found[2]) == approx(float(other.medium.E_star) / page.found.quoted.value, rel=0.05)
     assert "from the fit" in headline(page)
     # Of the unloading the loading is the other half.
-    page.choose_part("unloading")
-    assert plain(page.results.below).startswith("Of the unloading; the loading alone gives ")
+    page.results.part.value = "unloading"
+    assert text(page.results.below).startswith("Of the unloading; the loading alone gives ")
     # Of a range of one's own, of a contact that is held, and of a kind with adhesion there is none.
-    page.choose_samples((1, 1600))
+    choose_samples(page, 1, 1600)
     assert "alone gives" not in said(page)
-    page.choose_part("loading")
-    page.hold("contact_point", float(page.fit.contact_point))
+    page.results.part.value = "loading"
+    choose(page, contact_point=float(page.found.fit.contact_point))
     assert "alone gives" not in said(page)
-    page.choose_medium("sticky")
+    choose(page, medium="sticky")
     assert "alone gives" not in said(page)
 
 
 def test_the_gel_of_the_page_and_exact_adhesion_are_silent():
     """1.23 times; exact JKR follows one curve there and back, but for the pull-off: 1.00 times."""
     page = page_of()
-    page.take_sample("gel")
-    assert plain(page.results.below) == plain(page.results.above) == ""
+    take_sample(page, "gel")
+    assert text(page.results.below) == text(page.results.above) == ""
     d = np.append(np.linspace(-0.1e-6, 0.6e-6, 300), np.linspace(0.6e-6, -0.3e-6, 300))
     tip, made = mdr.Paraboloid(1e-5), mdr.Medium(20e3, work_of_adhesion=2e-6)
     force = mdr.indent(tip, made, d).force
     data = table({"Depth (nm)": 1e9 * d, "F (nN)": 1e9 * force}).encode()
     page = opened(data, "gel", "paraboloid", radius=1e-5)
     assert headline(page).startswith("E* = ")
-    assert plain(page.results.below) == ""
+    assert text(page.results.below) == ""
 
 
 def test_a_stiff_elastic_sample_is_asked_about_unless_both_halves_agree():
     """Quartz that does not yield, 70 GPa: silent. A range of it: the question, with units to look at."""
-    page = of("quartz", "gel")
+    page = measured("quartz", "gel")
     assert headline(page).startswith("E* = 70.0 ")
-    assert plain(page.results.above) == ""
-    page.choose_samples((1, page._ends_of("loading")[1] - 1))
+    assert text(page.results.above) == ""
+    choose_samples(page, 1, page._ends_of("loading")[1] - 1)
     assert headline(page).startswith("E* = ")
-    assert plain(page.results.above).startswith("Few gels, cells and rubbers are so stiff: ")
-    assert "look at the units of depth and force" in plain(page.results.above)
+    assert text(page.results.above).startswith("Few gels, cells and rubbers are so stiff: ")
+    assert "look at the units of depth and force" in text(page.results.above)
     labels = ["Look at the unit of depth", "Look at the unit of force"]
-    assert list(page.results.above.offers) == labels
+    assert list(buttons(page.results.above)) == labels
 
 
 # Plausible for what was chosen.
@@ -114,15 +120,14 @@ def test_silica_with_micrometres_for_nanometres_is_no_glass():
     """69.62 kPa; the unit of depth alone makes it plausible, and its button leads there."""
     page = opened(silica("um"), name="silica_um.csv")
     assert headline(page) == "No E* to quote"
-    text = plain(page.results.below)
-    assert "below 1 MPa, which no glass, metal or ceramic has" in text
-    assert "the file is read with depth in µm; look at the unit of depth" in text
+    reason = text(page.results.below)
+    assert "below 1 MPa, which no glass, metal or ceramic has" in reason
+    assert "the file is read with depth in µm; look at the unit of depth" in reason
     assert "kPa" not in said(page)
-    assert json.loads(page.written("json").read())["quoted"]["kind"] == "units"
-    offer(page.results.below, "Look at the unit of depth")
+    assert json.loads(saved(page, "json"))["quoted"]["kind"] == "units"
+    press(buttons(page.results.below)["Look at the unit of depth"])
     assert page.form.reader.collapsed is False
-    assert page.form._to.value.startswith("to-unit-depth ")
-    page.form.units["depth"].value = "nm"
+    page.form.columns.units["depth"].value = "nm"
     assert headline(page).startswith("E* = 69.6")
 
 
@@ -130,23 +135,23 @@ def test_a_soft_sample_of_constant_hardness_is_quoted_below_a_question():
     """50 MPa: with a force of a thousand times 50 GPa, with a depth of a thousandth 50 TPa."""
     page = opened(curve_file(mdr.Medium(50e6, hardness=5e6)))
     assert headline(page).startswith("E* = ")
-    text = plain(page.results.above)
-    assert text.startswith("Few samples of constant hardness are so soft: ")
-    assert "look at the unit of force" in text
-    assert list(page.results.above.offers) == ["Look at the unit of force"]
-    assert json.loads(page.written("json").read())["remarks"][0]["kind"] == "units"
+    doubt = text(page.results.above)
+    assert doubt.startswith("Few samples of constant hardness are so soft: ")
+    assert "look at the unit of force" in doubt
+    assert list(buttons(page.results.above)) == ["Look at the unit of force"]
+    assert json.loads(saved(page, "json"))["remarks"][0]["kind"] == "units"
     # What has 0.2 GPa is not asked about, nor is a soft composite.
-    assert plain(opened(curve_file(mdr.Medium(0.2e9, hardness=5e6))).results.above) == ""
-    assert plain(opened(curve_file(mdr.Medium(50e6, q_c=50.0)), "composite").results.above) == ""
+    assert text(opened(curve_file(mdr.Medium(0.2e9, hardness=5e6))).results.above) == ""
+    assert text(opened(curve_file(mdr.Medium(50e6, q_c=50.0)), "composite").results.above) == ""
 
 
 def test_the_curves_of_a_map_are_judged_as_one_is():
     page = opened(silica("um"))
-    page.fit_all()
+    page.do(page.fit_all)
     ((_, value, error, reason),) = page.rows
     assert (value, error) == (None, None)
     assert "below 1 MPa" in reason
-    assert "below 1 MPa" in page.results._map_written().read()
+    assert "below 1 MPa" in page.results.curves_file.callback().read()
 
 
 # What ± is, and what it is said of.
@@ -155,7 +160,7 @@ def test_the_curves_of_a_map_are_judged_as_one_is():
 def test_below_a_number_stands_what_its_error_does_not_have_in_it():
     page = opened(curve_file(noise=0.004))
     assert "± of the noise; an ideal tip and a rigid frame are assumed." in headline(page)
-    page.hold("frame", 1e-9)
+    choose(page, frame=1e-9)
     assert "± of the noise; an ideal tip is assumed." in headline(page)
     # An exact curve has no ±.
     force = mdr.indent(mdr.Paraboloid(1e-5), mdr.Medium(20e3), DEPTH).force
@@ -168,10 +173,10 @@ def test_below_a_number_stands_what_its_error_does_not_have_in_it():
 def test_what_every_berkovich_has_stands_once_in_the_help():
     """Slopes of 0.358, and the contact radius of an elastic contact: known from tip and sample."""
     page = page_of()
-    page.take_sample("silica")
+    take_sample(page, "silica")
     assert "slopes" not in said(page)
     assert "2.5 times the area" not in said(page)
-    help_ = plain(page.form.help[0].object)
+    help_ = plain(HELP)
     for words in ("13 % for a Berkovich", "contact radius of an elastic contact", "200 nm", "77.1 GPa"):
         assert words in help_
     # The slope of a sphere depends on its depth.
@@ -182,13 +187,6 @@ def test_what_every_berkovich_has_stands_once_in_the_help():
     assert "Slopes reach" in said(page)
 
 
-def test_the_models_own_numbers_are_a_group_called_model():
-    page = opened(curve_file())
-    heading, *rows = page.form.parameters
-    assert plain(heading.object) == "Model"
-    assert page.form.held["E_star"].view in rows
-
-
 # Units, names of files.
 
 
@@ -196,32 +194,31 @@ def test_each_field_has_a_unit_before_anything_is_typed():
     """But those of numbers without one."""
     page = opened(curve_file(timed=True), "viscous")
     form = page.form
-    for name, typed in (form.numbers | form.held).items():
-        shown = typed.field.value or typed.field.placeholder
+    for name, field in form.numbers.items():
+        shown = field.value or field.placeholder
         unit = {"poisson": "type a value", "tip_poisson": "type a value"}
         assert shown == unit.get(name) or re.search(r"[A-Za-zµ°]", shown), (name, shown)
-    assert form.held["baseline"].field.placeholder
-    page.choose_medium("constant")
-    assert form.held["baseline"].field.value == "0 N"
-    assert form.held["drift"].field.placeholder == "0 nm/s"
-    assert "(0 µm, 0 mN)" in opened(curve_file(depth=np.append(0, DEPTH[DEPTH > 0]))).results.said.object
+    choose(page, medium="constant")
+    assert form.numbers["baseline"].value == "0 N"
+    assert form.numbers["drift"].placeholder == "0 nm/s"
+    assert "(0 µm, 0 mN)" in opened(curve_file(depth=np.append(0, DEPTH[DEPTH > 0]))).results.fitted.object
 
 
 def test_a_name_of_a_file_is_no_symbol():
     """“d_c” is typeset with an index, “d_c.csv” is not."""
     page = page_of()
-    page.take_file("d_c.csv", b"nothing")
-    assert "d_c.csv" in page.form.refused.text
-    page.take_file("d_c.csv", b"a,b\n1,2\n2,3\n3,5\n")
-    assert "d_c.csv" in page.form.refused.text
-    assert "<sub>" not in page.form.refused.text.partition(":")[0]
+    for data in (b"nothing", b"a,b\n1,2\n2,3\n3,5\n"):
+        take_file(page, "d_c.csv", data)
+        (error,) = page.form.errors
+        assert "d_c.csv" in error.object
+        assert "<sub>" not in error.object.partition(":")[0]
 
 
 def test_remarks_name_the_file_that_was_dropped():
     """In a file that is kept under another name, in a folder of the server."""
     page = opened((DATA / "steel.csv").read_bytes(), name="steel_1.csv")
-    text = said(page) + page.written("json").read() + page.written("csv").read()
-    assert not re.search(r"file \d+\.csv|/tmp|mdr-explorer-", text)
+    texts = said(page) + saved(page, "json") + saved(page, "csv")
+    assert not re.search(r"file \d+\.csv|/tmp|mdr-explorer-", texts)
 
 
 # An AFM file without a stiffness.
@@ -243,23 +240,24 @@ def test_an_afm_file_without_a_stiffness_is_asked_for_it_and_not_fitted(tmp_path
     heights().export_data(tmp_path / "gel_1.h5", fmt="hdf5")
     page = opened((tmp_path / "gel_1.h5").read_bytes(), "gel", "paraboloid", "gel_1.h5", radius=5e-6)
     assert headline(page).startswith("Give the spring constant k")
-    assert "includes the deflection" in plain(page.results.below)
-    assert page.fit is None
+    assert "includes the deflection" in text(page.results.below)
+    assert page.found is None
     # The curve is seen.
-    assert page.results.curve.visible
+    assert page.results.figures.visible
     assert "Pa" not in said(page)
-    offer(page.results.below, "Give the spring constant of the cantilever")
-    assert page.form._to.value.startswith("to-spring_constant ")
-    assert page.form._of_cantilever.visible
+    press(buttons(page.results.below)["Give the spring constant of the cantilever"])
+    assert page.form.reader.visible
+    assert not page.form.reader.collapsed
+    assert not page.form.columns.view.visible
     # A browser may tell a number twice: without a unit it is still in that in which it was typed.
-    stiffness = page.form.numbers["spring_constant"].field
+    stiffness = page.form.numbers["spring_constant"]
     for _ in range(2):
         stiffness.value = "0.05"
         assert stiffness.value == "0.05 N/m"
     assert headline(page).startswith("E* = 20")
-    assert page.told.quoted.value == approx(20e3, rel=1e-3)
+    assert page.found.quoted.value == approx(20e3, rel=1e-3)
     # The link has it.
-    assert Setting.read(page.setting.query()).spring_constant == 0.05
+    assert link_of(page).numbers["spring_constant"] == 0.05
 
 
 def test_a_map_without_a_stiffness_is_not_fitted(tmp_path):
@@ -273,12 +271,12 @@ def test_a_map_without_a_stiffness_is_not_fitted(tmp_path):
     page = opened((tmp_path / "map.h5").read_bytes(), "gel", "paraboloid", "map.h5", radius=5e-6)
     assert page.count == 2
     assert page.results.all.disabled
-    page.fit_all()
+    page.do(page.fit_all)
     assert [row[1] for row in page.rows] == [None, None]
     assert all("includes the deflection" in row[3] for row in page.rows)
-    page.reread(spring_constant=0.05)
+    choose(page, spring_constant=0.05)
     assert not page.results.all.disabled
-    page.fit_all()
+    page.do(page.fit_all)
     assert [row[1] for row in page.rows] == approx([20e3, 20e3], rel=1e-3)
 
 
@@ -294,11 +292,10 @@ def test_a_drag_that_is_left_out_is_freed_by_a_button():
     drag = 0.1 * force.max() / (1e-6 * np.pi / 2)
     columns = {"t (s)": t, "Depth (nm)": 1e9 * d, "F (pN)": 1e12 * (force + drag * np.gradient(d, t))}
     page = opened(table(columns).encode(), "gel", "paraboloid", radius=10e-6)
-    page.choose_part("all")
+    page.results.part.value = "all"
     assert headline(page) == "No E* to quote"
-    offer(page.results.below, "Free the drag")
-    assert "drag" not in page.setting.held
-    assert page.fit.drag == approx(drag, rel=0.05)
+    press(buttons(page.results.below)["Free the drag"])
+    assert page.found.fit.drag == approx(drag, rel=0.05)
     assert headline(page).startswith("E* = ")
 
 
@@ -307,26 +304,26 @@ def test_a_noise_of_the_depth_is_given_by_a_button():
     noise = 5e-9 * np.random.default_rng(3).standard_normal(DEPTH.size)
     force = mdr.indent(TIP, GLASS, DEPTH).force
     page = opened(table({"h (nm)": 1e9 * (DEPTH + noise), "F (mN)": 1e3 * force}).encode())
-    page.hold("depth_noise", 0.0)
-    remarks = {each.kind: each for each in page.remarks}
+    choose(page, depth_noise=0.0)
+    remarks = {each.kind: each for each in page.results.all_remarks()}
     assert "jitter" in remarks
-    offers = page.results.remarks.offers | page.results.below.offers
+    offers = buttons(page.results.remarks) | buttons(page.results.below)
     press(offers["Give the noise of the depth"])
-    assert page.correction("depth_noise") == approx(5e-9, rel=0.3)
-    assert "jitter" not in {each.kind for each in page.remarks}
+    assert page.found.fit.depth_noise == approx(5e-9, rel=0.3)
+    assert "jitter" not in {each.kind for each in page.results.all_remarks()}
 
 
 def test_remarks_are_kinds_texts_and_remedies_in_the_file():
-    page = of("steel", "constant")
-    told = json.loads(page.written("json").read())
+    page = measured("steel", "constant")
+    told = json.loads(saved(page, "json"))
     assert told["remarks"]
-    for each, remark in zip(told["remarks"], page.remarks, strict=True):
+    for each, remark in zip(told["remarks"], page.results.all_remarks(), strict=True):
         assert each == {"kind": remark.kind, "text": remark.text, "remedy": each["remedy"]}
         assert [(one["action"], one["what"]) for one in each["remedy"]] == [
             (one.action, one.what) for one in remark.remedy
         ]
-    lines = page.written("csv").read()
-    for remark in page.remarks:
+    lines = saved(page, "csv")
+    for remark in page.results.all_remarks():
         assert remark.text in lines
 
 
@@ -334,8 +331,7 @@ def test_an_ideal_tip_at_a_small_depth_is_doubted_below_the_number():
     """At 100 nm, and not at 1 µm; the doubt comes with a way to another tip."""
     page = opened(curve_file(depth=0.1 * DEPTH))
     assert headline(page).startswith("E* = ")
-    assert plain(page.results.below).startswith("An ideal tip at a contact depth of ")
-    offer(page.results.below, "Choose another tip")
-    assert page.form._to.value.startswith("to-profile ")
-    assert "tip" in {each["kind"] for each in json.loads(page.written("json").read())["remarks"]}
-    assert plain(opened(curve_file()).results.below) == ""
+    assert text(page.results.below).startswith("An ideal tip at a contact depth of ")
+    assert "Choose another tip" in buttons(page.results.below)
+    assert "tip" in {each["kind"] for each in json.loads(saved(page, "json"))["remarks"]}
+    assert text(opened(curve_file()).results.below) == ""

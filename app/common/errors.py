@@ -1,0 +1,45 @@
+"""Texts of errors for the page, with what one can do about them."""
+
+import re
+from typing import Any
+
+from mdr_core._errors import InvalidArgument
+from mdr_core.show.units import KINDS, written
+
+from ..quantities import QUANTITIES, lowered
+
+#: Most characters of a text, which may quote a file.
+_MOST = 2000
+
+
+class Refused(Exception):
+    """An error for the user: its text, and remedies of `mdr_core`."""
+
+    def __init__(self, text: str, remedy: tuple[Any, ...] = ()):
+        super().__init__(text)
+        self.text, self.remedy = text, remedy
+
+
+def error_text(error: Exception) -> tuple[str, tuple[Any, ...]]:
+    """Return text and remedies of an error, also of a package that reads files, without folders."""
+    text = in_words(error) if isinstance(error, ValueError) else str(error)
+    return without_folders(text[:_MOST]), getattr(error, "remedy", ())
+
+
+def without_folders(text: str) -> str:
+    """Return a text without the folders of the server in which paths of files begin."""
+    return re.sub(r"(?<![\w.)])(?:[A-Za-z]:)?[/\\](?:[^/\\\s'\":]+[/\\]+)+", "", text)
+
+
+def in_words(error: ValueError) -> str:
+    """Return the message of an error of the core, for a number its symbol, value with unit, bound, advice.
+
+    All other messages are as they stand, without names of Python where they have a text.
+    """
+    if not isinstance(error, InvalidArgument) or not isinstance(error.value, int | float):
+        return getattr(error, "text", str(error))
+    known = QUANTITIES.get(error.argument)
+    name = f"{lowered(known.symbol)}, {known.label}," if known else error.quantity
+    value = written(float(error.value), KINDS.get(error.unit, "number"))
+    advice = f"; {error.advice}" if error.advice and "SI units" not in error.advice else ""
+    return f"{name} = {value} {error.bound}{advice}"

@@ -1,0 +1,304 @@
+"""Jobs in a process of a session: a job can be stopped, and a damaged file ends its own process alone.
+
+Run as a program this module answers the jobs that come on its input.
+"""
+
+import asyncio
+import os
+import pickle
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from importlib import import_module
+from math import ceil
+from pathlib import Path
+from typing import Any
+
+from . import folders
+from .errors import Refused, error_text
+
+_APP = Path(__file__).parents[1]
+
+
+def _setting(name: str, default: int) -> int:
+    """Return a bound from the environment."""
+    text = os.environ.get(name, str(default))
+    if not (text.isascii() and text.isdigit() and int(text) > 0):
+        raise ValueError(f"{name}={text} must be a whole number of 1 or more")
+    return int(text)
+
+
+#: Most processes of a server, most memory of a process (bytes), and most seconds of computing of a job, or
+#: of one curve of many.
+PROCESSES = _setting("MDR_EXPLORER_PROCESSES", 4)
+_MEMORY = _setting("MDR_EXPLORER_GIGABYTES", 4) * 10**9
+_SECONDS = _setting("MDR_EXPLORER_SECONDS", 120)
+#: Seconds without a job after which a process ends, and its niceness.
+_REST, _NICE = 300.0, 5
+#: The program of a process. The package is made bare, of this folder: its own file loads the explorer, with
+#: which a start takes 1.4 s and 42 MB more.
+_PROGRAM = """import sys, types
+app = sys.modules["app"] = types.ModuleType("app")
+app.__path__ = [sys.argv[1]]
+from app.common.process import main
+main()
+"""
+ENDED = (
+    "The process that reads and fits has ended, because of a damaged file or too little memory; "
+    "nothing else is lost. Try another file, or fewer samples"
+)
+LATE = (
+    f"This takes more than {_SECONDS} s of computing, and was stopped; nothing else is lost. "
+    "Try fewer samples, or hold more parameters"
+)
+NO_ROOM = "The server has no room for a process that reads and fits. Try again later"
+NO_PROCESSES = "Files are read in a process, which this server cannot start: use `panel serve app`"
+
+
+def _ignore(told: Any) -> None:
+    """Leave out what nobody asks for."""
+
+
+def queue_text(before: int) -> str:
+    """Return how many people wait for a process before this one."""
+    who = {0: "nobody is", 1: "one person is"}.get(before, f"{before} people are")
+    return f"Waiting for a free process, {who} before you"
+
+
+class Replaced(Exception):
+    """Another job was asked for, or this one was cancelled."""
+
+
+class Places:
+    """The bound of all sessions of a server: who has a place for a process, and who waits for one.
+
+    A process at rest gives way to a session that waits.
+    """
+
+    def __init__(self, most: int):
+        self._most = most
+        self.taken: list[Worker] = []
+        self.waiting: list[Worker] = []
+        self._changes: list[asyncio.Future[None]] = []
+
+    def admit(self) -> None:
+        """Give the places there are to those who wait."""
+        while self.waiting:
+            if len(self.taken) >= self._most:
+                resting = next((each for each in self.taken if not each.busy), None)
+                if resting is None:
+                    break
+                resting.end()
+                self.taken.remove(resting)
+            self.taken.append(self.waiting.pop(0))
+        changes, self._changes = self._changes, []
+        for change in changes:
+            if not change.done():
+                change.set_result(None)
+
+    def leave(self, worker: "Worker") -> None:
+        """Give up a place, or the place in the queue."""
+        for each in (self.taken, self.waiting):
+            if worker in each:
+                each.remove(worker)
+        self.admit()
+
+    async def change(self) -> None:
+        """Wait until somebody has come or gone."""
+        change = asyncio.get_running_loop().create_future()
+        self._changes.append(change)
+        await change
+
+
+PLACES = Places(PROCESSES)
+
+
+class Worker:
+    """The process of a session, which stays for its next job unless another session waits."""
+
+    def __init__(self, places: Places = PLACES):
+        self._places = places
+        self._process: asyncio.subprocess.Process | None = None
+        self._job: object | None = None
+        self._rest: asyncio.TimerHandle | None = None
+
+    @property
+    def busy(self) -> bool:
+        return self._job is not None
+
+    async def run(
+        self,
+        job: str,
+        *arguments: Any,
+        part: Callable[[Any], None] = _ignore,
+        waits: Callable[[int], None] = _ignore,
+    ) -> Any:
+        """Return what a job returns, a function by its name in this package such as "fit.analysis.read".
+
+        `part` gets what the job yields before, `waits` how many wait before this session. A job that comes
+        while another one runs replaces that. Raises Refused or Replaced.
+        """
+        if self.busy:
+            self.end()
+        mine = self._job = object()
+        if self._rest is not None:
+            self._rest.cancel()
+        kind, answer = "part", None
+        try:
+            await self._enter(mine, waits)
+            process = await self._started(mine)
+            _write(process.stdin, (job, arguments))
+            while kind == "part":
+                size = int.from_bytes(await process.stdout.readexactly(8), "big")
+                kind, answer = pickle.loads(await process.stdout.readexactly(size))
+                self._check(mine)
+                if kind == "part":
+                    part(answer)
+        except asyncio.IncompleteReadError:
+            code = await process.wait()
+            self._check(mine)
+            raise Refused(LATE if code == -getattr(signal, "SIGXCPU", 0) else ENDED) from None
+        finally:
+            if self._job is mine:
+                if kind == "part":
+                    # What it still answers would be taken for the answer to the next job.
+                    self.end()
+                self._job = None
+                self._rest = asyncio.get_running_loop().call_later(_REST, self.stop)
+                self._places.admit()
+        if kind == "refused":
+            raise Refused(*answer)
+        return answer
+
+    def stop(self) -> None:
+        """End the process and what it does."""
+        self.end()
+        self._job = None
+        self._places.leave(self)
+
+    def end(self) -> None:
+        """End the process; the place stays."""
+        if self._rest is not None:
+            self._rest.cancel()
+        if self._process is not None:
+            with suppress(ProcessLookupError):
+                self._process.kill()
+        self._process = None
+
+    def _check(self, mine: object) -> None:
+        if self._job is not mine:
+            raise Replaced
+
+    async def _enter(self, mine: object, waits: Callable[[int], None]) -> None:
+        """Wait for a place."""
+        places = self._places
+        if self not in (*places.taken, *places.waiting):
+            places.waiting.append(self)
+        places.admit()
+        while self in places.waiting:
+            waits(places.waiting.index(self))
+            await places.change()
+            self._check(mine)
+
+    async def _started(self, mine: object) -> asyncio.subprocess.Process:
+        if self._process is not None and self._process.returncode is None:
+            return self._process
+        # One thread of linear algebra; `-P`: no modules of the folder in which the server was started.
+        own = {"PYTHONPATH": os.pathsep.join([str(_APP.parent), *filter(None, sys.path)])}
+        own |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "TMPDIR": str(folders.own())}
+        command = sys.executable, "-P", "-c", _PROGRAM, str(_APP)
+        pipes = {"stdin": asyncio.subprocess.PIPE, "stdout": asyncio.subprocess.PIPE}
+        try:
+            process = await asyncio.create_subprocess_exec(*command, env=os.environ | own, **pipes)
+        except NotImplementedError:
+            # The loop of a notebook on Windows.
+            raise Refused(NO_PROCESSES) from None
+        except OSError:
+            raise Refused(NO_ROOM) from None
+        if self._job is not mine:
+            process.kill()
+            raise Replaced
+        self._process = process
+        return process
+
+
+class Here:
+    """Jobs that are done at once, without a process: in a browser, and in tests."""
+
+    async def run(
+        self,
+        job: str,
+        *arguments: Any,
+        part: Callable[[Any], None] = _ignore,
+        waits: Callable[[int], None] = _ignore,
+    ) -> Any:
+        """Return what a job returns, after its parts. Raises Refused."""
+        for kind, answer in answers(job, arguments):
+            if kind == "refused":
+                raise Refused(*answer)
+            if kind == "done":
+                return answer
+            part(answer)
+        raise AssertionError("a job has an answer")
+
+    def stop(self) -> None:
+        """There is nothing to stop."""
+
+
+def _write(pipe: Any, message: Any) -> None:
+    data = pickle.dumps(message)
+    pipe.write(len(data).to_bytes(8, "big") + data)
+
+
+def answers(job: str, arguments: tuple[Any, ...]) -> Iterator[tuple[str, Any]]:
+    """Yield kinds and answers of a job: "part", then "done" or "refused"."""
+    module, _, name = job.rpartition(".")
+    try:
+        found = getattr(import_module(f"..{module}", __package__), name)(*arguments)
+        if isinstance(found, Iterator):
+            yield from (("part", each) for each in found)
+            found = None
+        yield "done", found
+    except (ValueError, ImportError) as error:
+        yield "refused", error_text(error)
+    except MemoryError:
+        yield "refused", ("this needs more memory than a measurement may have",)
+
+
+def main() -> None:
+    """Answer jobs until the input ends, within bounds of memory and time where the system has them."""
+    import logging
+    import warnings
+
+    # Messages of readers are in nobody's sight.
+    logging.disable(logging.WARNING)
+    warnings.simplefilter("ignore")
+    with suppress(ImportError, ValueError, OSError):
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+        # A process that is ended leaves no image of its memory, in which the file would be.
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    with suppress(AttributeError, OSError):
+        os.nice(_NICE)
+    # What a package prints is no answer.
+    output = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    while head := sys.stdin.buffer.read(8):
+        job, arguments = pickle.loads(sys.stdin.buffer.read(int.from_bytes(head, "big")))
+        _limit_time()
+        for answer in answers(job, arguments):
+            _write(output, answer)
+            output.flush()
+            _limit_time()
+
+
+def _limit_time() -> None:
+    """Bound the processor time from now on; beyond it the system ends the process."""
+    with suppress(ImportError, ValueError, OSError):
+        import resource
+
+        used = resource.getrusage(resource.RUSAGE_SELF)
+        _, most = resource.getrlimit(resource.RLIMIT_CPU)
+        resource.setrlimit(resource.RLIMIT_CPU, (ceil(used.ru_utime + used.ru_stime) + _SECONDS, most))

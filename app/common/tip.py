@@ -1,0 +1,44 @@
+"""Measured tips in files."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mdr_core.files.table import decoded
+from mdr_core.files.tips import samples_of
+from mdr_core.profiles.sampled import tip_through
+from mdr_core.show.units import written
+
+from .upload import MAX_SAMPLES, in_line
+
+#: Most samples that a tip is fitted to, and most rows of a file.
+_FITTED, _MAX_ROWS = 2000, 20_000
+#: Share of the height of a tip below which a deviation from its samples is one of rounding.
+_ROUNDING = 1e-12
+
+
+def read(path: str, name: str) -> tuple[tuple[Any, Any], str]:
+    """Return radii and heights (m) of the tip in the file at a path, and a note; see `read_tip`."""
+    return read_tip(decoded(Path(path).read_bytes()), name)
+
+
+def read_tip(text: str, name: str = "the file") -> tuple[tuple[Any, Any], str]:
+    """Return radii and heights (m) of an uploaded tip, and a note; the header names the units.
+
+    Long, noisy or two-sided data become the nearest convex tip. Raises ValueError.
+    """
+    name = in_line(name)
+    r, z = samples_of(text, name, None, _MAX_ROWS)
+    try:
+        tip, scatter = tip_through(r, z, MAX_SAMPLES, _FITTED)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
+    count = len(tip.r)
+    note = f"{len(r)} rows reduced to {count} samples" if len(r) > count else f"{count} samples"
+    # The fit is a sum of terms as large as the heights, of which rounding alone may be left.
+    if scatter is not None and scatter > _ROUNDING * float(np.ptp(z)):
+        note += f"; rms deviation {written(scatter, 'length', 2)}"
+    elif len(r) == count:
+        note += ", as in the file"
+    return (tip.r, tip.z), note

@@ -1,0 +1,312 @@
+"""Reading and fitting without a page: jobs of a process, whose arguments and results can be sent."""
+
+import json
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+import mdr_core as mdr
+from mdr_core.fit.noise import jitter
+from mdr_core.fit.quoted import unloading
+from mdr_core.numerics.remark import Remark, Remedy
+from mdr_core.reading import UnknownColumns
+from mdr_core.show.units import written
+
+from ..common.errors import error_text
+from .choices import IN_TIME, MEDIA
+
+#: Most characters of the name of a column, and of a remark, which may quote the file.
+_HEAD, _REMARK = 80, 500
+#: Most samples that are fitted and drawn: of more, one in two, three … is taken.
+MOST = 2000
+#: Kinds of remarks on what changes a number by more than its error, by the source of that.
+_OF_THE_NUMBER = {"unloading": {"zero", "creep", "tip"}, "fit": {"drift", "drag", "tilt", "tip"}}
+#: E* (Pa): nothing of constant hardness has less than the first, polymers have more than the second, and
+#: rubber has less than the third.
+_NONE, _SOFT, _STIFF = 1e6, 1e8, 1e9
+#: Ratio of E* of loading and unloading of an elastic sample that is a remark, and that is no E* at all.
+_DIFFERS, _NOT_ELASTIC = 1.5, 10.0
+
+
+# Reading.
+
+
+@lru_cache(maxsize=1)
+def _curves(path: str, given: str) -> Any:
+    return mdr.read_curves(path, **json.loads(given))
+
+
+def _read_curves(path: str, given: dict[str, Any]) -> Any:
+    """The curves of a file, which is read once for all of them."""
+    return _curves(path, json.dumps(given))
+
+
+def read(path: str, options: dict[str, Any], number: int) -> tuple[Any, int, Any]:
+    """Return a curve of a file, the number of curves, and None; or None, their number, and a question.
+
+    The question has a text with remedies, the first rows of the table, what is suggested, and samples of
+    the first curve as it is suggested, None if the suggestion lacks something.
+    """
+    count = 0
+    try:
+        curves = _read_curves(path, options)
+        count = len(curves)
+        if number >= count:
+            raise ValueError(f"the file has {count} curves, and no curve {number + 1}")
+        curve = curves[number]
+        remarks = tuple(with_text(each, each.text[:_REMARK]) for each in curve.remarks)
+        return replace(curve, table=curve.table and _first_rows(curve.table), remarks=remarks), count, None
+    except UnknownColumns as error:
+        text, remedy = error_text(error)
+        asked = {"text": text, "remedy": remedy, "table": _first_rows(error.table)}
+        preview = _preview(path, options, error)
+        return None, count, SimpleNamespace(**asked, suggestion=error.suggestion, preview=preview)
+    except (ValueError, ImportError, MemoryError):
+        raise
+    except Exception as error:
+        # What packages raise about a damaged file.
+        raise ValueError(f"{Path(path).name} cannot be read: {type(error).__name__}, {error}") from error
+
+
+def _first_rows(table: Any) -> Any:
+    """Return a table with heads of some length and its first rows alone."""
+    few = table.few()
+    return replace(few, heads={column: head[:_HEAD] for column, head in few.heads.items()})
+
+
+def _preview(path: str, options: dict[str, Any], error: UnknownColumns) -> Any:
+    """Return the samples of the first curve that has the columns of a suggestion, or None."""
+    if not error.complete:
+        return None
+    with suppress(ValueError):
+        for curve in mdr.read_curves(path, **(options | error.suggestion)):
+            if curve.table.heads == error.table.heads or len(error.suggestion) > 1:
+                return samples(curve)
+    return None
+
+
+def with_text(remark: Remark, text: str) -> Remark:
+    """Return a remark with another text."""
+    return Remark(text, remark.kind, text, remark.remedy)
+
+
+def samples(curve: Any, drift: float | None = None, frame: float | None = None) -> SimpleNamespace:
+    """Return at most `MOST` samples of a curve: number from 1 on, depth, force, time, whether in a hold."""
+    if drift and curve.time is not None:
+        curve = curve.minus_drift(drift)
+    if frame:
+        curve = curve.minus_frame(frame)
+    step = -(-len(curve) // MOST)
+    columns = {"number": np.arange(1, len(curve) + 1), "held": curve.segment == "hold", "time": curve.time}
+    columns |= {"depth": curve.depth, "force": curve.force}
+    return SimpleNamespace(
+        **{name: each if each is None else each[::step] for name, each in columns.items()}
+    )
+
+
+def ends_of(taken: SimpleNamespace, count: int, part: str) -> tuple[int, int]:
+    """Return the numbers of the first and last sample of a part: "all", "loading" or "unloading"."""
+    top = int(taken.number[np.argmax(taken.depth)])
+    ends = {"all": (1, count), "loading": (1, top), "unloading": (top, count)}[part]
+    return ends if ends[0] < ends[1] else (1, count)
+
+
+# Fits.
+
+
+def fit(curve: Any, asked: dict[str, Any]) -> SimpleNamespace:
+    """Return the fit of a curve with its classes, the number to quote, and remarks above and below that.
+
+    `asked` has the tip, the kind of sample, arguments of the fit, corrections of the depth, and the numbers
+    of the first and last sample, () for the part that the kind of sample takes.
+    """
+    asked = SimpleNamespace(**asked)
+    medium, taken = MEDIA[asked.medium], samples(curve, **asked.corrections)
+    arguments = dict(asked.arguments)
+    if curve.time is None:
+        arguments = {name: value for name, value in arguments.items() if name not in IN_TIME}
+    if medium.letter and (noise := float(f"{jitter(taken.depth, taken.force)[0]:.2g}")):
+        arguments.setdefault("depth_noise", noise)
+    ends = asked.samples or ends_of(taken, len(curve), medium.part)
+    used = (ends[0] <= taken.number) & (taken.number <= ends[1])
+    _check_range(taken, used, arguments)
+    found, remarks = _fitted(asked.profile, taken, used, arguments)
+    part = next((each for each in ("loading", "unloading") if ends_of(taken, len(curve), each) == ends), "")
+    quoted, above, below = _plausible(found.quoted, asked, arguments, curve, taken, used, part)
+    of_unloading = None
+    if quoted.source == "unloading":
+        of_unloading, _ = unloading(found)
+        remarks += of_unloading.remarks
+        above = above or tuple(each for each in of_unloading.remarks if each.kind == "units")
+    below += tuple(each for each in remarks if each.kind in _OF_THE_NUMBER.get(quoted.source, ()))
+    # Classes are kept in the fit, which is sent.
+    return SimpleNamespace(
+        fit=found, quoted=quoted, above=above, below=below, remarks=remarks, unloading=of_unloading,
+        verdict=found.class_of_hardness, ends=ends, used=used,
+    )  # fmt: skip
+
+
+def fit_all(path: str, given: dict[str, Any], asked: dict[str, Any]) -> Iterator[Any]:
+    """Yield number, E* to quote, its error (Pa), and the source or why there is no E*, for each curve."""
+    curves = _read_curves(path, given)
+    for number in range(len(curves)):
+        try:
+            curve = curves[number]
+            if doubt := deflection(curve):
+                yield number, None, None, doubt.text
+                continue
+            quoted = fit(curve, asked).quoted
+            yield number, quoted.value, quoted.standard_error, quoted.reason
+        except ValueError as error:
+            yield number, None, None, error_text(error)[0]
+
+
+def deflection(curve: Any) -> Remark | None:
+    """Return the remark that depths include the deflection of an unknown cantilever, or None."""
+    return next((each for each in curve.remarks if each.kind == "deflection"), None)
+
+
+def _check_range(taken: Any, used: np.ndarray, arguments: dict[str, Any]) -> None:
+    """Raise ValueError if samples need those before: a medium remembers its largest depth, and rates."""
+    if np.count_nonzero(used) < 2:
+        raise ValueError("the range has fewer than two samples to be fitted: choose a longer range")
+    first, depth = int(np.argmax(used)), taken.depth
+    if arguments.get("eta", 0.0) != 0 and first:
+        raise ValueError(
+            "with viscosity the force depends on all samples before: begin the range at sample 1"
+        )
+    largest, within = float(depth[: first + 1].max()), float(depth[used].max())
+    # As for noise of the depth, a thousandth of the range hardly counts.
+    if arguments.get("q_c") != np.inf and largest - within > 1e-3 * np.ptp(depth[used]):
+        raise ValueError(
+            f"the samples before the range reach deeper, {written(largest, 'length')}, than the range, "
+            f"{written(within, 'length')}, and their yield would not be fitted: begin the range at the "
+            "largest depth or before"
+        )
+    origin = arguments.get("contact_point")
+    if origin is not None and origin >= within:
+        raise ValueError(
+            f"first contact z₀ = {written(origin, 'length')} is held, and the samples reach only to "
+            f"{written(within, 'length')}: let the fit find z₀, or type a smaller z₀"
+        )
+
+
+def _fitted(profile: Any, taken: Any, used: np.ndarray, arguments: dict[str, Any]) -> tuple[Any, Any]:
+    """Return a fit and its remarks, without the times if these, by a drift, leave no number to quote."""
+    columns, time = (taken.depth[used], taken.force[used]), None if taken.time is None else taken.time[used]
+    found = mdr.fit_indentation(profile, *columns, time=time, **arguments)
+    timed = any(arguments.get(name, 0.0) != 0 for name in ("eta", "drag"))
+    if found.quoted.value is None and time is not None and not timed:
+        other = mdr.fit_indentation(profile, *columns, **arguments)
+        if other.quoted.value is not None:
+            return other, tuple(dict.fromkeys((*found.remarks, *other.remarks)))
+    return found, found.remarks
+
+
+def modulus_of_sample(
+    E_star: float, error: float, poisson: float, tip_modulus: float | None, tip_poisson: float | None
+) -> tuple[float, float]:
+    """Return Young's modulus (Pa) of the sample and its error, by 1/E* = (1 − ν²)/E + (1 − ν_t²)/E_t.
+
+    Johnson (1985), Contact Mechanics, Eq. (4.5). A tip without a modulus is rigid.
+
+    Examples
+    --------
+    >>> E, error = modulus_of_sample(69.6e9, 0.2e9, 0.17, 1141e9, 0.07)  # fused silica under diamond
+    >>> print(f"{E / 1e9:.1f} ± {error / 1e9:.1f} GPa")
+    72.0 ± 0.2 GPa
+    """
+    of_tip = 0.0 if tip_modulus is None else (1 - (tip_poisson or 0.0) ** 2) / tip_modulus
+    rest = 1 / E_star - of_tip
+    if rest <= 0:
+        raise ValueError(
+            f"a tip of {written(tip_modulus or 0.0, 'pressure')} is softer than the contact, E* = "
+            f"{written(E_star, 'pressure')}: type its modulus again"
+        )
+    E = (1 - poisson**2) / rest
+    return E, E / rest / E_star**2 * error
+
+
+# Whether a modulus is one to quote for the kind of sample that was chosen.
+
+
+def _plausible(
+    quoted: Any, asked: Any, arguments: Any, curve: Any, taken: Any, used: Any, part: str
+) -> Any:
+    """Return the number to quote or none, questions above it, and remarks below it."""
+    E = quoted.value
+    if E is None:
+        return quoted, (), ()
+    other = None
+    if quoted.source == "fit" and asked.medium == "gel" and part:
+        other = _of_other_part(asked.profile, taken, arguments, part)
+    ratio = max(other / E, E / other) if other else np.inf
+    below: tuple[Remark, ...] = ()
+    if other and ratio >= _NOT_ELASTIC:
+        text = (
+            "loading and unloading differ by a factor of ten or more in E*, and an elastic sample has one"
+        )
+        text += ": choose the kind of a sample that yields"
+        return _none(quoted, Remark(text, "unloading", remedy=(Remedy("class", "a"),))), (), ()
+    if other and ratio >= _DIFFERS:
+        rest = {"loading": "unloading", "unloading": "loading"}[part]
+        text = f"of the {part}; the {rest} alone gives {written(other, 'pressure', 2)}, {ratio:.2g} times"
+        below = (Remark(f"{text}: the sample yields, sticks or loses energy", "unloading"),)
+    if asked.medium == "constant" and E < _SOFT:
+        text, remedy = _unit_to_look_at(asked.profile, curve, taken, used, E, (_SOFT, 2e12), 1e-3)
+        if E < _NONE:
+            text = f"E* comes out below 1 MPa, which no glass, metal or ceramic has: {text}"
+            doubt = Remark(f"{text}, or choose another kind of sample", "units", remedy=remedy)
+            return _none(quoted, doubt), (), ()
+        doubt = Remark(f"few samples of constant hardness are so soft: {text}", "units", remedy=remedy)
+        return quoted, (doubt,), below
+    if asked.medium == "gel" and E > _STIFF and ratio >= _DIFFERS:
+        text, remedy = _unit_to_look_at(asked.profile, curve, taken, used, E, (0.0, _STIFF), 1e3)
+        doubt = Remark(f"few gels, cells and rubbers are so stiff: {text}", "units", remedy=remedy)
+        return quoted, (doubt,), below
+    return quoted, (), below
+
+
+def _none(quoted: Any, doubt: Remark) -> Any:
+    nothing = {"value": None, "standard_error": None, "source": None}
+    return replace(quoted, **nothing, reason=doubt.text, kind=doubt.kind, remedy=doubt.remedy)
+
+
+def _of_other_part(profile: Any, taken: Any, arguments: dict[str, Any], part: str) -> float | None:
+    """Return E* (Pa) of the unloading for a loading, or the reverse; None if it is vague."""
+    if any(arguments.get(name, 0.0) is not None for name in ("E_star", "contact_point", "baseline")):
+        return None
+    later = taken.number >= taken.number[np.argmax(taken.depth)]
+    other = (later if part == "loading" else ~later) & ~taken.held
+    if np.count_nonzero(other) < 20:
+        return None
+    try:
+        timed = taken.time is not None and any(arguments.get(name, 0.0) != 0 for name in ("eta", "drag"))
+        time = taken.time[other] if timed else None
+        found = mdr.fit_indentation(profile, taken.depth[other], taken.force[other], time=time, **arguments)
+    except ValueError:
+        return None
+    E, error = float(found.medium.E_star), float(found.standard_errors["E_star"])
+    return E if error <= 0.5 * E else None
+
+
+def _unit_to_look_at(profile, curve, taken, used, E, plausible, size) -> tuple[str, tuple[Remedy, ...]]:
+    """Return text and remedies: the unit, taken for `size` times it, with which E* would be plausible."""
+    # The tip alone tells how E* depends on a depth in another unit.
+    depth = float(np.ptp(taken.depth[used]))
+    depths = np.minimum([depth, size * depth], profile.known_depth)
+    forces = mdr.indent(profile, mdr.Medium(1.0), depths).force
+    likely = {"depth": E * forces[0] / forces[1], "force": E / size}
+    names = [name for name, E in likely.items() if plausible[0] <= E <= plausible[1]] or list(likely)
+    columns = {"depth": curve.columns.get("piezo")} | curve.columns
+    units = {name: columns[name][1].lstrip("−") for name in names if columns.get(name)}
+    text = f"look at the unit{'s' * (len(names) > 1)} of {' and '.join(names)}"
+    if units:
+        text = f"the file is read with {' and '.join(f'{n} in {u}' for n, u in units.items())}; {text}"
+    return text, tuple(Remedy("unit", name) for name in names)
