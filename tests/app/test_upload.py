@@ -91,10 +91,10 @@ def test_a_file_of_just_the_bound_is_taken_and_one_byte_more_is_refused():
     added(uploads, *parts, part("other.csv", 1, 2, b"1"), most=TIP_BYTES)
     with pytest.raises(ValueError, match=r"^tip\.csv has more than 5 MB"):
         uploads.add(part("tip.csv", 3, 4, bytes(rest + 1)), TIP_BYTES)
-    # Nothing of it is kept, its rest is ignored, and others go on.
-    # A byte, its name and what lists it.
+    # Nothing of it is kept, its rest is ignored, and the other goes on: a byte, its name and what lists it.
     assert 0 < uploads.size < 100
-    assert added(uploads, part("tip.csv", 4, 4), part("other.csv", 2, 2, b"2")) == [("other.csv", b"12")]
+    rest = part("tip.csv", 4, 4), part("other.csv", 2, 2, b"2")
+    assert added(uploads, *rest, most=TIP_BYTES) == [("other.csv", b"12")]
 
 
 def test_files_that_never_end_keep_no_more_than_a_session_may():
@@ -106,12 +106,12 @@ def test_files_that_never_end_keep_no_more_than_a_session_may():
             except ValueError as error:
                 refused.append((name, k, str(error)))
             assert uploads.size <= SESSION_BYTES
-    # The bound has 50 parts, and two files and a half of 20.
+    # The bound has 50 parts without what lists them: two files of 20, and 9 of the third.
     ((name, k, text),) = [each for each in refused if each[0] == "c"]
-    assert k == 11
+    assert k == 10
     assert text.startswith("the files on their way have more than 100 MB together; c is left out")
     # Without that one there is room for the next, and those before go on.
-    assert not [each for each in refused if each[0] == "d" and each[1] <= 10]
+    assert not [each for each in refused if each[0] == "d" and each[1] < 10]
     assert [len(data) for _, data in added(uploads, part("a", 21, 21, FULL))] == [21 * PART_BYTES]
 
 
