@@ -1,47 +1,30 @@
-"""Jobs in a process of a session: a job can be stopped, and a damaged file ends its own process alone.
-
-Run as a program this module answers the jobs that come on its input.
-"""
+"""Jobs in a process of a session: a job can be stopped, and a damaged file ends its own process alone."""
 
 import asyncio
 import os
 import pickle
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
-from importlib import import_module
-from math import ceil
 from pathlib import Path
 from typing import Any
 
 from . import folders
-from .errors import Refused, error_text
+from .errors import Refused
+from .jobs import SECONDS, answers, packed, setting
 
 _APP = Path(__file__).parents[1]
 
 
-def _setting(name: str, default: int) -> int:
-    """Return a bound from the environment."""
-    text = os.environ.get(name, str(default))
-    if not (text.isascii() and text.isdigit() and int(text) > 0):
-        raise ValueError(f"{name}={text} must be a whole number of 1 or more")
-    return int(text)
-
-
-#: Most processes of a server, most memory of a process (bytes), and most seconds of computing of a job, or
-#: of one curve of many.
-PROCESSES = _setting("MDR_EXPLORER_PROCESSES", 4)
-_MEMORY = _setting("MDR_EXPLORER_GIGABYTES", 4) * 10**9
-_SECONDS = _setting("MDR_EXPLORER_SECONDS", 120)
-#: Seconds without a job after which a process ends, and its niceness.
-_REST, _NICE = 300.0, 5
+#: Most processes of a server, and seconds without a job after which a process ends.
+PROCESSES, _REST = setting("MDR_EXPLORER_PROCESSES", 4), 300.0
 #: The program of a process. The package is made bare, of this folder: its own file loads the explorer, with
 #: which a start takes 1.4 s and 42 MB more.
 _PROGRAM = """import sys, types
 app = sys.modules["app"] = types.ModuleType("app")
 app.__path__ = [sys.argv[1]]
-from app.common.process import main
+from app.common.jobs import main
 main()
 """
 ENDED = (
@@ -49,7 +32,7 @@ ENDED = (
     "nothing else is lost. Try another file, or fewer samples"
 )
 LATE = (
-    f"This takes more than {_SECONDS} s of computing, and was stopped; nothing else is lost. "
+    f"This takes more than {SECONDS} s of computing, and was stopped; nothing else is lost. "
     "Try fewer samples, or hold more parameters"
 )
 NO_ROOM = "The server has no room for a process that reads and fits. Try again later"
@@ -148,7 +131,7 @@ class Worker:
         try:
             await self._enter(mine, waits)
             process = await self._started(mine)
-            _write(process.stdin, (job, arguments))
+            process.stdin.write(packed((job, arguments)))
             while kind == "part":
                 size = int.from_bytes(await process.stdout.readexactly(8), "big")
                 kind, answer = pickle.loads(await process.stdout.readexactly(size))
@@ -244,61 +227,3 @@ class Here:
 
     def stop(self) -> None:
         """There is nothing to stop."""
-
-
-def _write(pipe: Any, message: Any) -> None:
-    data = pickle.dumps(message)
-    pipe.write(len(data).to_bytes(8, "big") + data)
-
-
-def answers(job: str, arguments: tuple[Any, ...]) -> Iterator[tuple[str, Any]]:
-    """Yield kinds and answers of a job: "part", then "done" or "refused"."""
-    module, _, name = job.rpartition(".")
-    try:
-        found = getattr(import_module(f"..{module}", __package__), name)(*arguments)
-        if isinstance(found, Iterator):
-            yield from (("part", each) for each in found)
-            found = None
-        yield "done", found
-    except (ValueError, ImportError) as error:
-        yield "refused", error_text(error)
-    except MemoryError:
-        yield "refused", ("this needs more memory than a measurement may have",)
-
-
-def main() -> None:
-    """Answer jobs until the input ends, within bounds of memory and time where the system has them."""
-    import logging
-    import warnings
-
-    # Messages of readers are in nobody's sight.
-    logging.disable(logging.WARNING)
-    warnings.simplefilter("ignore")
-    with suppress(ImportError, ValueError, OSError):
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
-        # A process that is ended leaves no image of its memory, in which the file would be.
-        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    with suppress(AttributeError, OSError):
-        os.nice(_NICE)
-    # What a package prints is no answer.
-    output = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)
-    while head := sys.stdin.buffer.read(8):
-        job, arguments = pickle.loads(sys.stdin.buffer.read(int.from_bytes(head, "big")))
-        _limit_time()
-        for answer in answers(job, arguments):
-            _write(output, answer)
-            output.flush()
-            _limit_time()
-
-
-def _limit_time() -> None:
-    """Bound the processor time from now on; beyond it the system ends the process."""
-    with suppress(ImportError, ValueError, OSError):
-        import resource
-
-        used = resource.getrusage(resource.RUSAGE_SELF)
-        _, most = resource.getrlimit(resource.RLIMIT_CPU)
-        resource.setrlimit(resource.RLIMIT_CPU, (ceil(used.ru_utime + used.ru_stime) + _SECONDS, most))

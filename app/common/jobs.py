@@ -1,0 +1,90 @@
+"""The program of a process: it answers the jobs that come on its input.
+
+A job is a function by its name in this package, such as "fit.analysis.read", and is loaded when it is first
+asked for. Nothing of the page is loaded, and no asyncio, which takes 0.1 s.
+"""
+
+import os
+import pickle
+import sys
+from collections.abc import Iterator
+from contextlib import suppress
+from importlib import import_module
+from math import ceil
+from typing import Any
+
+from .errors import error_text
+
+
+def setting(name: str, default: int) -> int:
+    """Return a bound from the environment."""
+    text = os.environ.get(name, str(default))
+    if not (text.isascii() and text.isdigit() and int(text) > 0):
+        raise ValueError(f"{name}={text} must be a whole number of 1 or more")
+    return int(text)
+
+
+#: Most memory of a process (bytes), and most seconds of computing of a job, or of one curve of many.
+_MEMORY = setting("MDR_EXPLORER_GIGABYTES", 4) * 10**9
+SECONDS = setting("MDR_EXPLORER_SECONDS", 120)
+#: Niceness of a process.
+_NICE = 5
+
+
+def packed(message: Any) -> bytes:
+    """Return a message as bytes, its length first."""
+    data = pickle.dumps(message)
+    return len(data).to_bytes(8, "big") + data
+
+
+def answers(job: str, arguments: tuple[Any, ...]) -> Iterator[tuple[str, Any]]:
+    """Yield kinds and answers of a job: "part", then "done" or "refused"."""
+    module, _, name = job.rpartition(".")
+    try:
+        found = getattr(import_module(f"..{module}", __package__), name)(*arguments)
+        if isinstance(found, Iterator):
+            yield from (("part", each) for each in found)
+            found = None
+        yield "done", found
+    except (ValueError, ImportError) as error:
+        yield "refused", error_text(error)
+    except MemoryError:
+        yield "refused", ("this needs more memory than a measurement may have",)
+
+
+def main() -> None:
+    """Answer jobs until the input ends, within bounds of memory and time where the system has them."""
+    import logging
+    import warnings
+
+    # Messages of readers are in nobody's sight.
+    logging.disable(logging.WARNING)
+    warnings.simplefilter("ignore")
+    with suppress(ImportError, ValueError, OSError):
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
+        # A process that is ended leaves no image of its memory, in which the file would be.
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    with suppress(AttributeError, OSError):
+        os.nice(_NICE)
+    # What a package prints is no answer.
+    output = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    while head := sys.stdin.buffer.read(8):
+        job, arguments = pickle.loads(sys.stdin.buffer.read(int.from_bytes(head, "big")))
+        _limit_time()
+        for answer in answers(job, arguments):
+            output.write(packed(answer))
+            output.flush()
+            _limit_time()
+
+
+def _limit_time() -> None:
+    """Bound the processor time from now on; beyond it the system ends the process."""
+    with suppress(ImportError, ValueError, OSError):
+        import resource
+
+        used = resource.getrusage(resource.RUSAGE_SELF)
+        _, most = resource.getrlimit(resource.RLIMIT_CPU)
+        resource.setrlimit(resource.RLIMIT_CPU, (ceil(used.ru_utime + used.ru_stime) + SECONDS, most))
