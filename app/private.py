@@ -8,11 +8,15 @@ import asyncio
 import logging
 from collections.abc import Callable
 from contextlib import suppress
+from functools import cache
 from importlib import import_module
 from pathlib import Path
+from secrets import token_urlsafe
 from typing import Any
 from urllib.parse import urlsplit
 
+from bokeh.settings import settings
+from bokeh.util.token import check_token_signature, get_session_id
 from tornado.web import HTTPError, RequestHandler
 
 from .ui import JS
@@ -29,8 +33,11 @@ _WITHOUT_WEBGL = """{% block js_resources %}
 {% endfor %}{% endblock %}"""
 
 
-class NoComponents(RequestHandler):
+class NotFound(RequestHandler):
     """404, whatever is asked for."""
+
+    def initialize(self, **given):
+        """Take what Bokeh gives the handlers of an app."""
 
     def prepare(self):
         raise HTTPError(404)
@@ -43,18 +50,23 @@ def no_components() -> None:
     server. The page asks for none. Routes are built from this name once the app is loaded.
     """
     if _end("panel.io.server", "ComponentResourceHandler"):
-        import_module("panel.io.server").ComponentResourceHandler = NoComponents
+        import_module("panel.io.server").ComponentResourceHandler = NotFound
+
+
+#: Types of the arrays that are taken, of at most eight bytes.
+_NUMBERS = {"bool", "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"}
 
 
 def no_packed_bytes() -> None:
-    """Refuse bytes that come packed in a message: unpacked they may be a thousand times as large.
+    """Refuse bytes that come packed in a message, and arrays of anything but numbers.
 
-    Bokeh unpacks them without a bound, in the thread of the server. Browsers send bytes as buffers beside
-    the message.
+    Unpacked, or as texts of a given length, they may be a million times as large. Bokeh makes them without
+    a bound, in the thread of the server. Browsers send bytes as buffers beside the message, and no arrays.
     """
     deserializer = _end("bokeh.core.serialization", "Deserializer")
     decode = getattr(deserializer, "_decode_bytes", None)
-    if decode is None:
+    decode_numbers = getattr(deserializer, "_decode_ndarray", None)
+    if decode is None or decode_numbers is None:
         return
 
     def decode_bytes(self, obj):
@@ -62,7 +74,12 @@ def no_packed_bytes() -> None:
             self.error("packed bytes are not taken; they are sent as a buffer")
         return decode(self, obj)
 
-    deserializer._decode_bytes = decode_bytes
+    def decode_ndarray(self, obj):
+        if obj["dtype"] not in _NUMBERS:
+            self.error("arrays of numbers alone are taken")
+        return decode_numbers(self, obj)
+
+    deserializer._decode_bytes, deserializer._decode_ndarray = decode_bytes, decode_ndarray
 
 
 #: Types are not guessed, and no other site is told the address, which has the scene or the name of a file.
@@ -77,6 +94,42 @@ def headers() -> None:
             self.set_header(name, value)
 
     RequestHandler.set_default_headers = set_default_headers
+
+
+def own_sessions() -> None:
+    """Let this server alone name sessions, and sign their names.
+
+    A link with the name of a session, or a token that its sender has written, would lead a visitor into a
+    session of the sender, who sees the files of the visitor and runs scripts in the page. The key is made
+    before processes are forked; one in BOKEH_SECRET_KEY goes first.
+    """
+    patterns, handler = _end("bokeh.server.urls", "per_app_patterns"), _end("panel.io.server", "DocHandler")
+    if not (patterns and handler):
+        return
+    if not settings.secret_key():
+        settings.secret_key = token_urlsafe(32)
+        # Kept from before there was a key.
+        vars(settings).pop("_secret_key_bytes", None)
+    settings.sign_sessions = True
+    # The page does not embed by a script, which asks for a session, too.
+    patterns[:0] = [(r"/autoload.js", NotFound), (r"/?", document(handler))]
+
+
+def document(handler: Any) -> Any:
+    """A class of Panel's pages that takes no name of a session from a request."""
+
+    class Document(handler):
+        """Page in a session of its own."""
+
+        async def prepare(self):
+            request = self.request
+            for given in (request.arguments, request.query_arguments, request.body_arguments):
+                for name in ("bokeh-session-id", "bokeh-token"):
+                    given.pop(name, None)
+            request.headers.pop("Bokeh-Session-Id", None)
+            await super().prepare()
+
+    return Document
 
 
 #: Hosts to which no name of another site can be bound.
@@ -109,15 +162,24 @@ def websockets() -> None:
 
 
 def websocket(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
-    """A class of Panel's websockets that is for allowed origins only, and sends promptly."""
+    """A class of Panel's websockets for allowed origins and tokens of this server, which sends promptly."""
+    #: The websocket of each session by its name: of two with one token the newer one is served.
+    sockets: dict[str, Any] = {}
 
     class Websocket(handler):
-        """Websocket that asks for the origin, and sends each part of a message at once."""
+        """Websocket that asks for origin and token, and sends each part of a message at once."""
 
         async def prepare(self):
             origin = self.request.headers.get("Origin")
             # Programs other than browsers send none.
             if origin is not None and not self.check_origin(origin):
+                raise HTTPError(403)
+            token = self.request.headers.get("Sec-WebSocket-Protocol", "").partition(",")[2].strip()
+            known, app = False, self.application
+            # Before anything of it is unpacked; some texts are no tokens at all.
+            with suppress(ValueError, KeyError, TypeError):
+                known = check_token_signature(token, app.secret_key, app.sign_sessions)
+            if not known:
                 raise HTTPError(403)
             await super().prepare()
 
@@ -131,7 +193,16 @@ def websocket(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
 
         def open(self, *args, **kwargs):
             self.set_nodelay(True)
+            name = get_session_id(self._token)
+            if (other := sockets.pop(name, None)) is not None:
+                other.close(1008, "this session is shown elsewhere")
+            sockets[name] = self
             return super().open(*args, **kwargs)
+
+        def on_close(self):
+            for name in [name for name, each in sockets.items() if each is self]:
+                del sockets[name]
+            super().on_close()
 
     async def send_message(self, message):
         """Send a message without Bokeh's lock of the websocket.
@@ -172,5 +243,6 @@ def _end(module: str, name: str) -> Any:
         return None
 
 
+@cache
 def _missing(what: str) -> None:
     _LOG.warning("%s is not there in this version of Panel or Bokeh; the page goes on without it", what)

@@ -13,6 +13,7 @@ folders.clear()
 private.no_components()
 private.no_packed_bytes()
 private.headers()
+private.own_sessions()
 private.websockets()
 
 

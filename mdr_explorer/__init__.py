@@ -5,6 +5,7 @@ import socket
 import sys
 from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from mdr_core import __version__
@@ -60,9 +61,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if not any(each.startswith(("--address", "--unix-socket")) for each in others):
         _check_free(given.port)
     shown = ["--show"] if given.show else []
+    _allow_sockets()
     # Panel takes its arguments from here alone.
     sys.argv = ["panel", "serve", str(APP), *OPTIONS, "--port", str(given.port), *shown, *others]
     panel()
+
+
+def _allow_sockets() -> None:
+    """Take as many files and sockets as the system allows: by default it is often 1024, each person one."""
+    with suppress(ImportError, ValueError, OSError):
+        import resource
+
+        _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
 
 
 def _parser() -> ArgumentParser:

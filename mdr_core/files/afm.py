@@ -13,6 +13,7 @@ from ..numerics.remark import Remark, Remedy, refused
 from ..show.report import imported
 from .cantilever import Cantilever
 from .curve import curve_of
+from .hdf5 import refuse_outside
 from .packed import refuse_large
 from .table import Table
 
@@ -113,6 +114,8 @@ def from_afm(path, given):
     """`MeasuredCurves` of a file that `afmformats` reads."""
     refuse_large(path)
     afmformats = imported("afmformats", f"reading {path.name}", '"mdr-core[afm]"')
+    if path.suffix.lower() in (".h5", ".hdf5"):
+        refuse_outside(path)
     with _refused(afmformats.errors, path):
         loaded, stiffness = _loaded(afmformats, path, given)
         curves = sorted(loaded, key=lambda data: data.enum)

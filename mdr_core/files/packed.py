@@ -19,6 +19,10 @@ def refuse_large(path, sheets=None):
     try:
         with zipfile.ZipFile(path) as file:
             inside = file.infolist()
+    except NotImplementedError as error:
+        raise ValueError(
+            f"{path.name} is packed in a way that cannot be read, {error}: unpack it and read its files"
+        ) from None
     except (zipfile.BadZipFile, OSError, ValueError):
         # Its reader says what is wrong.
         return

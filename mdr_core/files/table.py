@@ -16,6 +16,8 @@ from .units import cleaned, unit_alone
 
 #: Most characters of a line, and of one that is searched for names and constants; most columns.
 _LONGEST_LINE, LONGEST_HEADER, _MOST_COLUMNS = 10_000, 2_000, 1_000
+#: Most samples of a table: each needs some 0.5 kB while the table is read.
+_MOST_ROWS = 2_000_000
 #: Most lines above the rows in which names are looked for.
 _ABOVE = 8
 _BRACKETS = " ()[]{}<>/"
@@ -121,7 +123,7 @@ def decoded(data):
         return data.decode("cp1252", "replace")
 
 
-def read_table(text, name, limit=10**7):
+def read_table(text, name, limit=_MOST_ROWS):
     """The table of a text: a header, and rows of numbers separated by commas, semicolons, tabs or blanks.
 
     Lines that start with # belong to the header, or are comments. More samples than `limit` are refused.
@@ -130,7 +132,7 @@ def read_table(text, name, limit=10**7):
     return _table(lines, gaps, name, limit)
 
 
-def read_tables(text, name, limit=10**7):
+def read_tables(text, name, limit=_MOST_ROWS):
     """All tables of a text: each begins with a line that has a word for each column."""
     lines, gaps = _lines(text, name, limit)
     widths = [line.width for line in lines]
@@ -160,25 +162,29 @@ def _is_header(line, *widths):
 
 def _lines(text, name, limit):
     """Lines of a text that are not empty, and the numbers of those that are."""
-    every = list(enumerate(text.splitlines()[: 2 * limit], 1))
-    lines = [pair for pair in every if pair[1].strip()]
+    # Before a line of two letters takes half a kilobyte.
+    if max(text.count("\n"), text.count("\r")) > 2 * limit:
+        raise ValueError(f"{name}: more than {limit} samples; give fewer samples")
+    every = text.splitlines()[: 2 * limit]
+    places = [i for i, line in enumerate(every, 1) if line.strip()]
+    lines = [every[i - 1] for i in places]
     if not lines:
         raise ValueError(f"{name} is empty")
-    if any(len(line) > _LONGEST_LINE for _, line in lines):
+    if any(len(line) > _LONGEST_LINE for line in lines):
         raise ValueError(
             f"{name}: a line is longer than {_LONGEST_LINE} characters; use one line per sample"
         )
-    separator = next((s for s in "\t;|" if 2 * sum(s in line for _, line in lines) > len(lines)), "")
+    separator = next((s for s in "\t;|" if 2 * sum(s in line for line in lines) > len(lines)), "")
     cells = [
         [] if line.lstrip().startswith("#") else _cells(line) if separator in line else [line.strip()]
-        for _, line in lines
+        for line in lines
     ]
     number = number_reader(cells, name)
     found = [
         _Line(i, line, row, [number(cell) for cell in row])
-        for (i, line), row in zip(lines, cells, strict=True)
+        for i, line, row in zip(places, lines, cells, strict=True)
     ]
-    return found, [i for i, line in every if not line.strip()]
+    return found, [i for i, line in enumerate(every, 1) if not line.strip()]
 
 
 def _cells(line):

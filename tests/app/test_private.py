@@ -22,6 +22,7 @@ ENDS = {
     ),
     "bokeh.server.urls.per_app_patterns": "from bokeh.server import urls; del urls.per_app_patterns",
     "panel.io.server.WSHandler": "from panel.io import server; del server.WSHandler",
+    "panel.io.server.DocHandler": "from panel.io import server; del server.DocHandler",
     "panel.io.document.dispatch_tornado": "from panel.io import document; del document.dispatch_tornado",
     "panel.io.resources.BASE_TEMPLATE": "from panel.io import resources; del resources.BASE_TEMPLATE",
 }
@@ -43,6 +44,26 @@ print(private.template().count("block"))
     assert done.stderr.count(f"{end} is not there in this version") == 1
     # The template has its head in any case.
     assert int(done.stdout) == (2 if "TEMPLATE" in end else 4)
+
+
+def test_an_array_of_texts_is_not_made():
+    """172 bytes that would be a gigabyte; an array of numbers is taken. In a process of its own."""
+    code = """import numpy as np
+from bokeh.core.serialization import DeserializationError, Deserializer
+from app import server_lifecycle
+array = {"type": "ndarray", "array": [1, 2], "order": "little", "shape": [2]}
+try:
+    print(Deserializer().decode(array | {"dtype": "S1000000000"}).nbytes)
+except DeserializationError as error:
+    print(error)
+print(Deserializer().decode(array | {"dtype": "float64"}).tolist())
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    refused, taken = done.stdout.splitlines()
+    assert "numbers alone" in refused, done.stderr
+    assert taken == "[1.0, 2.0]"
 
 
 def test_packed_bytes_of_a_message_are_not_unpacked():

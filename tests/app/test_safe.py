@@ -3,6 +3,7 @@
 import ast
 import re
 from contextlib import closing
+from functools import cache
 from http.client import HTTPConnection
 from pathlib import Path
 from urllib.parse import quote
@@ -103,11 +104,18 @@ def test_a_prefix_moves_components_away_with_all_else():
         server.stop()
 
 
+@cache
+def token(server):
+    """The token of a page."""
+    return re.search(r'"token":"([^"]+)"', get(server, "/app")[2].decode())[1]
+
+
 def upgraded(server, origin, host, **headers):
     """Status of a websocket that is asked for by a page of an origin at a host."""
     asked = {
         "Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
         "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==",
+        "Sec-WebSocket-Protocol": f"bokeh, {token(server)}",
     }  # fmt: skip
     return get(server, "/app/ws", asked | headers | {"Origin": origin}, host)[0]
 
@@ -156,7 +164,7 @@ def test_of_the_headers_and_cookies_of_a_request_the_page_has_the_host_and_the_t
         "Authorization": f"Bearer {SECRET}",
         "X-Remote-User": SECRET,
     }
-    for path in ("/app", "/app?fit", "/app/autoload.js?bokeh-autoload-element=1"):
+    for path in ("/app", "/app?fit"):
         _, _, body = get(command, path, secrets)
         (token,) = re.findall(r'"token":"([^"]+)"', body.decode())
         payload = get_token_payload(token)

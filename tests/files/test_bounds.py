@@ -1,5 +1,6 @@
 """Files that would stop or fill a reader: long lines, packed files, and numbers that are none."""
 
+import tracemalloc
 import zipfile
 from contextlib import suppress
 
@@ -8,6 +9,7 @@ import pytest
 
 import mdr_core as mdr
 from mdr_core.files import packed
+from mdr_core.files.table import read_tables
 
 from .curves import DEPTH, FORCE, PIEZO, SMALL, STIFFNESS, assert_curve, rows
 
@@ -134,3 +136,30 @@ def test_the_size_that_a_workbook_claims_does_not_count(tmp_path):
             changed.writestr(each, data.replace(b'ref="A1:B76"', b'ref="A1:XFD1048576"'))
     assert_curve(mdr.read_curve(other))
     assert np.ptp(mdr.read_curve(path).depth) > 0
+
+
+@pytest.mark.parametrize("suffix", ["xlsx", "jpk-force", "zip"])
+def test_a_zip_of_a_version_that_python_does_not_know_is_a_clear_error(suffix, tmp_path):
+    """Version 23.0 in the list of its files, as one of 150 damaged files has."""
+    path = tmp_path / f"curve.{suffix}"
+    with zipfile.ZipFile(path, "w") as file:
+        file.writestr("header.properties", "a=1")
+    data = bytearray(path.read_bytes())
+    data[data.index(b"PK\x01\x02") + 6] = 230
+    path.write_bytes(data)
+    with pytest.raises(ValueError, match=rf"curve\.{suffix} is packed in a way that cannot be read"):
+        mdr.read_curves(path)
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_a_table_of_too_many_lines_is_refused_before_it_takes_memory(end):
+    """4 million lines of a digit would take 2 GB; to count them takes none."""
+    text = f"1{end}" * 4_000_001
+    tracemalloc.start()
+    try:
+        with pytest.raises(ValueError, match="more than 2000000 samples"):
+            read_tables(text, "curve.csv")
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 1e6
