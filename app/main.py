@@ -12,7 +12,7 @@ from .ui import SHEETS
 #: Pages beside the explorer by the name that opens them, the first one that is there: what makes a page of
 #: the query, its title, style sheets and extensions of Panel.
 _PAGES = {
-    "fit": (fit.served, "Measurement", ["app/static/fit.css"], ["filedropper"]),
+    "fit": (fit.Measurement, "Measurement", ["app/static/fit.css"], ["filedropper"]),
     "theory": (theory.served, "Theory", [], ["katex"]),
 }
 _ADDRESS = Address.from_request(pn.state.curdoc.session_context.request)

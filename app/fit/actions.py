@@ -23,16 +23,13 @@ class Actions(pn.viewable.Viewer):
         self.document = pn.state.curdoc or Document()
         self.host = host_of(self.document)
         self.worker = Worker() if worker is None else worker
-        #: What is done, and why something could not be done.
+        #: What runs, and why something could not be done.
         self.busy = ""
         self.problem: Refused | None = None
         self._quiet = False
 
     def show(self) -> None:
         """Show everything as it is."""
-
-    def show_busy(self) -> None:
-        """Show what is done."""
 
     def message(self, text: str, remedy: tuple[Any, ...] = ()) -> Refused:
         """Return a text to be shown."""
@@ -48,8 +45,7 @@ class Actions(pn.viewable.Viewer):
         except Replaced:
             pass
         except (Refused, ValueError) as error:
-            refused = isinstance(error, Refused)
-            self.problem = self.message(*((error.text, error.remedy) if refused else error_text(error)))
+            self.problem = self.message(*error_text(error))
             self.show()
 
     def when_changed(self, act: Act) -> Callable[[Any], None]:
@@ -67,17 +63,14 @@ class Actions(pn.viewable.Viewer):
             self._quiet = before
 
     async def run(self, text: str, job: str, *arguments: Any, **options: Any) -> Any:
-        """Return what a job returns; `text` says what is done."""
-
-        def tell(busy: str) -> None:
-            self.busy = busy
-            self.show_busy()
+        """Return what a job returns; `text` says what runs, and is shown with what is known by then."""
 
         def waits(before: int) -> None:
-            tell(queue_text(before))
+            self.busy = queue_text(before)
+            self.show()
 
-        self.problem = None
-        tell(text)
+        self.problem, self.busy = None, text
+        self.show()
         try:
             answer = await self.worker.run(job, *arguments, waits=waits, **options)
         except Refused:
@@ -87,7 +80,7 @@ class Actions(pn.viewable.Viewer):
         return answer
 
     def stop(self) -> None:
-        """Stop what is done."""
+        """Stop what runs."""
         self.worker.stop()
         self.busy = ""
 

@@ -48,7 +48,7 @@ def _read_curves(path: str, given: dict[str, Any]) -> Any:
 
 
 def read(path: str, options: dict[str, Any], number: int) -> tuple[Any, int, Any]:
-    """Return a curve of a file, the number of curves, and None; or None, their number, and a question.
+    """Return a curve of a file or its last one, the number of curves, and a question or None.
 
     The question has a text with remedies, the first rows of the table, what is suggested, and samples of
     the first curve as it is suggested, None if the suggestion lacks something.
@@ -57,9 +57,7 @@ def read(path: str, options: dict[str, Any], number: int) -> tuple[Any, int, Any
     try:
         curves = _read_curves(path, options)
         count = len(curves)
-        if number >= count:
-            raise ValueError(f"the file has {count} curves, and no curve {number + 1}")
-        curve = curves[number]
+        curve = curves[min(number, count - 1)]
         remarks = tuple(with_text(each, each.text[:_REMARK]) for each in curve.remarks)
         return replace(curve, table=curve.table and _first_rows(curve.table), remarks=remarks), count, None
     except UnknownColumns as error:
@@ -148,7 +146,7 @@ def fit(curve: Any, asked: dict[str, Any]) -> SimpleNamespace:
     # Classes are kept in the fit, which is sent.
     return SimpleNamespace(
         fit=found, quoted=quoted, above=above, below=below, remarks=remarks, unloading=of_unloading,
-        verdict=found.class_of_hardness, ends=ends, used=used,
+        verdict=found.class_of_hardness, ends=ends,
     )  # fmt: skip
 
 

@@ -56,9 +56,9 @@ class Form:
         #: Radii and heights (m) of a measured tip.
         self.tip_samples: Any = None
         self.tip, self.medium = select("Tip", tips, "to-profile"), select("Sample", media)
+        acts = dict.fromkeys(CANTILEVER, page.read) | dict.fromkeys(MODULI, page.modulus_chosen)
         for name, widget in self.numbers.items():
-            again = page.read if name in CANTILEVER else page.fit
-            widget.param.watch(page.when_changed(again), "si")
+            widget.param.watch(page.when_changed(acts.get(name, page.fit)), "si")
         self.tip.param.watch(page.when_changed(page.fit), "value")
         self.medium.param.watch(page.when_changed(page.medium_chosen), "value")
         self.view = self._column(page)
@@ -156,7 +156,7 @@ class Form:
         """Choose a kind of sample: what it fits is empty, all else 0."""
         self.medium.value = name
         for each in FITTED if name else ():
-            self.numbers[each].si = 0.0 if each in MEDIA[name].at_zero else None
+            self.numbers[each].set(0.0 if each in MEDIA[name].at_zero else None)
 
     # What is shown.
 
@@ -170,17 +170,19 @@ class Form:
         seen |= {"drift": timed, "depth_noise": bool(medium) and bool(MEDIA[medium].letter)}
         for name, visible in seen.items():
             show(self.numbers[name], visible=visible)
+            if not visible:
+                self.numbers[name].error = ""
         for name in names:
             text = (
                 texts.value_of(page.found.fit, name)
                 if page.found and self.value(name) is None
                 else "fitted"
             )
-            show(self.numbers[name], placeholder=text)
+            self.numbers[name].hint(text)
         noise = page.found.fit.depth_noise if page.found else 0.0
         found = {"depth_noise": written(float(noise), "length", 2)} if noise else {}
         for name, text in (_NO_CORRECTION | found).items():
-            show(self.numbers[name], placeholder=text)
+            self.numbers[name].hint(text)
         show(self.model, visible=bool(medium))
         show(self.tip_file, visible=tip == "measured")
         show(self.tip_about, visible=tip == "measured")

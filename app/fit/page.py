@@ -24,9 +24,10 @@ from .actions import Actions
 from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, MEDIA, NUMBERS
 from .form import Form
 from .results import Results
+from .texts import sentence
+from .widgets import ERROR
 
 _BOTH = {"sizing_mode": "stretch_both", "margin": 0}
-_ERROR = Markup('<p class="refused" role="alert">{}</p>')
 #: Roles and names of the parts of the page, by their classes.
 _LANDMARKS = {
     "fit-header": ("banner", "Measurement"),
@@ -54,7 +55,6 @@ class Measurement(Actions):
         #: Columns and what parts curves, as the reader is given them; and for tables with known heads.
         self.options: dict[str, Any] = {}
         self._known: dict[Any, tuple[dict[str, Any], dict[str, float]]] = {}
-        self._asked_about: Any = None
         #: The curve with the number of curves, samples of it without what is subtracted, and the question
         #: about its file.
         self.curve = self.taken = self.question = None
@@ -63,9 +63,12 @@ class Measurement(Actions):
         self.found = self.E = None
         self.rows: list[tuple[Any, ...]] = []
         self.others = 0
+        #: Whether the user has stopped what ran: the next change begins it again.
+        self.cancelled = False
         # Samples that are fitted, () for those of the kind of sample, which was the last one.
         self._samples: tuple[int, ...] = ()
         self._medium = ""
+        self._tip_worker = Worker() if self.host.processes else Here()
         self.form, self.results = Form(self), Results(self)
         self._view()
         self._open(query.read(link))
@@ -93,6 +96,7 @@ class Measurement(Actions):
     def close(self) -> None:
         """End the process, and remove the files."""
         self.worker.stop()
+        self._tip_worker.stop()
         self._files.clear()
         self._tip_files.clear()
 
@@ -101,10 +105,9 @@ class Measurement(Actions):
         return Refused(text.replace(Path(self.path).name or "\0", self.file), remedy)
 
     def cancel(self) -> None:
-        """Stop what is done."""
+        """Stop what runs."""
         self.stop()
-        if self.found is None:
-            self.problem = Refused("Cancelled. Change something, or drop the file again")
+        self.cancelled = self.found is None
         self.show()
 
     # The link.
@@ -131,7 +134,7 @@ class Measurement(Actions):
             self.form.tip.value = tip
             self._set_medium(medium)
             for name, value in numbers.items():
-                self.form.numbers[name].si = value
+                self.form.numbers[name].set(value)
             self.results.number.value = 1
         self.options, self._samples, self.others = {}, (), 0
 
@@ -167,26 +170,29 @@ class Measurement(Actions):
         await self._take(example.name, example.read(), name)
 
     async def _take(self, name: str, data: bytes, example: str = "") -> None:
-        self.file, self._example, self._asked_about = name, example, None
+        self.file, self._example, self.cancelled = name, example, False
         self.curve, self.question, self.found, self.count, self.path = None, None, None, 0, ""
         suffix = re.sub(r"[^\w.-]", "", Path(name).suffix)[:20] if "\0" not in name else ""
         self.path = self._files.keep(data, suffix)
         await self.read()
 
     async def take_tip(self, name: str, data: bytes, began: float) -> None:
-        """Read a measured tip."""
+        """Read a measured tip, beside a job on the curve."""
         name = in_line(name)
+        show(self.form.tip_about, object=f"Reading {name} …")
         try:
             path = self._tip_files.keep(data)
-            self.form.tip_samples, note = await self.run(f"Reading {name}", "common.tip.read", path, name)
-            show(self.form.tip_about, object=note)
+            self.form.tip_samples, note = await self._tip_worker.run("common.tip.read", path, name)
         except Refused as error:
             self.refuse_tip(error.text)
-        await self.fit()
+        else:
+            show(self.form.tip_about, object=note)
+            await self.fit()
 
     def refuse_tip(self, text: str) -> None:
         """Show why the file of a tip was not taken; the tip before it stays."""
-        show(self.form.tip_about, object=_ERROR.format(text))
+        stays = "" if self.form.tip_samples is None else "; the tip before it stays"
+        show(self.form.tip_about, object=ERROR.format(sentence(f"{text.rstrip('.')}{stays}")))
 
     # Reading.
 
@@ -224,15 +230,17 @@ class Measurement(Actions):
         number = self.results.number.value - 1
         answer = await self.run(f"Reading {self.file}", "fit.analysis.read", self.path, options, number)
         curve, self.count, question = answer
+        with self.setting():
+            self.results.number.value = max(1, min(self.results.number.value, self.count))
         if question is not None:
             await self._ask(question)
             return
-        if self._asked_about is not None:
-            self._known[self._asked_about] = self.options, self.form.given(*CANTILEVER)
         remarks = tuple(analysis.with_text(each, self.message(each.text).text) for each in curve.remarks)
         self.curve = replace(curve, remarks=remarks)
         if self.table is not None:
             columns = self.options.get("columns")
+            if self.options:
+                self._known[self.table.key] = self.options, self.form.given(*CANTILEVER)
             with self.setting():
                 shown = columns if isinstance(columns, list) else curve.columns
                 self.form.columns.show(self.table, shown, self.options.get("by"))
@@ -240,13 +248,12 @@ class Measurement(Actions):
 
     async def _ask(self, question: Any) -> None:
         """Ask what the columns of a table are, or read it as another table with the same heads."""
-        self._asked_about = question.table.key
-        known = self._known.get(self._asked_about)
+        known = self._known.get(question.table.key)
         if known and not self.options:
             self.options, cantilever = known
             with self.setting():
                 for name, value in cantilever.items():
-                    self.form.numbers[name].si = value
+                    self.form.numbers[name].set(value)
             await self.read()
             return
         why = question.text if question.text.endswith("?") else f"{question.text.rstrip('.')}."
@@ -313,16 +320,10 @@ class Measurement(Actions):
             self._set_medium(name)
             if both_yield:
                 for each in FITTED:
-                    self.form.numbers[each].si = held.get(each)
+                    self.form.numbers[each].set(held.get(each))
             else:
                 self._samples = ()
         await self.fit()
-
-    async def take_medium(self, name: str) -> None:
-        """Choose a kind of sample, and fit it."""
-        with self.setting():
-            self.form.medium.value = name
-        await self.medium_chosen()
 
     async def part_chosen(self, part: str) -> None:
         """Fit a part of the curve: "all", "loading" or "unloading"."""
@@ -344,6 +345,10 @@ class Measurement(Actions):
     async def fit(self) -> None:
         """Fit the curve, once tip and sample are known."""
         self.found, self.E, self.rows = None, None, []
+        cancelled, self.cancelled = self.cancelled, False
+        if cancelled and self.curve is None:
+            await self.read()
+            return
         if self.curve is not None:
             self.problem = None
             self.taken = analysis.samples(self.curve, **self.form.corrections())
@@ -358,6 +363,13 @@ class Measurement(Actions):
         self.E = self.form.modulus(self.found.quoted)
         self.show()
 
+    async def modulus_chosen(self) -> None:
+        """Show Young's modulus of the sample by other numbers."""
+        self.problem = self.E = None
+        if self.found is not None:
+            self.E = self.form.modulus(self.found.quoted)
+        self.show()
+
     async def fit_all(self) -> None:
         """Fit each curve of the file as the one that is shown."""
         self.rows = []
@@ -366,19 +378,13 @@ class Measurement(Actions):
             number, E, error, reason = row
             self.rows.append((number, E, error, self.message(reason).text))
             self.busy = f"Fitting curve {min(len(self.rows) + 1, self.count)} of {self.count}"
-            self.show_busy()
+            self.results.show_headline()
             self.results.show_progress()
 
         options = self.form.given(*CANTILEVER) | self.options
-        request = self.form.request(True, self.ends if self._samples else ())
-        text = f"Fitting curve 1 of {self.count}"
-        await self.run(text, "fit.analysis.fit_all", self.path, options, request, part=one)
+        jobs = self.path, options, self.form.request(True, self.ends if self._samples else ())
+        await self.run(f"Fitting curve 1 of {self.count}", "fit.analysis.fit_all", *jobs, part=one)
         self.show()
-
-    # What is shown.
-
-    def show_busy(self) -> None:
-        self.results.show_headline()
 
     @pn.io.hold()
     def show(self) -> None:
@@ -388,11 +394,6 @@ class Measurement(Actions):
             self.results.show()
             self.form.show_about(self)
             problems = (self.problem,) if self.problem and self.curve is None else ()
-            self.results.fill(self.form.errors, problems, _ERROR)
+            self.results.fill(self.form.errors, problems, ERROR)
             link = self.link().query()
             self.address.value = "?fit" + f"&{link}" * bool(link)
-
-
-def served(link: str) -> Any:
-    """Return the page of a session."""
-    return Measurement(link)

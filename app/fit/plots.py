@@ -93,16 +93,21 @@ class Plots:
             self.sources[name].data = {"x": x / length.factor, "y": y}
         others, _, model = self.force.legend.items
         others.visible, model.visible = bool(np.any(~used)), fit is not None
-        _reach(self.force.x_range, taken.depth / length.factor, 0.03)
-        _reach(self.force.y_range, taken.force / force.factor, 0.08)
-        _reach(self.residual.y_range, np.append(data["residuals"][1], data["noise"][1]), 0.12)
+        depth = self.force.x_range, *_reach(taken.depth / length.factor, 0.03)
+        _set(depth, (self.force.y_range, *_reach(taken.force / force.factor, 0.08)))
+        _set((self.residual.y_range, *_reach(np.append(data["residuals"][1], data["noise"][1]), 0.12)))
 
 
-def _reach(axis: Any, values: np.ndarray, margin: float) -> None:
-    """Let a range, also where it is reset, have all values and a margin; a zoom stays while these stay."""
+def _reach(values: np.ndarray, margin: float) -> tuple[float, float]:
+    """Return the ends of an axis with all values and a margin."""
     known = values[np.isfinite(values)]
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
     wide = margin * ((high - low) or 1.0)
-    start, end = low - wide, high + wide
-    if (start, end) != (axis.reset_start, axis.reset_end):
-        axis.update(start=start, end=end, reset_start=start, reset_end=end)
+    return low - wide, high + wide
+
+
+def _set(*axes: tuple[Any, float, float]) -> None:
+    """Set the ends of axes, also where they are reset; a zoom stays while all of these stay."""
+    if any((axis.reset_start, axis.reset_end) != (start, end) for axis, start, end in axes):
+        for axis, start, end in axes:
+            axis.update(start=start, end=end, reset_start=start, reset_end=end)

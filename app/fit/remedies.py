@@ -89,7 +89,7 @@ def _class(letter: str, page: Any) -> tuple[str, Any]:
     label = f"{label[:1].lower()}{label[1:]}"
     if MEDIA[page.form.medium.value].letter and MEDIA[name].letter:
         label = f"class ({letter}), {CLASS_NAMES[letter]}"
-    return f"Take {label}", partial(page.do, page.take_medium, name)
+    return f"Take {label}", partial(page.form.medium.param.update, value=name)
 
 
 def _leading(page: Any, label: str, name: str, *acts: Any) -> Any:

@@ -16,14 +16,14 @@ from . import export, texts
 from .choices import CLASS_NAMES, MEDIA, OF_CLASS, TIPS
 from .plots import Plots
 from .remedies import remedy_button
-from .widgets import button, download, fold
+from .widgets import ERROR, button, download, fold
 
 _HERE = Path(__file__).parent
 _SLIDER = (_HERE / "slider.css").read_text(encoding="utf-8")
 _NAMES = (_HERE / "names.js").read_text(encoding="utf-8")
 _BOTH = {"sizing_mode": "stretch_both", "margin": 0}
 _PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
-_REMARK, _ERROR = Markup("<p>{}</p>"), Markup('<p class="refused" role="alert">{}</p>')
+_REMARK = Markup("<p>{}</p>")
 _EXPLORER = Markup('<a href="?{}">Model of this curve in the explorer</a>')
 
 
@@ -113,9 +113,8 @@ class Results:
         )
 
     def _take_class(self) -> None:
-        page = self._page
-        name = OF_CLASS[texts.better(page.found, MEDIA[page.form.medium.value].letter)]
-        page.do(page.take_medium, name)
+        medium = self._page.form.medium
+        medium.value = OF_CLASS[texts.better(self._page.found, MEDIA[medium.value].letter)]
 
     def all_remarks(self) -> tuple[Any, ...]:
         """Return all remarks on a fit and its curve, once each."""
@@ -146,7 +145,7 @@ class Results:
         lacking = page.deflection if found is None else None
         self.fill(self.above, above)
         self.fill(self.below, (lacking,) if lacking else below)
-        self.fill(self.errors, (page.problem,) if page.problem and page.curve is not None else (), _ERROR)
+        self.fill(self.errors, (page.problem,) if page.problem and page.curve is not None else (), ERROR)
         show(self.saved, visible=found is not None)
         show(self.why, object=texts.why(found) if found else "")
         for each in (*self.folds, self.aside):
@@ -174,9 +173,13 @@ class Results:
             return texts.to_do("Give the spring constant k")
         if page.curve is not None:
             missing = page.form.missing()
+            if page.cancelled and not missing:
+                return texts.to_do("Cancelled", "Change something, or drop the file again.")
             return texts.to_do(f"Give {missing}") if missing else texts.to_do("No fit", "")
         if page.wanted:
             return texts.to_do("The curve is not read yet", "Give the missing information on the left.")
+        if page.cancelled:
+            return texts.to_do("Cancelled", "Change something, or drop the file again.")
         if page.problem:
             how = "The reason is on the left. Drop another file, or correct this one."
             return texts.to_do("This file cannot be read", how)
@@ -238,14 +241,14 @@ class Results:
             return
         show(self.ends, start=1, end=max(2, len(curve)), value=page.ends)
         show(self.part, value=page.part)
-        show(self.fitted, object=texts.range_text(curve, page.ends))
+        show(self.fitted, object=texts.range_text(curve, page.ends, found is not None))
 
     def _show_curves(self) -> None:
         page = self._page
         show(self.several, visible=page.count > 1)
         if page.count < 2:
             return
-        ready = not (page.form.missing() or page.deflection or page.curve is None)
+        ready = not (page.busy or page.form.missing() or page.deflection or page.curve is None)
         show(self.number, end=page.count, label=f"Curve, of {page.count}")
         show(self.all, label=f"Fit all {page.count}", disabled=not ready)
         self.show_progress()

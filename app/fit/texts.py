@@ -184,7 +184,7 @@ def limits(found: Any, tip: str, medium: str) -> list[str]:
     return [each.sentence for each in found.fit.path.limits if each.exceeded and each.what not in known]
 
 
-def range_text(curve: Any, ends: tuple[int, int]) -> str:
+def range_text(curve: Any, ends: tuple[int, int], fitted: bool) -> str:
     """Return the samples that are fitted, with depth and force of the first and the last one."""
     deepest, largest = (float(np.max(np.abs(each))) for each in (curve.depth, curve.force))
     places = [
@@ -192,7 +192,7 @@ def range_text(curve: Any, ends: tuple[int, int]) -> str:
         f"{near(float(curve.force[k - 1]), 'force', largest)})"
         for k in ends
     ]
-    return f"Fitted: samples {' to '.join(places)} of {len(curve)}"
+    return f"{'Fitted: s' if fitted else 'S'}amples {' to '.join(places)} of {len(curve)}"
 
 
 def report(found: Any, html: Markup, file: str, shown: list[str], corrections: dict[str, float]) -> str:

@@ -12,11 +12,12 @@ from mdr_core.show.units import UNITS, fitting
 
 from ..common.units import entry, read
 from ..common.upload import PART_BYTES, SESSION_BYTES, Uploads
-from ..ui import WIDE, html, marked
+from ..ui import WIDE, html, marked, show
 from .choices import Number
 
+#: A text that says why something was not taken.
+ERROR = Markup('<p class="refused" role="alert">{}</p>')
 _LABEL = Markup("<span><i>{}</i> {}</span>")
-_ERROR = Markup('<p class="refused" role="alert">{}</p>')
 
 
 def button(label: str, act: Callable[[], Any] | None = None, *classes: str, **options: Any) -> Any:
@@ -55,13 +56,24 @@ class UnitInput(pn.widgets.TextInput):
     _rename: ClassVar[dict[str, Any]] = {"si": None, "error": None}
 
     def __init__(self, known: Number, **options: Any):
-        units = {unit.name: unit for unit in UNITS[known.kind]}
-        self._known, self._unit = known, units.get(known.unit) or fitting(0.0, known.kind, 1.0)
-        #: Shown while nothing is typed and nothing is found.
-        self.empty = f"… {self._unit.name}" if self._unit.name else "type a value"
-        super().__init__(label=f"{known.symbol} {known.label}", placeholder=self.empty, **WIDE | options)
+        self._units = {unit.name: unit for unit in UNITS[known.kind]}
+        self._known, self._first = known, self._units.get(known.unit) or fitting(0.0, known.kind, 1.0)
+        self._unit = self._first
+        empty = f"… {self._unit.name}" if self._unit.name else "type a value"
+        super().__init__(label=f"{known.symbol} {known.label}", placeholder=empty, **WIDE | options)
         self.param.watch(self._typed, "value")
         self.param.watch(self._show, "si")
+
+    def set(self, si: float | None) -> None:
+        """Set the value, instead of a text that was not taken too."""
+        self.si, self._unit = si, self._first
+        self._show()
+
+    def hint(self, text: str) -> None:
+        """Show a text in the empty field; a number without a unit has the unit of the text."""
+        if self.si is None:
+            self._unit = self._units.get(text.rpartition(" ")[2], self._first)
+        show(self, placeholder=text)
 
     def _process_param_change(self, params: dict[str, Any]) -> dict[str, Any]:
         found = super()._process_param_change(params)
@@ -106,17 +118,17 @@ def show_errors(column: pn.Column) -> pn.Column:
 
     errors: dict[UnitInput, Any] = {}
 
-    def show(event: Any) -> None:
+    def changed(event: Any) -> None:
         old = errors.pop(event.obj, None)
         parts = [each for each in column if each is not old]
         if event.new:
-            errors[event.obj] = html(_ERROR.format(event.new), "note")
+            errors[event.obj] = html(ERROR.format(event.new), "note")
             parts.insert(parts.index(event.obj) + 1, errors[event.obj])
         column.objects = parts
 
     for each in column:
         if isinstance(each, UnitInput):
-            each.param.watch(show, "error")
+            each.param.watch(changed, "error")
     return column
 
 

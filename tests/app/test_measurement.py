@@ -152,6 +152,43 @@ def test_a_class_that_cannot_be_told_is_not_offered():
     assert not page.results.take.visible
 
 
+def test_a_number_without_a_unit_has_that_of_the_number_in_its_field():
+    """Also of a result, and of the one before it is emptied."""
+    page = page_of()
+    take_sample(page, "silica")
+    modulus, frame = page.form.numbers["E_star"], page.form.numbers["frame"]
+    for _ in range(2):
+        assert modulus.placeholder.endswith(" GPa")
+        modulus.value = "70"
+        assert (modulus.value, page.found.fit.medium.E_star) == ("70 GPa", 70e9)
+        modulus.value = ""
+    frame.value = "1e-9"
+    assert frame.si == 1e-9
+    frame.value = ""
+    frame.value = "0.1"
+    assert frame.si == approx(0.1e-6, rel=1e-12)
+
+
+def test_a_wrong_entry_goes_with_its_field_its_sample_and_its_file():
+    page = page_of()
+    take_sample(page, "silica")
+    field = page.form.numbers["E_star"]
+    field.value = "abc"
+    assert field.error
+    take_sample(page, "gel")
+    assert (field.value, field.error) == ("", "")
+    page.form.numbers["radius"].value = "xx"
+    choose(page, tip="berkovich")
+    assert page.form.numbers["radius"].error == ""
+
+
+def test_a_link_to_a_curve_beyond_the_file_shows_the_last_one():
+    page = page_of("file=map.xlsx&tip=paraboloid&radius=1e-5&medium=gel&curve=7")
+    take_file(page, "map.xlsx", workbook())
+    assert (page.results.number.value, link_of(page).curve) == (3, 2)
+    assert page.found.fit.medium.E_star == approx(3e4, rel=1e-4)
+
+
 def test_of_files_that_come_together_the_first_is_taken_and_the_next_drop_is_another():
     """The browser begins two at once, and the next two 2 s after these."""
     page, now = page_of(), monotonic()
@@ -719,6 +756,7 @@ def test_all_curves_of_a_file_are_fitted_and_a_dead_one_says_why():
     seen = []
 
     def look():
+        assert page.results.all.disabled
         seen.append((headline(page), page.results.progress.value, page.results.cancel.visible))
         press(page.results.cancel)
 

@@ -43,8 +43,9 @@ def test_measured_model_residuals_and_noise_are_named_and_in_the_units_of_their_
     length, force, small = map(unit, axes)
     # Otherwise a wrong unit would not be seen.
     assert small < force
+    fitted = (page.ends[0] <= page.taken.number) & (page.taken.number <= page.ends[1])
     drawn = {name: (source.data["x"] * length, source.data["y"]) for name, source in plots.sources.items()}
-    for name, used in (("measured", page.found.used), ("others", ~page.found.used)):
+    for name, used in (("measured", fitted), ("others", ~fitted)):
         np.testing.assert_allclose(drawn[name][0], page.taken.depth[used], rtol=1e-12)
         np.testing.assert_allclose(drawn[name][1] * force, page.taken.force[used], rtol=1e-12)
     model = mdr.indent(fit.profile, fit.medium, fit.depth - fit.contact_point).force
