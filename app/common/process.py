@@ -40,7 +40,7 @@ NO_PROCESSES = "Files are read in a process, which this server cannot start: use
 
 
 def _ignore(told: Any) -> None:
-    """Leave out what nobody asks for."""
+    """Ignore a message."""
 
 
 def queue_text(before: int) -> str:
@@ -50,7 +50,7 @@ def queue_text(before: int) -> str:
 
 
 class Replaced(Exception):
-    """Another job was asked for, or this one was cancelled."""
+    """Error of a job that was replaced by another one, or cancelled."""
 
 
 class Places:
@@ -108,6 +108,7 @@ class Worker:
 
     @property
     def busy(self) -> bool:
+        """Whether a job runs, or waits for its place."""
         return self._job is not None
 
     async def run(
@@ -226,4 +227,4 @@ class Here:
         raise AssertionError("a job has an answer")
 
     def stop(self) -> None:
-        """There is nothing to stop."""
+        """Do nothing: a job is done at once."""

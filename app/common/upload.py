@@ -6,8 +6,8 @@ from typing import Any
 
 #: Most samples of a tip that are pressed without keeping everybody waiting.
 MAX_SAMPLES = 60
-#: Most bytes of the file of a tip, of a measured curve, of all files of a session on their way, and of a
-#: part of a file: as text a part has a third more, and a message at most 8 MB.
+#: Most bytes of a tip, of a measured curve, of all files of a session on their way, and of a part. As text
+#: a part has a third more, and a message at most 8 MB.
 TIP_BYTES, CURVE_BYTES, SESSION_BYTES, PART_BYTES = 5_000_000, 50_000_000, 100_000_000, 2_000_000
 #: Bytes of a part beside its own.
 _LISTED = 64

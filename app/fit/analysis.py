@@ -50,8 +50,8 @@ def _read_curves(path: str, given: dict[str, Any]) -> Any:
 def read(path: str, options: dict[str, Any], number: int) -> tuple[Any, int, Any]:
     """Return a curve of a file or its last one, the number of curves, and a question or None.
 
-    The question has a text with remedies, the first rows of the table, what is suggested, and samples of
-    the first curve as it is suggested, None if the suggestion lacks something.
+    The question has a text with remedies, the first rows of the table, and what is suggested. If the
+    suggestion is complete, it has samples of the first curve.
     """
     count = 0
     try:
@@ -62,9 +62,11 @@ def read(path: str, options: dict[str, Any], number: int) -> tuple[Any, int, Any
         return replace(curve, table=curve.table and _first_rows(curve.table), remarks=remarks), count, None
     except UnknownColumns as error:
         text, remedy = error_text(error)
-        asked = {"text": text, "remedy": remedy, "table": _first_rows(error.table)}
-        preview = _preview(path, options, error)
-        return None, count, SimpleNamespace(**asked, suggestion=error.suggestion, preview=preview)
+        question = SimpleNamespace(
+            text=text, remedy=remedy, table=_first_rows(error.table), suggestion=error.suggestion,
+            preview=_preview(path, options, error),
+        )  # fmt: skip
+        return None, count, question
     except (ValueError, ImportError, MemoryError):
         raise
     except Exception as error:
@@ -121,8 +123,8 @@ def ends_of(taken: SimpleNamespace, count: int, part: str) -> tuple[int, int]:
 def fit(curve: Any, asked: dict[str, Any]) -> SimpleNamespace:
     """Return the fit of a curve with its classes, the number to quote, and remarks above and below that.
 
-    `asked` has the tip, the kind of sample, arguments of the fit, corrections of the depth, and the numbers
-    of the first and last sample, () for the part that the kind of sample takes.
+    `asked` has the tip, the kind of sample, arguments of the fit, and corrections of the depth. Its samples
+    are the numbers of the first and last one, () for the part that the kind of sample takes.
     """
     asked = SimpleNamespace(**asked)
     medium, taken = MEDIA[asked.medium], samples(curve, **asked.corrections)

@@ -61,6 +61,7 @@ class Tip(NamedTuple):
 
 
 def slope_of(half_angle: float) -> float:
+    """Return the slope of a cone."""
     return 1 / tan(half_angle)
 
 

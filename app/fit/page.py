@@ -36,7 +36,7 @@ _LANDMARKS = {
 }
 #: Beginnings of the suffixes of files that are no tables.
 _AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
-#: Seconds after a file in which others begin that were dropped together with it: the browser sends two
+#: Seconds after a file in which others begin that were dropped together with it. The browser sends two
 #: files at once, and the next two 2 s later.
 _SECOND, _NEXT = 0.5, 3.0
 

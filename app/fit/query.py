@@ -21,9 +21,9 @@ _ROLES, _UNIT = ("depth", "piezo", "force", "time", "stiffness"), 12
 class Link:
     """What a link asks for.
 
-    `numbers` are those that differ from the first ones of the kind of sample, None for one that is fitted;
-    `samples` the numbers of the first and last sample, () for those of the kind of sample; `options` the
-    columns and what parts curves, as `mdr_core.read_curves` has them.
+    `numbers` differ from the first ones of the kind of sample, None for a fitted parameter. `samples` are
+    the numbers of the first and last sample, () for those of the kind of sample. `options` are columns and
+    what parts curves, as `mdr_core.read_curves` has them.
     """
 
     file: str = ""
