@@ -4,6 +4,7 @@ import asyncio
 import os
 import signal
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from functools import wraps
 from subprocess import PIPE, Popen, run
@@ -53,7 +54,12 @@ def in_a_loop(test):
                     each.kill()
                 await each.communicate()
 
-    return wraps(test)(lambda **fixtures: asyncio.run(ended(**fixtures)))
+    def run_in_a_thread(**fixtures):
+        # In a thread of its own: a browser's driver may have left a loop running in this one.
+        with ThreadPoolExecutor(1) as thread:
+            thread.submit(lambda: asyncio.run(ended(**fixtures))).result()
+
+    return wraps(test)(run_in_a_thread)
 
 
 async def read(worker, path=SILICA, **told):
