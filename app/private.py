@@ -195,7 +195,7 @@ def websocket(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
             self.set_nodelay(True)
             name = get_session_id(self._token)
             if (other := sockets.pop(name, None)) is not None:
-                other.close(1008, "this session is shown elsewhere")
+                other.close(1008, "the page is shown elsewhere")
             sockets[name] = self
             return super().open(*args, **kwargs)
 

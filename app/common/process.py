@@ -120,7 +120,7 @@ class Worker:
     ) -> Any:
         """Return what a job returns, a function by its name in this package such as "fit.analysis.read".
 
-        `part` gets what the job yields before, `waits` how many wait before this session. A job that comes
+        `part` gets what the job yields before, `waits` how many wait before this one. A job that comes
         while another one runs replaces that. Raises Refused or Replaced.
         """
         if self.busy:
@@ -211,13 +211,9 @@ class Here:
     """Jobs that are done at once, without a process: in a browser, and in tests."""
 
     async def run(
-        self,
-        job: str,
-        *arguments: Any,
-        part: Callable[[Any], None] = _ignore,
-        waits: Callable[[int], None] = _ignore,
+        self, job: str, *arguments: Any, part: Callable[[Any], None] = _ignore, **others: Any
     ) -> Any:
-        """Return what a job returns, after its parts. Raises Refused."""
+        """Return what a job returns, after its parts; nobody waits. Raises Refused."""
         for kind, answer in answers(job, arguments):
             if kind == "refused":
                 raise Refused(*answer)
