@@ -38,18 +38,21 @@ def with_comma(cell):
     )
 
 
-def number_reader(rows, name):
+def number_reader(rows, count, name):
     """Function from a cell to its number, NaN for words, by what the cells of all rows of a file tell.
+
+    `rows(step)` are the cells of each of the `count` rows, or of each step-th one.
 
     A comma is a decimal sign or separates thousands: "1,5" and "0,500" tell the first, "1,234.5" and
     "1,234,567" the second. Raises ValueError where nothing tells it.
     """
-    if not any("," in cell for row in rows for cell in row):
-        _refuse_doubtful_points(rows[:: len(rows) // _ENOUGH + 1], name)
+    few = count // _ENOUGH + 1
+    if not any("," in cell for row in rows() for cell in row):
+        _refuse_doubtful_points(rows(few), name)
         return _plain
     # A part of a long file tells it, or all of it does.
-    for part in dict.fromkeys((len(rows) // _ENOUGH + 1, 1)):
-        cells = {cell for row in rows[::part] if _is_row(row) for cell in row}
+    for step in dict.fromkeys((few, 1)):
+        cells = {cell for row in rows(step) if _is_row(row) for cell in row}
         with suppress(_Ambiguous):
             return _reader(cells, name)
     raise ValueError(

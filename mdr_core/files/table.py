@@ -1,11 +1,11 @@
 """Tables of numbers in text: cells, the rows, and the names above them."""
 
 import csv
+import re
+from array import array
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import pairwise
-from math import isfinite
 
 import numpy as np
 
@@ -16,8 +16,10 @@ from .units import cleaned, unit_alone
 
 #: Most characters of a line, and of one that is searched for names and constants; most columns.
 _LONGEST_LINE, LONGEST_HEADER, _MOST_COLUMNS = 10_000, 2_000, 1_000
-#: Most samples of a table: each needs some 0.5 kB while the table is read.
+#: Most samples of a table: each needs some 0.2 kB while the table is read.
 _MOST_ROWS = 2_000_000
+#: Ends of lines, as those of `str.splitlines`.
+_ENDS = re.compile("\r\n|[\n\r\v\f\x1c-\x1e\x85\u2028\u2029]|$")
 #: Most lines above the rows in which names are looked for.
 _ABOVE = 8
 _BRACKETS = " ()[]{}<>/"
@@ -94,21 +96,47 @@ class Table:
         return replace(self.rows(slice(0, count)), odd={}, header=self.header[-_ABOVE:])
 
 
-class _Line:
-    """A line of a text: number, cells, their numbers; `width` is the number of cells of a row, else 0."""
+class _Lines:
+    """The lines of a text that are not empty.
 
-    __slots__ = "cells", "finite", "number", "text", "values", "width"
+    `each` has a column for a line: its number, where it begins and ends in the text, how many cells it has,
+    how many of them are empty and how many are numbers, and where they begin in `values`, NaN for words.
+    Cells are split anew when they are asked for: kept, they need half a kilobyte a line.
+    """
 
-    def __init__(self, number, text, cells, values):
-        self.number, self.text, self.cells, self.values = number, text, cells, values
-        self.finite = sum(map(isfinite, values))
-        row = self.finite and 2 * self.finite >= len(cells) - cells.count("")
-        self.width = len(cells) if row else 0
+    def __init__(self, text, split, each, values):
+        self.text, self.split, self.each, self.values = text, split, each, values
+        self.number, self.begin, self.end = each[:3]
+        self.cells, empty, self.finite, self.first = each[3:]
+        #: How many cells are neither numbers nor empty.
+        self.spare = self.cells - empty - self.finite
+        #: How many cells a row has; 0 for other lines.
+        self.width = np.where((self.finite > 0) & (self.finite >= self.spare), self.cells, 0)
 
-    @property
-    def spare(self):
-        """How many cells are neither numbers nor empty."""
-        return len(self.cells) - self.cells.count("") - self.finite
+    def __len__(self):
+        return self.number.size
+
+    def __getitem__(self, chosen):
+        """Some of the lines: a slice, numbers or a mask."""
+        return _Lines(self.text, self.split, self.each[:, chosen], self.values)
+
+    def texts(self):
+        """Texts of the lines, one after the other."""
+        return _parts(self.text, self.begin, self.end)
+
+    def rows(self):
+        """Cells of the lines, one line after the other."""
+        return map(self.split, self.texts())
+
+    def by_number(self):
+        """Texts of the lines by their numbers."""
+        return dict(zip(self.number.tolist(), self.texts(), strict=True))
+
+
+def _parts(text, begin, end):
+    """Parts of a text between places, one after the other."""
+    # A memory view gives one integer at a time; the list of an array has all at once.
+    return map(text.__getitem__, map(slice, memoryview(begin), memoryview(end)))
 
 
 def decoded(data):
@@ -128,24 +156,24 @@ def read_table(text, name, limit=_MOST_ROWS):
 
     Lines that start with # belong to the header, or are comments. More samples than `limit` are refused.
     """
-    lines, gaps = _lines(text, name, limit)
-    return _table(lines, gaps, name, limit)
+    return _table(_lines(text, name, limit), name, limit)
 
 
 def read_tables(text, name, limit=_MOST_ROWS):
     """All tables of a text: each begins with a line that has a word for each column."""
-    lines, gaps = _lines(text, name, limit)
-    widths = [line.width for line in lines]
-    starts, rows, last = [0], 0, 0
-    for i, line in enumerate(lines):
-        if line.width:
-            rows, last = rows + (line.finite == line.width), i
-        elif rows > 1 and _is_header(line.text, widths[last], next(filter(None, widths[i:]), 0)):
-            # What stands above a header, as a title, is the table's.
-            starts, rows = [*starts, last + 1], 0
+    lines = _lines(text, name, limit)
+    places, others = np.flatnonzero(lines.width), np.flatnonzero(lines.width == 0)
+    whole = np.cumsum((lines.width > 0) & (lines.width == lines.finite))
+    starts, before = [0], 0
+    for i, line in zip(others.tolist(), lines[others].texts(), strict=True):
+        if whole[i] > before + 1:
+            k = np.searchsorted(places, i)
+            if _is_header(line, *lines.width[places[k - 1 : k + 1]].tolist()):
+                # What stands above a header, as a title, is the table's.
+                starts, before = [*starts, places[k - 1] + 1], whole[i]
     parts = [lines[a:b] for a, b in zip(starts, [*starts[1:], len(lines)], strict=True)]
-    parts = [part for part in parts if any(line.width for line in part)] or parts
-    tables = [_table(part, gaps, name, limit) for part in parts]
+    parts = [part for part in parts if part.width.any()] or parts
+    tables = [_table(part, name, limit) for part in parts]
     if len(tables) == 1:
         return tables
     return [replace(table, name=f"table {k}") for k, table in enumerate(tables, 1)]
@@ -161,30 +189,56 @@ def _is_header(line, *widths):
 
 
 def _lines(text, name, limit):
-    """Lines of a text that are not empty, and the numbers of those that are."""
-    # Before a line of two letters takes half a kilobyte.
-    if max(text.count("\n"), text.count("\r")) > 2 * limit:
-        raise ValueError(f"{name}: more than {limit} samples; give fewer samples")
-    every = text.splitlines()[: 2 * limit]
-    places = [i for i, line in enumerate(every, 1) if line.strip()]
-    lines = [every[i - 1] for i in places]
-    if not lines:
+    """`_Lines` of a text."""
+    number, begin, end = _places(text, name, limit)
+    if not number.size:
         raise ValueError(f"{name} is empty")
-    if any(len(line) > _LONGEST_LINE for line in lines):
+    if np.max(end - begin) > _LONGEST_LINE:
         raise ValueError(
             f"{name}: a line is longer than {_LONGEST_LINE} characters; use one line per sample"
         )
-    separator = next((s for s in "\t;|" if 2 * sum(s in line for line in lines) > len(lines)), "")
-    cells = [
-        [] if line.lstrip().startswith("#") else _cells(line) if separator in line else [line.strip()]
-        for line in lines
-    ]
-    number = number_reader(cells, name)
-    found = [
-        _Line(i, line, row, [number(cell) for cell in row])
-        for i, line, row in zip(places, lines, cells, strict=True)
-    ]
-    return found, [i for i, line in enumerate(every, 1) if not line.strip()]
+
+    def texts(step=1):
+        return _parts(text, begin[::step], end[::step])
+
+    def split(line):
+        if line.lstrip().startswith("#"):
+            return []
+        return _cells(line) if separator in line else [line.strip()]
+
+    separator = next((s for s in "\t;|" if 2 * sum(s in line for line in texts()) > number.size), "")
+    reader = number_reader(lambda step=1: map(split, texts(step)), number.size, name)
+    values, counts = array("d"), array("q")
+    for row in map(split, texts()):
+        values.extend(map(reader, row))
+        counts.extend((len(row), row.count("")))
+    cells, empty = np.reshape(counts, (-1, 2)).T
+    values, after = np.array(values), np.cumsum(cells)
+    finite = np.append(0, np.cumsum(np.isfinite(values)))
+    first = after - cells
+    each = [number, begin, end, cells, empty, finite[after] - finite[first], first]
+    each = np.array(each, "i4" if len(text) < 2**31 else "i8")
+    return _Lines(text, split, each, values)
+
+
+def _places(text, name, limit):
+    """Number, begin and end of each line that is not empty."""
+    found, begin, most = array("q"), 0, 2 * limit
+    # The usual ends are counted at once.
+    if max(text.count("\n"), text.count("\r")) > most:
+        raise _too_many(name, limit)
+    for number, match in enumerate(_ENDS.finditer(text), 1):
+        if number > most:
+            raise _too_many(name, limit)
+        end = match.start()
+        if text[begin:end].strip():
+            found.extend((number, begin, end))
+        begin = match.end()
+    return np.reshape(found, (-1, 3)).T
+
+
+def _too_many(name, limit):
+    return ValueError(f"{name}: more than {limit} samples; give fewer samples")
 
 
 def _cells(line):
@@ -220,69 +274,75 @@ def _head_cells(line, width, open_end=True):
     return next((cells for cells in splits if len(cells) == width), None)
 
 
-def _table(lines, gaps, name, limit):
+def _table(lines, name, limit):
     """`Table` of lines."""
     width, first = _begin(lines, name)
-    header = [line.text for line in lines[:first]]
-    rows = _rows(lines[first:], width)
-    open_end = not any(line.cells[-1] for line in rows)
-    names, units = _heads([line.text for line in lines[:first] if not line.width], width, open_end)
+    above, below = lines[:first], lines[first:]
+    header = list(above.texts())
+    rows = _rows(below, width)
+    open_end = not any(cells[-1] for cells in rows.rows())
+    names, units = _heads(list(above[above.width == 0].texts()), width, open_end)
     if not any(names):
-        _refuse_decimal_commas(header, width, f"{name}, line {lines[first].number}")
+        _refuse_decimal_commas(header, width, f"{name}, line {lines.number[first]}")
     heads = [f"{name} {unit}".strip() for name, unit in zip(names, units, strict=True)]
     if len(rows) > limit:
-        raise ValueError(f"{name}: more than {limit} samples; give fewer samples")
-    values = np.array([line.values for line in rows])
+        raise _too_many(name, limit)
+    values = rows.values[rows.first[:, None] + np.arange(width)]
     known = np.isfinite(values)
     numbers = [k for k in range(width) if _has_numbers(known[:, k], k, rows)]
-    whole = known[:, numbers].all(axis=1).tolist()
-    good = {line.number for line, row in zip(rows, whole, strict=True) if row}
-    kept = {line.number for line in rows}
-    odd = {line.number: line.text for line in lines[first:] if line.cells and line.number not in good}
+    odd = below[(below.cells > 0) & ~np.isin(below.number, rows.number[known[:, numbers].all(axis=1)])]
     # A row of numbers before the rows, after which the header goes on.
-    early = {
-        line.number: line.text for line in lines[:first] if line.width == width and line.finite == width
-    }
-    between = [*gaps, *(line.number for line in lines[first:] if line.number not in kept)]
+    early = above[(above.width == width) & (above.finite == width)]
+    begin, end = rows.number[[0, -1]]
     return Table(
-        {k: heads[k] for k in numbers}, {k: values[:, k] for k in numbers},
-        np.array([line.number for line in rows]), early | odd,
-        {f"{k + 1} {heads[k]}": [row.cells[k] for row in rows] for k in range(width) if k not in numbers},
+        {k: heads[k] for k in numbers}, {k: values[:, k] for k in numbers}, rows.number,
+        early.by_number() | odd.by_number(),
+        {
+            f"{k + 1} {heads[k]}": [cells[k] for cells in rows.rows()]
+            for k in range(width) if k not in numbers
+        },
         {k: units[k] for k in numbers if units[k]}, tuple(header),
-        tuple(sorted(number for number in between if rows[0].number < number < rows[-1].number)),
+        tuple(np.setdiff1d(np.arange(begin, end), rows.number).tolist()),
     )  # fmt: skip
 
 
 def _begin(lines, name):
     """Number of columns of the rows, and the place of the first row."""
-    counts = [line.width for line in lines]
-    if not any(counts):
+    if not lines.width.any():
         raise ValueError(f"{name}: no samples; expected rows of numbers")
-    width = Counter(filter(None, counts)).most_common(1)[0][0]
+    width = _most_common(lines.width[lines.width > 0])
     if width > _MOST_COLUMNS:
         raise ValueError(f"{name} has {width} columns: at most {_MOST_COLUMNS} are read")
     # Lines of a header, as "Depth limit, 200", have fewer numbers than rows.
-    finite = [line.finite for line in lines]
-    usual = Counter(finite[i] for i, count in enumerate(counts) if count == width).most_common(1)[0][0]
-    pairs = list(pairwise([i for i, line in enumerate(lines) if line.cells]))
-    whole = (i for i, j in pairs if counts[i] == counts[j] == width and min(finite[i], finite[j]) >= usual)
-    some = (i for i, j in pairs if counts[i] == counts[j] == width)
-    return width, next(whole, next(some, counts.index(width)))
+    some = lines.width == width
+    whole = some & (lines.finite >= _most_common(lines.finite[some]))
+    # Two rows that follow each other, but for comments.
+    kept = np.flatnonzero(lines.cells)
+    for good in (whole, some):
+        pairs = kept[:-1][good[kept[:-1]] & good[kept[1:]]]
+        if pairs.size:
+            return width, pairs[0]
+    return width, np.argmax(some)
 
 
 def _rows(lines, width):
     """Lines that are rows: of the usual number of cells, and not words with a number, as "Test 2"."""
-    rows = [line for line in lines if len(line.cells) == width and line.finite]
-    usual = Counter(line.finite for line in rows).most_common(1)[0][0]
-    words = Counter(line.spare for line in rows if line.finite == usual).most_common(1)[0][0]
-    return [line for line in rows if 2 * line.finite > usual or line.spare <= words]
+    rows = lines[(lines.cells == width) & (lines.finite > 0)]
+    usual = _most_common(rows.finite)
+    words = _most_common(rows.spare[rows.finite == usual])
+    return rows[(2 * rows.finite > usual) | (rows.spare <= words)]
+
+
+def _most_common(numbers):
+    """The most frequent number, of several the first."""
+    return Counter(numbers.tolist()).most_common(1)[0][0]
 
 
 def _has_numbers(known, column, lines):
     """Whether half of the cells of a column are numbers, or all that are not empty."""
     count = np.count_nonzero(known)
     return 2 * count >= known.size or (
-        count > 1 and count == sum(bool(line.cells[column]) for line in lines)
+        count > 1 and count == sum(bool(cells[column]) for cells in lines.rows())
     )
 
 

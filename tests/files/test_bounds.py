@@ -151,15 +151,33 @@ def test_a_zip_of_a_version_that_python_does_not_know_is_a_clear_error(suffix, t
         mdr.read_curves(path)
 
 
-@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
-def test_a_table_of_too_many_lines_is_refused_before_it_takes_memory(end):
-    """4 million lines of a digit would take 2 GB; to count them takes none."""
-    text = f"1{end}" * 4_000_001
+def peak_of(read):
+    """Most bytes that were held while something was read."""
     tracemalloc.start()
     try:
-        with pytest.raises(ValueError, match="more than 2000000 samples"):
-            read_tables(text, "curve.csv")
-        _, peak = tracemalloc.get_traced_memory()
+        read()
+        return tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
-    assert peak < 1e6
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_a_table_of_too_many_lines_is_refused_before_it_takes_memory(end):
+    """4 million lines of a digit would take 0.8 GB; to count them takes none."""
+    text = f"1{end}" * 4_000_001
+
+    def refused():
+        with pytest.raises(ValueError, match="more than 2000000 samples"):
+            read_tables(text, "curve.csv")
+
+    assert peak_of(refused) < 1e6
+
+
+@pytest.mark.parametrize(
+    "row",
+    ["0.001,1.2345", "1.2345678901,3.4567890123,0.123", "0,001;1,234;loading"],
+)
+def test_a_table_takes_at_most_twenty_times_its_size(row):
+    """Cells, which would take up to fifty times the size, are not kept."""
+    text = "depth (nm), force (mN)\n" + f"{row}\n" * 20_000
+    assert peak_of(lambda: read_tables(text, "curve.csv")) < 20 * len(text)
