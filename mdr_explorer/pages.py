@@ -29,8 +29,11 @@ _KATEX = "bundled/katex/katex@0.16.22/dist"
 _ASKED = ("css", "bundled/theme", "bundled/font-awesome/css")
 
 
-def write(folder: Path, pyodide: str) -> list[licenses.Licensed]:
-    """Write the pages and what they ask for, and return whose scripts these are."""
+def write(folder: Path, pyodide: str, integrity: dict[str, str]) -> list[licenses.Licensed]:
+    """Write the pages and what they ask for, and return whose scripts these are.
+
+    `pyodide` is the address of Pyodide, `integrity` has digests of its scripts by their addresses.
+    """
     if str(APP.parent) not in sys.path:
         # As a server has it.
         sys.path.insert(0, str(APP.parent))
@@ -59,7 +62,7 @@ def write(folder: Path, pyodide: str) -> list[licenses.Licensed]:
     words = {"theme": ui.JS["theme"], "private": ui.JS["private"], "style": ui.LAYOUT[0] + ui.CSS}
     words["sheets"] = "\n".join(f'<link rel="stylesheet" href="{name}">' for name in sheets)
     settings = {"pyodide": pyodide, "compiled": COMPILED, "imports": IMPORTS, "scripts": scripts}
-    words["settings"] = json.dumps(settings)
+    words |= {"settings": json.dumps(settings), "integrity": json.dumps({"integrity": integrity})}
     words["start"] = (_HERE / "static.js").read_text(encoding="utf-8")
     words["body"] = theory.html()
     for name in ("static", "theory", "measurement"):

@@ -15,6 +15,11 @@ from . import APP, licenses, pages
 #: The version of Pyodide that was tested, and where it is published.
 PYODIDE = "0.27.7"
 PUBLISHED = f"https://cdn.jsdelivr.net/pyodide/v{PYODIDE}/full/"
+#: Digests of its scripts, by which a browser refuses others: those of the package `pyodide` of npm.
+INTEGRITY = {
+    "pyodide.mjs": "sha384-z8L8kZDaddEtk+VNtmPcXLY83XSVlBjlabpCtT6GghMW3jSyzOEzNsL9BiKsfjcL",
+    "pyodide.asm.js": "sha384-J3SxzZJh4tkb2bgoUc72zArF45FJ+ngsbiqNsmxqkkecNVpZ/bUHAM0JMp+YPVpx",
+}
 #: Files of its runtime.
 RUNTIME = ("pyodide.mjs", "pyodide.asm.js", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
 #: Folders of which an earlier explorer is replaced.
@@ -135,5 +140,7 @@ def write(folder: Path, pyodide: str = "") -> None:
         path.write_bytes(data)
     folder.mkdir(parents=True, exist_ok=True)
     write_archive(folder / "explorer.zip")
-    parts += pages.write(folder, address.rstrip("/") + "/")
+    address = address.rstrip("/") + "/"
+    digests = INTEGRITY if address == PUBLISHED else {}
+    parts += pages.write(folder, address, {address + name: digest for name, digest in digests.items()})
     (folder / "LICENSES.txt").write_text(licenses.written(parts), encoding="utf-8")

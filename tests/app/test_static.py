@@ -3,6 +3,7 @@
 The last needs a whole Pyodide, the folder `MDR_PYODIDE`; .ci/static gets one.
 """
 
+import base64
 import hashlib
 import json
 import os
@@ -101,6 +102,13 @@ def settings(folder):
     return json.loads(text)
 
 
+def integrity(folder):
+    """Digests of scripts from elsewhere, by which a browser refuses others."""
+    index = (folder / "index.html").read_text(encoding="utf-8")
+    (text,) = re.findall(r'<script type="importmap">(.*)</script>', index)
+    return json.loads(text)["integrity"]
+
+
 def test_the_folder_has_all_that_its_pages_ask_for_and_names_one_other_address(written):
     folder, said = written
     assert {path.name for path in folder.glob("*.html")} == {
@@ -115,6 +123,7 @@ def test_the_folder_has_all_that_its_pages_ask_for_and_names_one_other_address(w
     assert told["pyodide"] == static.PUBLISHED
     assert static.PUBLISHED in said
     assert static.PYODIDE in static.PUBLISHED
+    assert integrity(folder) == {static.PUBLISHED + name: each for name, each in static.INTEGRITY.items()}
     assert not (folder / "pyodide").exists()
     # Some MB besides the runtime, of the hundred that Panel has.
     assert sum(path.stat().st_size for path in folder.rglob("*") if path.is_file()) < 10e6
@@ -302,12 +311,25 @@ def test_a_sweep_is_found_in_slices_and_a_press_makes_the_one_before_void(monkey
 
 
 @pytest.fixture(scope="module")
-def hosted(browser, tmp_path_factory):
-    """The address of a folder with the Pyodide of `MDR_PYODIDE`, from a host of files."""
+def real():
+    """The folder of a whole Pyodide."""
     if not (pyodide := os.environ.get("MDR_PYODIDE")):
         pytest.skip("the page in a browser needs a whole Pyodide: its folder as MDR_PYODIDE")
+    return Path(pyodide)
+
+
+def test_digests_are_those_of_the_published_scripts(real):
+    """From another package than the one whose digests are written down."""
+    for name, told in static.INTEGRITY.items():
+        digest = hashlib.sha384((real / name).read_bytes()).digest()
+        assert told == f"sha384-{base64.b64encode(digest).decode()}", name
+
+
+@pytest.fixture(scope="module")
+def hosted(browser, real, tmp_path_factory):
+    """The address of a folder with a whole Pyodide, from a host of files."""
     folder = tmp_path_factory.mktemp("hosted") / "explorer"
-    static.write(folder, pyodide)
+    static.write(folder, str(real))
 
     class Files(SimpleHTTPRequestHandler):
         def log_message(self, *arguments):
