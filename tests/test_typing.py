@@ -44,6 +44,19 @@ def test_version_is_that_of_the_project():
     assert mdr.__version__ == project["project"]["version"]
 
 
+def test_first_calls_need_no_package_of_scipy_for_a_trifle():
+    """A trapezoid or a polynomial is not worth half a second, or a download in a browser."""
+    calls = (
+        "import sys, numpy as np, mdr_core as mdr; "
+        "tip, medium = mdr.RoundedCone(0.3, 1e-7), mdr.Medium(70e9, hardness=9e9); "
+        "depth = np.append(np.linspace(1e-8, 1e-6, 60), np.linspace(1e-6, 9e-7, 30)); "
+        "force = mdr.indent(tip, medium, depth).force; "
+        "mdr.impact(tip, medium, 1e-9, 0.1).restitution; mdr.fit_indentation(tip, depth, force); "
+        "print([n for n in ('integrate', 'interpolate') if 'scipy.' + n in sys.modules])"
+    )
+    assert run("-c", calls).stdout.strip() == "[]"
+
+
 def test_heavy_parts_of_scipy_wait_until_they_are_needed():
     """They are what would make the import take a second; times themselves depend on the machine."""
     heavy = (

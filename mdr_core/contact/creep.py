@@ -9,7 +9,6 @@ every element from the state that the scalar laws have reached.
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from .. import _check
 from .._check import ArrayLike
@@ -17,6 +16,7 @@ from ..applicability import check_shape
 from ..foundation.depth_path import TimedIndentation, joined
 from ..foundation.force_path import chain_creep, check_creep
 from ..medium import Medium
+from ..numerics.stable import trapezoid
 from ..profiles.profile import Profile
 from .creep_loading import Loading
 from .creep_retreat import Retreat
@@ -153,7 +153,7 @@ def _first_and_bound(profile, medium, rule, force, ds):
         by_springs = float(indent_to_force(profile, slow, largest).depth)
     guess = max(first, min(by_springs, profile.known_depth, 1.0))
     law = Loading(rule, force, ds, guess, onset=0.0, precision=1.0)
-    y = law.elastic(first)[0] + scipy.integrate.trapezoid(force, np.append(0.0, np.cumsum(ds))) / modulus
+    y = law.elastic(first)[0] + trapezoid(force, np.append(0.0, np.cumsum(ds))) / modulus
     by_dashpots = float(law.depth_of(y))
     bound = min(by_springs, by_dashpots, profile.known_depth, _check.LONGEST)
     return first, max(bound, first) or _check.SHORTEST

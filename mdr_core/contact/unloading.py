@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.integrate import trapezoid
 
+from ..numerics.stable import trapezoid
 from . import adhesion
 from .indentation import Indentation
 from .live_interval import LiveInterval

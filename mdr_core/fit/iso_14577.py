@@ -1,8 +1,8 @@
 """Quantities of ISO 14577 of one unloading and what is before it: n_IT, C_IT and HM."""
 
 import numpy as np
-from scipy.integrate import trapezoid
 
+from ..numerics.stable import trapezoid
 from ..profiles.power import Cone
 from ..profiles.profile import Profile
 from .creep import hold

@@ -9,11 +9,11 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 
 from .. import _check
 from ..applicability import check_pair, refuse_adhesion, refuse_own_law
 from ..numerics.roots import root_in_bracket
+from ..numerics.stable import trapezoid
 from .cap import flat_face_load, plastic_depth
 from .depth_path import Ramps, check_times, follow, states_along
 from .fronts import force_and_radius
@@ -95,7 +95,7 @@ def chain_creep(profile, medium, force, time, *, tolerance=1e-4, start=None):
     # Bounds by the springs alone, and by the dashpots alone after the first force.
     before = start.largest if start else 0.0
     first = max(before, depth_bound(profile, medium, "force", force[0]))
-    impulse = scipy.integrate.trapezoid(force, time)
+    impulse = trapezoid(force, time)
     bound = min(
         depth_bound(profile, medium, "force", np.max(force)),
         depth_bound(profile, medium, "momentum", impulse, first),

@@ -30,3 +30,8 @@ def log1p_ratio(above, below):
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         ratio = above / below
         return np.where(ratio < np.inf, np.log1p(ratio), np.log(above) - np.log(below))
+
+
+def trapezoid(y, x):
+    """∫ y dx of straight lines between points; the one of SciPy takes half a second to import."""
+    return np.sum((y[1:] + y[:-1]) * np.diff(x)) / 2

@@ -39,7 +39,7 @@ class RadiusTable:
         self.unit, (self.start, self.end), self._function = unit, edges[[0, -1]], radius
         low, powers = _panels(lambda depth: radius(depth * unit), edges)
         first = _tip_panel(lambda share: radius(edges[0] * unit * share), edges[0])
-        self._radius = scipy.interpolate.PPoly(
+        self._radius = _Polynomials(
             np.column_stack([first, powers]), np.concatenate([[0.0], low, edges[-1:]])
         )
         # These continue from panel to panel, from 0 at depth 0.
@@ -92,6 +92,46 @@ class RadiusTable:
         # Far below the unit of depth rounding may leave an integral of less than 0, which is no guess.
         with np.errstate(invalid="ignore", divide="ignore"):
             return [(np.log(integral(depth)), np.log(depth)) for integral in (self.area, self.volume)]
+
+
+#: Depths from which on polynomials are evaluated by SciPy.
+_MANY = 10_000
+
+
+class _Polynomials:
+    """Piecewise polynomials with coefficients by power, highest first, and panel.
+
+    As `scipy.interpolate.PPoly`, which is up to 1.6 times as fast for many depths, but takes half a second
+    to import.
+    """
+
+    def __init__(self, powers, x):
+        self.powers, self.x = powers, x
+
+    @cached_property
+    def _of_scipy(self):
+        return scipy.interpolate.PPoly(self.powers, self.x)
+
+    def __call__(self, depth):
+        depth = np.asarray(depth, dtype=float)
+        if depth.size >= _MANY:
+            return self._of_scipy(depth)
+        panel = np.clip(np.searchsorted(self.x, depth, side="right") - 1, 0, len(self.x) - 2)
+        above, powers = depth - self.x[panel], self.powers
+        value = powers[0, panel]
+        for row in powers[1:]:
+            value = value * above + row[panel]
+        return value
+
+    def antiderivative(self):
+        """Their integral from the first edge."""
+        count, width = len(self.powers), np.diff(self.x)
+        powers = np.vstack([self.powers / np.arange(count, 0, -1)[:, None], np.zeros(len(width))])
+        whole = np.zeros(len(width))
+        for row in powers:
+            whole = whole * width + row
+        powers[-1] = np.append(0.0, np.cumsum(whole)[:-1])
+        return _Polynomials(powers, self.x)
 
 
 def _tip_panel(radius, edge):
