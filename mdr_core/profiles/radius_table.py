@@ -87,15 +87,17 @@ class RadiusTable:
     @cached_property
     def _inverses(self):
         """Logarithms of ∫ a ds (m²) and of depths (m), and of ∫∫ a ds ds (m³) and of depths."""
-        edges = self._radius.x[1:] * self.unit
+        edges = self._radius.x[1:]
         depth = np.append(np.linspace(edges[:-1], edges[1:], 4, endpoint=False).T, edges[-1])
+        area, volume = (each.by_numpy(depth) for each in (self._area, self._volume))
         # Far below the unit of depth rounding may leave an integral of less than 0, which is no guess.
         with np.errstate(invalid="ignore", divide="ignore"):
-            return [(np.log(integral(depth)), np.log(depth)) for integral in (self.area, self.volume)]
+            inverse = np.log(depth * self.unit)
+            return [(np.log(area * self.unit), inverse), (np.log(volume * self.unit**2), inverse)]
 
 
 #: Depths from which on polynomials are evaluated by SciPy.
-_MANY = 10_000
+_MANY = 1000
 
 
 class _Polynomials:
@@ -114,13 +116,15 @@ class _Polynomials:
 
     def __call__(self, depth):
         depth = np.asarray(depth, dtype=float)
-        if depth.size >= _MANY:
-            return self._of_scipy(depth)
-        panel = np.clip(np.searchsorted(self.x, depth, side="right") - 1, 0, len(self.x) - 2)
-        above, powers = depth - self.x[panel], self.powers
-        value = powers[0, panel]
-        for row in powers[1:]:
-            value = value * above + row[panel]
+        return self._of_scipy(depth) if depth.size >= _MANY else self.by_numpy(depth)
+
+    def by_numpy(self, depth):
+        """Their values, without SciPy also for many depths."""
+        panel = self.x[1:-1].searchsorted(depth, side="right")
+        above = depth - self.x[panel]
+        value, *powers = self.powers[:, panel]
+        for power in powers:
+            value = value * above + power
         return value
 
     def antiderivative(self):
