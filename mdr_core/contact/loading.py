@@ -191,10 +191,9 @@ def _loading_depth(rule, branches, area):
 
     def loading(depth):
         """A (m²) and dA/ds (m)."""
-        interval, _ = rule.loading(depth)
+        interval, increase = rule.loading(depth)
         value = integrals(rule.profile).radius_integral(interval)
-        yielding = rule.yielding_width(interval)
-        slope = np.where(interval.lower > 0, yielding, rule.profile.radius_at(depth))
+        slope = rule.loading_width(interval, increase)
         shallower = depth < low
         return np.where(shallower, line_slope * depth, value), np.where(shallower, line_slope, slope)
 

@@ -134,10 +134,26 @@ class YieldRule(_check.Parameters, ABC):
         slower = np.where(c > 0, 1 - self.rate(interval.upper), 0.0)
         return integrals(self.profile).radius_drop(interval) + c * slower
 
-    def loading_width(self, interval, increase):
-        """a (m) on loading, a − c dp/ds where it increases the plastic depth: the stiffness over 2E*."""
-        width, yields = self.profile.radius_at(interval.upper), increase > 0
+    def loading_width(self, interval, increase, radius=None):
+        """a (m) on loading, a − c dp/ds where it increases the plastic depth: the stiffness over 2E*.
+
+        `radius` is a (m), where it is known.
+        """
+        width, yields = self.profile.radius_at(interval.upper) if radius is None else radius, increase > 0
         return np.where(yields, self.yielding_width(interval), width) if np.any(yields) else width
+
+    def work(self, penetration, imprint, compliance=None):
+        """Work over 2E* (m³) up to a penetration (m), stored, plastic and in a support, and its derivative.
+
+        The support has the compliance κ = 2E*/K (1/m). Under Φ = ∫ a ds it takes κ Φ²/2, and moves by κ dΦ.
+        """
+        interval, increase = self.loading(penetration, imprint)
+        force, stored = integrals(self.profile).radius_and_energy(interval)
+        taken = stored + self.plastic_integral(imprint, increase)
+        if compliance is None:
+            return taken, force
+        deflection = compliance * force
+        return taken + deflection * force / 2, force + deflection * self.loading_width(interval, increase)
 
     def breaks(self, imprint, deepest):
         """The `Breaks` of loadings over imprints down to the `deepest` depths (m), both of shape (N, 1)."""

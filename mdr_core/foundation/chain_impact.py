@@ -210,12 +210,6 @@ class ChainImpact(ImpactResult):
         """Whether the body never leaves, because a plate damps it to rest in the contact."""
         return bool(np.isinf(self.contact_time))
 
-    @property
-    def max_deflection(self) -> float:
-        """Largest deflection (m) of the structure under the contact; on a plate it stays."""
-        momentum = self.mass * self.speed * (1 + self.restitution)
-        return momentum / self.structure.impedance + self.max_force / self.structure.stiffness
-
     def motion(self, n: int | None = None) -> Motion:
         """The `Motion` of the finest run at every step, or interpolated at n equally spaced instants.
 

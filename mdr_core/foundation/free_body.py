@@ -199,42 +199,34 @@ class ImpactSolver:
 
     def _step(self, dt):
         """Step of duration dt (s) that satisfies Newton's equation."""
-        m, v = self.mass, self.velocity
+        m, v, structure = self.mass, self.velocity, self.structure
+        # J and J/(Z Δt) take 2m and 2m/(Z Δt) of twice the momentum that the mean rate lacks.
+        share = 1 + 2 * m / structure.impedance / dt
+        # By the mean rates of two steps, as in the backward differentiation formula of second order.
+        ahead = dt / (dt + self.last_duration)
 
         def excess(rate):
             step, impulse = self._trial(rate, dt, v)
-            slope = 2 * m + self.row.total(step.exchange.impulse_slope)
             after = v - impulse / m
-            return 2 * m * (rate - v) + impulse, slope, step._replace(velocity=after, depth_rate=after)
+            miss = 2 * m * (rate - v) + share * impulse
+            slope = 2 * m + share * self.row.total(step.exchange.impulse_slope)
+            end_rate, force = after, 0.0
+            if structure.is_plate:
+                end_rate = self._rate_on_plate(step.elements, after)
+            elif structure.is_support:
+                end_rate = rate + (rate - self.last_rate) * ahead
+                row = self.row.after(step.ramp, step.elements, step.exchange, end_rate)
+                force, unit = force_and_radius(row)[0], 2 * m / structure.stiffness / dt
+                springs, dashpots = self._stiffness_and_drag(step.elements)
+                miss += unit * (force - self.support_force)
+                slope += unit * (springs * dt + dashpots * (1 + ahead))
+                # The depth turns round with the body; of the velocity the depth has a share.
+                end_rate = after / (1 + springs / structure.stiffness) if self.tau == 0 else end_rate
+            return miss, slope, step._replace(velocity=after, depth_rate=end_rate, force=force)
 
-        def excess_on_plate(rate):
-            miss, slope, step = excess(rate)
-            share = 1 + 2 * m / self.structure.impedance / dt
-            impulse = m * (v - step.velocity)
-            miss += (share - 1) * impulse
-            slope = 2 * m + share * (slope - 2 * m)
-            return miss, slope, step._replace(depth_rate=self._rate_on_plate(step.elements, step.velocity))
-
-        def excess_on_support(rate):
-            miss, slope, step = excess(rate)
-            # By the mean rates of two steps, as in the backward differentiation formula of second order.
-            ahead = dt / (dt + self.last_duration)
-            end_rate = rate + (rate - self.last_rate) * ahead
-            force, _ = force_and_radius(self.row.after(step.ramp, step.elements, step.exchange, end_rate))
-            stiffness = self.structure.stiffness
-            springs, dashpots = self._stiffness_and_drag(step.elements)
-            force_slope = springs * dt + dashpots * (1 + ahead)
-            miss += 2 * m * (force - self.support_force) / stiffness / dt
-            slope += 2 * m * force_slope / stiffness / dt
-            # The depth turns round with the body; of the velocity the depth has a share.
-            share = step.velocity / (1 + springs / stiffness)
-            return miss, slope, step._replace(depth_rate=share if self.tau == 0 else end_rate, force=force)
-
+        start = v + self.acceleration * dt / 2 if structure.rigid else self.depth_rate
         close = max(self.precision, 1e-12 * abs(v))
-        if self.structure.rigid:
-            return root_in_bracket(excess, v + self.acceleration * dt / 2, -np.inf, np.inf, close)
-        on_structure = excess_on_plate if self.structure.is_plate else excess_on_support
-        return root_in_bracket(on_structure, self.depth_rate, -np.inf, np.inf, close)
+        return root_in_bracket(excess, start, -np.inf, np.inf, close)
 
     def _stiffness_and_drag(self, elements):
         """2E*a (N/m) of the springs that have not yielded, and 8ηa (N·s/m), at the end of a step."""

@@ -149,13 +149,7 @@ def _penetration(rule, target, before, close=1e-7, give=None, deepest=np.inf):
 
     def work(y, rows):
         part = rule.flat_entries(rows, target.shape)
-        interval, increase = part.loading(y, before[rows])
-        force, stored = integrals(part.profile).radius_and_energy(interval)
-        taken = stored + part.plastic_integral(before[rows], increase)
-        if give is None:
-            return taken, force
-        bend = give[rows] * force
-        return taken + bend * force / 2, force + bend * part.loading_width(interval, increase)
+        return part.work(y, before[rows], None if give is None else give[rows])
 
     highest = np.minimum(np.broadcast_to(rule.profile.known_depth - before, target.shape), deepest)
     y = np.minimum(_first_guess(rule, target, before), highest)

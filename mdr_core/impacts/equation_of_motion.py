@@ -156,13 +156,10 @@ class Loading(Equation):
 
     def stiffness(self, depth, load, radius, velocity):
         """−μ ∂v̇/∂y (m): a (less c dp/ds while yielding), and the drag on a contact that grows."""
-        rule, profile, slope = self.bodies.rule, self.bodies.profile, radius
-        interval = self.interval(depth)
-        yields = interval.lower > self.bodies.imprint_depth
-        if yields.any():
-            c = profile.radius_at(interval.lower)
-            slope = np.where(yields, radius - c * rule.rate(interval.upper), radius)
-        return slope + self.bodies.relaxation_time * velocity * growth_at(profile, radius)
+        bodies = self.bodies
+        state = bodies.rule.loading(np.maximum(depth, 0.0), bodies.imprint_depth)
+        width = bodies.rule.loading_width(*state, radius)
+        return width + bodies.relaxation_time * velocity * growth_at(bodies.profile, radius)
 
 
 @dataclass(frozen=True)

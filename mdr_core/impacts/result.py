@@ -108,16 +108,6 @@ class Impact(Entries, ImpactResult):
         return self.turning_point.max_pressure
 
     @_check.frozen_property
-    def max_deflection(self):
-        """Largest deflection (m) of the structure under the contact; 0 without a structure.
-
-        On a plate m v₀ (1 + e)/Z: it is that at the end of the contact, and it stays. On a support F/K of
-        the largest force F.
-        """
-        momentum = self.mass * self.speed * (1 + self.restitution)
-        return momentum / self.structure.impedance + self.max_force / self.structure.stiffness
-
-    @_check.frozen_property
     def plastic_work(self):
         """Energy (J) dissipated by yielding in this impact."""
         increase = self.plastic_depth_increase

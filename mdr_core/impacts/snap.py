@@ -8,7 +8,6 @@ is in no term of the balance, which would close over the jump.
 import numpy as np
 
 from .. import _check
-from ..contact.integrals import integrals
 
 #: Places between the onset of yield and the turning point at which S is looked at, and grids by which the
 #: first one below 0 is closed in, or else the smallest one.
@@ -37,15 +36,9 @@ def depth_before_snap(rule, imprint, interval, increase, energy, give, structure
         """S at penetrations (m)."""
         return 1 + give * rule.loading_width(*rule.loading(y, imprint))
 
-    def taken(y):
-        """Work over 2E* (m³) of medium and support."""
-        part, grown = rule.loading(y, imprint)
-        force, stored = integrals(rule.profile).radius_and_energy(part)
-        return stored + rule.plastic_integral(imprint, grown) + give * force**2 / 2
-
     # Just before it: at the very place the work has no slope.
     y = (1 - 1e-9) * _first_snap(way, start, end)
-    snaps = np.reshape((y < np.inf) & (taken(np.minimum(y, end)) <= energy), shape)
+    snaps = np.reshape((y < np.inf) & (rule.work(np.minimum(y, end), imprint, give)[0] <= energy), shape)
     if np.any(snaps):
         # The steepest fall on the way to the depth that the impact has without a support.
         shares = np.linspace(0, 1, _PLACES)

@@ -22,7 +22,9 @@ class ImpactResult(Result):
 
     medium: Any
     structure: Any
+    mass: Array
     speed: Array
+    max_force: Array
     restitution: Array
     contact_time: Array
     plastic_radius: Array
@@ -51,6 +53,16 @@ class ImpactResult(Result):
         then e is 0, and the contact time infinite.
         """
         return np.zeros(np.shape(self.speed), bool)[()]
+
+    @property
+    def max_deflection(self) -> Array:
+        """Largest deflection (m) of the structure under the contact; 0 without a structure.
+
+        On a plate m v₀ (1 + e)/Z: it is that at the end of the contact, and it stays. On a support F/K of
+        the largest force F.
+        """
+        momentum = self.mass * self.speed * (1 + self.restitution)
+        return momentum / self.structure.impedance + self.max_force / self.structure.stiffness
 
     @property
     def adhesive_work(self) -> Array:
