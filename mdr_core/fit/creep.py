@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..numerics.remark import Remark, Remedy
+from ..numerics.remark import Remark, Remedy, doubt
 from ..show.quantities import engineering
 from .errors import roughness
 from .unloading import last_at_top
@@ -200,10 +200,6 @@ def of_rise(rise, in_time):
     """A remark on a depth that grows while the force falls; `in_time` says whether times are given."""
     text = (
         f"the depth creeps: it grows by {engineering(rise, 'm')} while the force falls, so that the "
-        "stiffness is too large; "
+        "stiffness is too large; hold the force longer, or unload faster"
     )
-    cure = "hold the force longer, or unload faster"
-    if in_time:
-        return Remark(text + cure, "creep")
-    times = f"{text}give a column of times, {cure}"
-    return Remark(f"{text}give time=, {cure}", "creep", times, (Remedy("give", "time"),))
+    return doubt(text, "creep", *[Remedy("give", "time")] * (not in_time))

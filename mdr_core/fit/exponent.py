@@ -4,7 +4,8 @@ import numpy as np
 
 from ..contact.integrals import integrals
 from ..contact.live_interval import LiveInterval
-from ..numerics.remark import Remark, Remedy
+from ..numerics.remark import Remedy
+from ..numerics.remark import doubt as remark
 from .first_contact import elastic_exponents
 from .unloading import laws_of
 
@@ -49,9 +50,7 @@ def doubt(profile, depth, laws, in_time):
         )
     else:
         return None
-    if in_time:
-        return Remark(text, "creep")
-    return Remark(f"{text}; give time=", "creep", text, (Remedy("give", "time"),))
+    return remark(text, "creep", *[Remedy("give", "time")] * (not in_time))
 
 
 def _of_elastic_unloading(profile, depth):

@@ -13,7 +13,7 @@ from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..impacts.scaling import class_of
 from ..medium import Medium, yield_constant
-from ..numerics.remark import Remark, Remedy
+from ..numerics.remark import Remark, Remedy, doubt
 from ..numerics.roots import increasing_root
 from ..profiles.profile import Profile
 from ..show.quantities import engineering
@@ -205,22 +205,17 @@ def _remarks(yielded, constants, errors, free, power_law):
         yield Remark(f"{count} {text}", "left out")
     used = [letter for letter, constant in CLASSES.items() if constants[constant] or constant in free]
     if len(used) == 1 and (name not in (*used, None) or reason.startswith("none")):
-        text = f"not of class ({used[0]}) alone: {reason}; two "
-        more = "of hardness, q_c and f_c may be free", "constants of the hardness may be fitted"
-        remedy = tuple(Remedy("free", each) for each in CLASSES.values() if each not in free)
-        yield Remark(text + more[0], "misfit", text + more[1], remedy)
+        text = f"not of class ({used[0]}) alone: {reason}; two constants of the hardness may be fitted"
+        yield doubt(
+            text, "misfit", *(Remedy("free", each) for each in CLASSES.values() if each not in free)
+        )
     for constant, error in zip(free, errors, strict=True):
         if len(free) > 1 and constants[constant] < 2 * error:
-            text, remedy = "the radii do not distinguish", (Remedy("hold", constant, 0.0),)
-            sentence = f"{text} {' and '.join(free)}: {constant} may be 0"
-            words = f"{text} {symbols(free)}: {symbols([constant])} may be 0"
-            yield Remark(sentence, "constants", words, remedy)
+            text = f"the radii do not distinguish {symbols(free)}: {symbols([constant])} may be 0"
+            yield doubt(text, "constants", Remedy("hold", constant, 0.0))
     if np.isinf(errors).any():
-        text, more = (
-            "the standard error of",
-            "cannot be determined from one measurement: give three or more",
-        )
-        yield Remark(f"{text} {free[0]} {more}", "few", f"{text} {symbols(free[:1])} {more}")
+        text = f"the standard error of {symbols(free[:1])} cannot be determined from one measurement"
+        yield doubt(f"{text}: give three or more", "few")
 
 
 @dataclass(frozen=True, eq=False, repr=False)

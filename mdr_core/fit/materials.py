@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..numerics.remark import Remark, Remedy
+from ..numerics.remark import Remedy, doubt
 from ..show.quantities import engineering
 
 #: Moduli E* (Pa) of materials, from the softest gels to diamond (1.15 TPa), with a margin.
@@ -37,22 +37,14 @@ def doubts(E_star, hardness, remaining=0.0):
     if hardness.max() > HARDEST:
         numbers.append(("H", hardness.max()))
     found = [
-        (f"no material has {symbol} = {_short(value)}", ", from first contact on")
+        f"no material has {symbol} = {_short(value)}: a unit, or the zero of the depth, is wrong"
         for symbol, value in numbers
     ]
     yields = np.ravel(remaining)[int(E_star.argmin()) % np.size(remaining)] > REMAINS
     if is_modulus(soft) and soft < (SOFTEST_THAT_YIELDS if yields else SOFTEST_OF_UNLOADINGS):
         which = " that keep an imprint" if yields else ""
-        found.append((f"E* = {_short(soft)} is less than that of nearly all materials{which}", ""))
-    return [
-        Remark(
-            f"{text}: give depth in m and force in N{more}",
-            "units",
-            f"{text}: look at the units of depth and force{more and ', and at first contact'}",
-            UNITS,
-        )
-        for text, more in found
-    ]
+        found.append(f"E* = {_short(soft)} is less than that of nearly all materials{which}")
+    return [doubt(text, "units", *UNITS, together=True) for text in found]
 
 
 def doubts_of_measured(E_star, mean_pressure, radius):
@@ -60,17 +52,10 @@ def doubts_of_measured(E_star, mean_pressure, radius):
     if not SOFTEST_OVER_MODULUS * E_star <= np.median(mean_pressure) <= HARDEST:
         given = _short(np.median(mean_pressure))
         text = f"no material with E* = {_short(E_star)} has a mean pressure of {given}"
-        remedy = Remedy("unit", "mean_pressure"), Remedy("unit", "E_star")
-        yield Remark(
-            f"{text}: give mean_pressure and E_star in Pa",
-            "units",
-            f"{text}: look at the units of both",
-            remedy,
-        )
+        yield doubt(text, "units", Remedy("unit", "mean_pressure"), Remedy("unit", "E_star"), together=True)
     if np.median(radius) > WIDEST:
         text = f"a contact radius of {engineering(float(f'{np.median(radius):.3g}'), 'm')} is very large"
-        remedy = (Remedy("unit", "radius"),)
-        yield Remark(f"{text}: give radius in m", "units", f"{text}: look at its unit", remedy)
+        yield doubt(text, "units", Remedy("unit", "radius"))
 
 
 def _short(value):

@@ -14,43 +14,36 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..numerics.remark import Remark, Remedy
+from ..numerics.remark import Remark, Remedy, doubt
 from ..show.quantities import engineering
 from .errors import SIGNIFICANT, SINGULAR, block_length, roughness
 
 
 class _Test(NamedTuple):
-    """Kind of a remark, words, unit, the factor by which the misfit falls clearly, and what follows."""
+    """Kind of a remark, words, unit, the factor by which the misfit falls clearly, and what one can do."""
 
     kind: str
     what: str
     unit: str
     clearly: float
-    follows: str
     remedy: tuple[Remedy, ...] = ()
 
 
-_OF_UNLOADING = (
-    "creep or hysteresis of the scanner or the medium, or a drag; compare with a fit of the loading alone",
-    (Remedy("part", "loading"),),
-)
+_CAUSES = "creep or hysteresis of the scanner or the medium, or a drag"
+_LOADING = (Remedy("part", "loading"),)
 #: The misfit of measured curves without a tilt falls up to 1.2 times by one.
 _TESTS = {
     "tilt": _Test(
-        "tilt", "a tilt of {}", "N/m", 1.5, "fit a tilt and a baseline, too",
-        (Remedy("free", "tilt"), Remedy("free", "baseline")),
+        "tilt", "a tilt of {}", "N/m", 1.5, (Remedy("free", "tilt"), Remedy("free", "baseline"))
     ),
-    "drag": _Test("drag", "a drag of {}", "N·s/m", 1.3, "fit a drag, too", (Remedy("free", "drag"),)),
+    "drag": _Test("drag", "a drag of {}", "N·s/m", 1.3, (Remedy("free", "drag"),)),
     # Of a medium that yields, which is too stiff for the drag of a liquid.
     "rate": _Test(
-        "unloading", "a force that goes with the rate ({})", "N·s/m", 1.3, *_OF_UNLOADING
+        "unloading", f"a force that goes with the rate ({{}}), by {_CAUSES},", "N·s/m", 1.3, _LOADING
     ),
-    "drift": _Test(
-        "drift", "a drift of {}", "m/s", 1.6,
-        "the force changes at rest: the depth drifts, or the medium relaxes",
-    ),
+    "drift": _Test("drift", "a drift of {}, or a relaxation of the medium,", "m/s", 1.6),
     "unloading": _Test(
-        "unloading", "a force that changes by {} on unloading", "%", np.inf, *_OF_UNLOADING
+        "unloading", f"a force that changes by {{}} on unloading, by {_CAUSES},", "%", np.inf, _LOADING
     ),
 }  # fmt: skip
 #: Standard deviations from which on one of them is significant, and change of E* in its errors beyond which
@@ -153,16 +146,14 @@ class _Trial(NamedTuple):
         return self.decrease if said else 0.0
 
     def remark(self, free):
-        """What it is, what it does to misfit and E*, and what follows beside parameters that are free."""
+        """What it is, what it does to misfit and E*, and what one can do that is not done yet."""
         test = _TESTS[self.name]
         what = f"{test.what.format(engineering(self.size, test.unit))} would "
         if self.factor > _LOWERED:
             what += f"lower the misfit in contact by a factor of {self.factor:.3g} and "
-        text = f"{what}change E* by {self.change:+.1f} standard errors: "
-        remedy = tuple(each for each in test.remedy if each.what not in free)
-        given = " and ".join(f"{each.what}=None" for each in remedy if each.action == "free")
-        return Remark(
-            f"{text}{f'give {given}' if given else test.follows}", test.kind, text + test.follows, remedy
+        remedy = (each for each in test.remedy if each.what not in free)
+        return doubt(
+            f"{what}change E* by {self.change:+.1f} standard errors", test.kind, *remedy, together=True
         )
 
 

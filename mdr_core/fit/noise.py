@@ -5,7 +5,7 @@ They may follow a curve, have outliers, be correlated over a large part of the c
 
 import numpy as np
 
-from ..numerics.remark import Remark, Remedy
+from ..numerics.remark import Remark, Remedy, doubt
 from ..show.quantities import engineering
 from .errors import SIGNIFICANT, autocorrelation, roughness
 from .parameters import BACKGROUND, CLASSES, symbols
@@ -63,13 +63,11 @@ def _jitter(solved, i):
     depth, curves = solved.curves.depth[i], solved.curves
     noise, reversals = jitter(depth, curves.force[i])
     if reversals and not (curves.depth_noise or curves.held_elastic):
-        size = engineering(noise, "m")
         text = (
-            f"the depth goes back and forth at {reversals} of {depth.size - 1} samples, and its noise is "
-            "taken for new largest depths: E* is biased; give "
+            f"the depth goes back and forth at {reversals} of {depth.size - 1} samples, and its noise of "
+            f"some {engineering(noise, 'm')} is taken for new largest depths: E* is biased"
         )
-        remedy = (Remedy("give", "depth_noise", float(f"{noise:.2g}")),)
-        yield Remark(f"{text}depth_noise, about {size}", "jitter", f"{text}the noise, about {size}", remedy)
+        yield doubt(text, "jitter", Remedy("give", "depth_noise", float(f"{noise:.2g}")))
 
 
 def _misfit(solved, i):
@@ -87,13 +85,9 @@ def _misfit(solved, i):
             f"{correlation:.2f}): the medium is not {'elastic' if curves.held_elastic else of_class}, or "
             "the tip has another profile"
         )
-        sentence, words, remedy = text, text, _other_class(solved, i, letters)
-        if curves.time is None and not curves.adhesive:
-            sentence, words = (
-                f"{text}; give {what}, to test for drag and drift" for what in ("time", "times")
-            )
-            remedy = (*remedy, Remedy("give", "time"))
-        yield Remark(sentence, "misfit", words, remedy)
+        timeless = curves.time is None and not curves.adhesive
+        remedy = *_other_class(solved, i, letters), *[Remedy("give", "time")] * timeless
+        yield doubt(f"{text}{', or there is a drag or a drift' * timeless}", "misfit", *remedy)
     elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > _EXACT:
         text = (
             f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
@@ -123,10 +117,9 @@ def _outliers(solved, i):
         single = np.count_nonzero(far & (size > 0.6 * size.max()))
         text = (
             f"about {single} of {residual.size} samples are outliers, more than {_OUTLIER:g} standard "
-            "deviations from their neighbours: "
+            "deviations from their neighbours, and shift E* by more than its error: leave them out"
         )
-        then = "; with them E* is off by more than its error"
-        yield Remark(f"{text}set them to NaN{then}", "outliers", f"{text}leave them out{then}")
+        yield doubt(text, "outliers")
 
 
 def _blocks(solved, i):
@@ -148,9 +141,5 @@ def _few(solved, i):
     count = np.count_nonzero(state.live_interval.length[i] > 0)
     names = [name for name in solved.curves.free if name not in BACKGROUND]
     if names and count < len(names) + _SPARE:
-        text, then = (
-            f"only {count} samples are in contact for",
-            "the standard errors are uncertain; record more",
-        )
-        sentence, words = (f"{text} {each}: {then}" for each in (" and ".join(names), symbols(names)))
-        yield Remark(sentence, "few", words)
+        text = f"only {count} samples are in contact for {symbols(names)}"
+        yield doubt(f"{text}: the standard errors are uncertain; record more", "few")

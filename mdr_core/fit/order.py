@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..numerics.remark import Remark
+from ..numerics.remark import Remark, doubt
 
 #: Excess of the force after the largest depth over that before it, as a share of its range, that no medium
 #: has; least share of samples at which depths turn, and least median step, as a share of their range, of a
@@ -52,9 +52,8 @@ def apart(depth, force):
     if found:
         text = (
             f"{found} are more than half of its range away from both neighbours, as numbers that stand for "
-            "missing ones"
         )
-        yield Remark(f"{text}: set them to NaN", "outliers", f"{text}: leave them out")
+        yield doubt(f"{text}missing ones: leave them out", "outliers")
 
 
 def _count_apart(values):

@@ -4,7 +4,7 @@ from itertools import chain
 
 import numpy as np
 
-from ..numerics.remark import KINDS, Remark, Remedy
+from ..numerics.remark import KINDS, Remark, Remedy, doubt
 from ..show.quantities import engineering
 from .errors import SIGNIFICANT
 from .materials import UNITS, is_modulus
@@ -121,8 +121,7 @@ def _units(solved, i):
 def _in_other_units(text, cause):
     """A remark on what no material has, because of columns or signs, or of units if no cause is known."""
     if not cause:
-        words = f"{text}: look at the units of depth and force"
-        return Remark(f"{text}: give depth in m and force in N", "units", words, UNITS)
+        return doubt(text, "units", *UNITS, together=True)
     columns = (Remedy("give", "columns"),)
     remedy = columns if cause == _SWAPPED else [each for each in UNITS if each.what in cause]
     return Remark(f"{text}: {cause}", "units", remedy=remedy)
@@ -187,22 +186,15 @@ def _ambiguous(solved, i):
     curves, squares = solved.curves, np.sum(solved.minimum.residual[i] ** 2)
     for name, at_bound in zip(curves.free, solved.minimum.at_bound[i], strict=False):
         if at_bound and name == "eta":
-            text, remedy = "the viscosity is 0 within the noise: hold", (Remedy("hold", name, 0.0),)
-            yield Remark(f"{text} eta = 0", "inviscid", f"{text} it at 0", remedy)
+            yield doubt("the viscosity is 0 within the noise", "inviscid", Remedy("hold", name, 0.0))
         elif at_bound and name not in TOGETHER:
-            text = "is at the bound of its range: hold"
-            sentence = f"{name} {text} {name}, or check the data"
-            words = f"{symbols([name])} {text} it, or check the data"
-            yield Remark(sentence, "bound", words, (Remedy("hold", name),))
+            yield doubt(f"{symbols([name])} is at the bound of its range", "bound", Remedy("hold", name))
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
     if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
         rival = curves.rows([i]).values(solved.rival[[i]])
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
-        text = f"E* = {E} with contact at {point} fits about as well: hold "
         remedy = Remedy("hold", "contact_point"), Remedy("hold", "E_star")
-        yield Remark(
-            f"{text}contact_point or E_star", "second minimum", f"{text}first contact or E*", remedy
-        )
+        yield doubt(f"E* = {E} with contact at {point} fits about as well", "second minimum", *remedy)
 
 
 def _adhesion(solved, i):
@@ -215,9 +207,8 @@ def _adhesion(solved, i):
     error = solved.errors(i).get("work_of_adhesion", 0.0)
     if error > _VAGUE:
         cause = "" if np.any(force < -SIGNIFICANT * noise) else "; there is no tension beyond the noise"
-        text = f"the forces in contact hardly determine w ({_share(error)}{cause}): hold "
-        remedy = (Remedy("hold", "work_of_adhesion", 0.0 if cause else None),)
-        yield Remark(f"{text}work_of_adhesion", "adhesion", f"{text}it", remedy)
+        text = f"the forces in contact hardly determine w ({_share(error)}{cause})"
+        yield doubt(text, "adhesion", Remedy("hold", "work_of_adhesion", 0.0 if cause else None))
     depth = curves.depth[i]
     lost = [_depth_of_loss(depth, held) for held in (curves.contact[i], state.live_interval.length[i] > 0)]
     if abs(lost[1] - lost[0]) > _PULL_OFF * np.ptp(depth):
@@ -248,7 +239,7 @@ def _undetermined(solved, i):
     constants = [name for name in solved.curves.constants if name in errors]
     if solved.elastic[i] and constants:
         text = f"no yield is seen beyond the noise: {_hardest(solved, i)}"
-        yield Remark(text, "elastic", remedy=(Remedy("class", "elastic"),))
+        yield doubt(text, "elastic", Remedy("class", "elastic"))
         return
     if len(constants) > 1:
         yield from _constants(solved, i, constants)
@@ -256,25 +247,24 @@ def _undetermined(solved, i):
     error, hold = errors.get("E_star", 0.0), Remedy("hold", "E_star")
     if solved.curves.held_elastic:
         if _VAGUE < error < np.inf:
-            text = f"the data hardly determine E* ({_share(error)}): hold "
-            yield Remark(f"{text}E_star", "vague", f"{text}it", (hold,))
+            yield doubt(f"the data hardly determine E* ({_share(error)})", "vague", hold)
     elif unloading < 2 and error > _VAGUE_LOADING:
-        text = f"loading alone hardly determines E* ({_share(error)}): record the unloading, or hold "
-        yield Remark(f"{text}E_star", "loading", f"{text}E*", (Remedy("part", "all"), hold))
+        text = f"loading alone hardly determines E* ({_share(error)})"
+        yield doubt(text, "loading", Remedy("part", "all"), hold)
     elif error > _VAGUE:
         recovered = "critical depth" if solved.curves.constants == ("q_c",) else "recovered depth"
         text = (
-            f"the unloading hardly determines E* ({_share(error)}): there are {unloading} samples within "
-            f"the {recovered} of {engineering(state.cap[i, -1], 'm')}; record more of them, or hold "
+            f"the unloading hardly determines E* ({_share(error)}): only {unloading} samples are within "
+            f"the {recovered} of {engineering(state.cap[i, -1], 'm')}"
         )
-        yield Remark(f"{text}E_star", "vague", f"{text}E*", (hold,))
+        yield doubt(text, "vague", hold)
     for name, error in errors.items():
         if error == np.inf and name != "work_of_adhesion":
-            text, more = "the data do not determine", "or a parameter correlated with it"
-            why = "the residuals have no minimum, but a direction in which they do not change"
-            sentence = f"{text} {name}: {why}; hold {name} {more}"
-            words = f"{text} {symbols([name])}: {why}; hold it {more}"
-            yield Remark(sentence, "undetermined", words, (Remedy("hold", name),))
+            text = (
+                f"the data do not determine {symbols([name])}, or a parameter correlated with it: the "
+                "residuals have no minimum, but a direction in which they do not change"
+            )
+            yield doubt(text, "undetermined", Remedy("hold", name))
 
 
 def _hardest(solved, i):
@@ -297,9 +287,9 @@ def _constants(solved, i, names):
     if shares[name] < _TOLD:
         text = (
             f"the data do not distinguish {symbols(names)}: {symbols([name])} is {shares[name]:.2g} times "
-            "its standard error; hold "
+            "its standard error"
         )
-        yield Remark(f"{text}{name} = 0", "constants", f"{text}it at 0", (Remedy("hold", name, 0.0),))
+        yield doubt(text, "constants", Remedy("hold", name, 0.0))
 
 
 def _tip(solved, i):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..numerics.remark import Remark, Remedy
+from ..numerics.remark import Remedy, doubt
 from ..show.quantities import engineering
 from .errors import roughness
 
@@ -48,11 +48,10 @@ def of_tension(solved, i):
     pull = engineering(float(f"{largest:.2g}"), "N")
     text = (
         f"the force falls {pull} below that of the air, {100 * share:.2g} % of the largest one: an "
-        "adhesion that is left out makes E* too large; "
+        "adhesion that is left out makes E* too large"
     )
     # That of a soft gel may be on the retract alone.
     retracts = bool(curves.depth.shape[1] - np.argmax(curves.depth[i]) > _BRANCH)
-    alone = ", or compare with a fit of the loading alone" if retracts else ""
-    remedy = Remedy("free", "work_of_adhesion"), *[Remedy("part", "loading")] * retracts
-    sentence, words = (f"{text}{way}{alone}" for way in ("give work_of_adhesion=None", "fit it, too"))
-    yield Remark(sentence, "adhesion", words, remedy)
+    yield doubt(
+        text, "adhesion", Remedy("free", "work_of_adhesion"), *[Remedy("part", "loading")] * retracts
+    )

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..numerics.remark import Remark, Remedy
+from ..numerics.remark import Remedy, doubt
 from ..profiles.power import Cone
 from ..show.quantities import engineering
 
@@ -29,8 +29,6 @@ def of_ideal_tip(profile, contact_depth, held=False):
     )
     text = (
         f"an ideal tip at {where}: real ones are rounded, so that the hardness is too large by up to a "
-        "fifth at 200 nm, E* by half as much, and more at less depth; give the area function"
+        "fifth at 200 nm, E* by half as much, and more at less depth"
     )
-    remedy = [Remedy("give", "profile")] + [Remedy("free", "contact_point")] * held
-    sentence = f"{text}, Sampled.from_area_function{', or free contact_point' * held}"
-    yield Remark(sentence, "tip", f"{text} of the tip{', or let first contact be found' * held}", remedy)
+    yield doubt(text, "tip", Remedy("give", "profile"), *[Remedy("free", "contact_point")] * held)

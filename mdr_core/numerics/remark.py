@@ -56,6 +56,22 @@ KINDS = {
 ACTIONS = "free", "hold", "give", "unit", "part", "class"
 
 
+#: What a user of the library does, where names are not enough: classes of hardness, parts, and units.
+_IN_PYTHON = {
+    ("class", "a"): "give hardness=None",
+    ("class", "b"): "give q_c=None",
+    ("class", "c"): "give f_c=None",
+    ("class", "elastic"): "give q_c=np.inf",
+    ("part", "all"): "give the whole record",
+    ("give", "profile"): "give its area function by Sampled.from_area_function",
+    ("unit", "depth"): "give depth in m",
+    ("unit", "radius"): "give radius in m",
+    ("unit", "force"): "give force in N",
+    ("unit", "E_star"): "give E_star in Pa",
+    ("unit", "mean_pressure"): "give mean_pressure in Pa",
+}
+
+
 @dataclass(frozen=True)
 class Remedy:
     """What one can do about a `Remark`.
@@ -85,6 +101,19 @@ class Remedy:
     def __post_init__(self):
         if self.action not in ACTIONS:
             raise ValueError(f"action is {self.action!r}, but a remedy is one of {', '.join(ACTIONS)}")
+
+    @property
+    def in_python(self) -> str:
+        """What a user of the library does, as "hold eta = 0"."""
+        if known := _IN_PYTHON.get((self.action, self.what)):
+            return known
+        if self.action == "free":
+            return f"give {self.what}=None"
+        if self.action == "hold":
+            return f"hold {self.what}" + ("" if self.value is None else f" = {self.value:g}")
+        if self.action == "part":
+            return f"fit the {self.what} alone"
+        return f"give {self.what}=" + ("…" if self.value is None else f"{self.value!r}")
 
 
 class Remark(str):
@@ -142,6 +171,12 @@ class Remark(str):
         """Kind, text and remedies, as in files of JSON."""
         remedy = [{"action": each.action, "what": each.what, "value": each.value} for each in self.remedy]
         return {"kind": self.kind, "text": self.text, "remedy": remedy}
+
+
+def doubt(text: str, kind: str, *remedy: Remedy, together: bool = False) -> Remark:
+    """A remark whose sentence is its text and, in Python, its remedies: one of them, or all `together`."""
+    cures = (" and " if together else " or ").join(each.in_python for each in remedy)
+    return Remark(f"{text}{'; ' * bool(cures)}{cures}", kind, text, remedy)
 
 
 def refused(sentence: str, text: str, *remedy: Remedy) -> Refusal:

@@ -201,7 +201,7 @@ class TestIndentation:
         F = curve(mdr.Cone(0.3))
         fit = mdr.fit_indentation(mdr.Cone(0.3), 1e9 * OUT, 1e6 * F)
         assert fit.remarks[0].kind == "units"
-        assert "give depth in m and force in N" in fit.remarks[0]
+        assert [each.what for each in fit.remarks[0].remedy] == ["depth", "force"]
 
     def test_one_curve_has_no_parts(self):
         fit = mdr.fit_indentation(mdr.Cone(0.3), OUT, curve(mdr.Cone(0.3)))

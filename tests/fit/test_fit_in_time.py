@@ -202,7 +202,7 @@ class TestSamples:
         z, force, _ = self.noisy(2)
         force[0, 5] = np.nan
         fits = mdr.fit_indentation(self.PROFILE, [z, 1e9 * z], [force[0], 1e6 * force[1]])
-        assert "give depth in m and force in N" in fits.remarks[0]
+        assert [each.what for each in fits.remarks[0].remedy] == ["depth", "force"]
         assert "1 of 180 samples have no number and are left out" in fits.remarks[-1]
 
     def test_white_residuals_have_no_blocks(self):

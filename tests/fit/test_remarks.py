@@ -12,7 +12,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core.fit.parameters import PARAMETERS
 from mdr_core.fit.result import IndentationFit
-from mdr_core.numerics.remark import ACTIONS, KINDS, Refusal
+from mdr_core.numerics.remark import ACTIONS, KINDS, Refusal, Remedy, doubt
 
 from ..benchmarks.remarks import GEL, beside_fits, of_a_kind, of_unloadings
 from .families import KINDS as MEDIA
@@ -197,3 +197,13 @@ def test_a_modulus_below_1_kPa_is_asked_about():
     assert {each.what for each in remark.remedy} == {"depth", "force"}
     right = mdr.oliver_pharr(mdr.Cone.berkovich(), depth, force)
     assert "units" not in {each.kind for each in right.remarks}
+
+
+def test_remedies_that_belong_together_are_joined_by_and_others_by_or():
+    tilt, baseline = Remedy("free", "tilt"), Remedy("free", "baseline")
+    both = doubt("a tilt", "tilt", tilt, baseline, together=True)
+    either = doubt("a tilt", "tilt", tilt, baseline)
+    assert both == "a tilt; give tilt=None and give baseline=None"
+    assert either == "a tilt; give tilt=None or give baseline=None"
+    assert both.text == either.text == "a tilt"
+    assert both.remedy == either.remedy == (tilt, baseline)
