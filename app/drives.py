@@ -13,7 +13,6 @@ from mdr_core.impacts.motion import motion as motion_of
 
 from .courses import LAST_PROGRESS, Course, nearest, onset_depth, path_progress
 from .quantities import QUANTITIES
-from .registry import Registry
 from .state import State, medium, profile
 
 #: Places from 0 to 1, dense at both ends, where radii change as a root of the depth.
@@ -140,7 +139,7 @@ class Impact(Drive):
 
 
 #: Every drive by its option of the choice "drive"; extras add theirs.
-DRIVES: dict[str, Drive] = Registry({"depth": Depth(), "force": Force(), "impact": Impact()})
+DRIVES: dict[str, Drive] = {"depth": Depth(), "force": Force(), "impact": Impact()}
 #: Exact courses by their scenes, where that of the drive is approximate; extras add those they find.
 EXACT: dict[mdr.Scene, Course] = {}
 

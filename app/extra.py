@@ -10,7 +10,6 @@ from .courses import Course
 from .drives import Drive
 from .parts import Part
 from .plot import Overlay, Plot, View
-from .registry import Registry
 from .state import Entries, State
 
 
@@ -88,4 +87,4 @@ class Extra:
 
 
 #: All extras by name, in their order.
-EXTRAS: dict[str, Extra] = Registry()
+EXTRAS: dict[str, Extra] = {}

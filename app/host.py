@@ -1,13 +1,17 @@
 """Where a page runs, and when what takes time is done there.
 
-At once here; in a server by server.py; in a browser, without threads and processes, by browser.py.
+At once, as in a test; in a server in threads; in a browser, without threads and processes, by browser.py.
 """
 
 from collections.abc import Callable, Coroutine, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from functools import partial
 from time import perf_counter
 from typing import Any
+
+import panel as pn
+from bokeh.document import Document
 
 #: Something that takes time, in steps: the last one gives what is found, those before it nothing.
 Steps = Iterator[Any]
@@ -85,3 +89,43 @@ class Sliced(Host):
             if perf_counter() > begun + _SLICE:
                 self.soon(partial(self._go_on, steps, wanted, done, made))
                 return
+
+
+#: Threads for the searches of all sessions.
+_THREADS = ThreadPoolExecutor()
+
+
+class Server(Sliced):
+    """A session of a server."""
+
+    processes = True
+
+    def __init__(self, document: Document):
+        self._document = document
+
+    def shows(self) -> bool:
+        return bool(pn.state.loaded)
+
+    def once_shown(self, act: Callable[[], None]) -> None:
+        pn.state.onload(act)
+
+    def later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
+        waiting = self._document.add_timeout_callback(act, milliseconds)
+        return partial(self._document.remove_timeout_callback, waiting)
+
+    def at_end(self, act: Callable[[], None]) -> None:
+        self._document.on_session_destroyed(lambda context: act())
+
+    def soon(self, act: Callable[[], None]) -> None:
+        self._document.add_next_tick_callback(act)
+
+    def run(self, act: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        pn.state.execute(act)
+
+    def search(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
+        _THREADS.submit(Host.search, self, steps, wanted, done)
+
+
+def host_of(document: Document) -> Host:
+    """The server of a document, or nobody if it has no session."""
+    return Server(document) if document.session_context is not None else Host()

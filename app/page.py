@@ -12,19 +12,18 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 from panel.io.location import Location
 
+from mdr_core.show.figures import Axis
+
 from . import changes, link
-from .board import Board
 from .common.errors import in_words
 from .drives import follow
 from .extra import EXTRAS
 from .fields import Field
-from .frame import LANDMARKS, Frame
-from .host import Host
+from .host import Host, host_of
+from .layout import LANDMARKS, Layout, frames_in_steps
 from .parts import Part, choice
-from .player import frames_in_steps
-from .plot import View
-from .scales import Scales
-from .server import host_of
+from .plot import Along, View
+from .plots import NAMED, PLOTS
 from .state import VIEW, State, as_shown, preset_state
 from .ui import JS, Messages, landmarks, notice
 
@@ -83,12 +82,11 @@ class Page:
         self._refused = False
         self._fields: dict[str, Field] = {}
         self.messages = Messages(name="messages")
-        self.board = Board(self)
-        self.scales = Scales(self)
-        self.frame = Frame(self)
+        self._kept = False
+        self.layout = Layout(self)
         makers = dict.fromkeys(extra.service for extra in EXTRAS.values() if extra.service)
         self.services = [make(self) for make in makers]
-        self.view = self.frame.view
+        self.view = self.layout.view
         self._watch()
         self._open(query)
         self.history = History((self.state,))
@@ -116,9 +114,11 @@ class Page:
     def _watch(self):
         self.messages.on_change("dark", self._theme_found)
         self.document.add_root(self.messages)
+        self.messages.on_change("dragged", self._released)
         self.document.on_event(DocumentReady, lambda event: self._input_rests())
-        ready = CustomJS(args={"messages": self.messages}, code=JS["ready"])
-        self.document.js_on_event(DocumentReady, ready)
+        for name in ("ready", "dragged"):
+            script = CustomJS(args={"messages": self.messages}, code=JS[name])
+            self.document.js_on_event(DocumentReady, script)
         landmarks(self.document, LANDMARKS, "springs", "Skip to the plots")
         # The address restores the page when its session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
@@ -126,6 +126,17 @@ class Page:
     def _theme_found(self, attr, old, new):
         """Take the theme that the browser has kept, or that of the system."""
         self.apply(lambda state: state.replace(dark=new))
+
+    def _released(self, attr, old, new):
+        if not new and self._kept:
+            self.draw(self.state)
+
+    def _kept_axes(self, state: State) -> dict[Along, Axis]:
+        """Axes of the three plots that stay while something is dragged, unless drive or preset changes."""
+        self._kept = self.shown is not None and self.messages.dragged
+        if not self._kept or any(state[name] != self.state[name] for name in ("preset", "drive")):
+            return {}
+        return {along: self.shown.axis(along) for name in NAMED for along in PLOTS[name].axes}
 
     def query(self) -> tuple[str, str]:
         """The page as a query, or why it has none."""
@@ -213,15 +224,15 @@ class Page:
         computed: dict[Any, Any] = {}
         for service in self.services:
             computed |= service.compute(state, course)
-        view = View(state, course, computed, self.scales.kept(state))
-        columns = self.board.columns(view)
+        view = View(state, course, computed, self._kept_axes(state))
+        columns = self.layout.columns(view)
         self.state, self.shown = state, view
         if now is None:
             # Those of the course before, ahead of what is drawn. New ones wait until the input rests: they
             # are megabytes, and half a second of the process that serves everybody.
             self.messages.frames = []
             self._making = None
-        self.board.show(columns, view)
+        self.layout.draw(columns, view)
         self.messages.dark = state.dark
         self._schedule()
         self.refresh()
@@ -231,15 +242,14 @@ class Page:
         """Show what is beside the plots of the present view."""
         for service in self.services:
             service.show(self.shown)
-        self.board.show_parts(self.shown)
-        self.frame.show(self.shown)
+        self.layout.show(self.shown)
 
     # The player.
 
     def _send_frames(self):
         """Send all states of the course if the player moves and has none."""
         if self._moving and not self.messages.frames and not self._making:
-            pictures = [card.picture for card in self.board.seen()]
+            pictures = [card.picture for card in self.layout.seen()]
             making = self._making = frames_in_steps(self.shown, pictures)
             # Others are served meanwhile; another scene has frames of its own.
             self.host.make(making, lambda: making is self._making, self._have_frames)
@@ -265,7 +275,7 @@ class Page:
     def _schedule(self):
         """Schedule the slow updates; before a browser shows the page, notes need not wait."""
         if not self.host.shows():
-            self.frame.rest(self.shown)
+            self.layout.rest(self.shown)
             return
         if self._waiting is not None:
             self._waiting()
@@ -273,7 +283,7 @@ class Page:
 
     def _input_rests(self):
         self._waiting = None
-        self.frame.rest(self.shown)
+        self.layout.rest(self.shown)
         query, why = self.query()
         # The empty address leaves the present one: a link was not opened, or there is none.
         self.messages.address = "" if self._refused or why else f"?{query}"

@@ -13,7 +13,6 @@ from mdr_core.show.units import fitting
 from .courses import Course
 from .labels import arranged
 from .quantities import CHOICES
-from .registry import Registry
 from .state import State
 
 #: Symbol of a row that shows whatever is along its axis, which says its symbol first.
@@ -97,7 +96,7 @@ class Overlay:
 
 
 #: Overlays of all plots, from the back to the front; extras add theirs.
-OVERLAYS: dict[tuple[str, str, int], Overlay] = Registry()
+OVERLAYS: dict[tuple[str, str, int], Overlay] = {}
 
 
 def overlays(plot: Plot) -> list[Overlay]:

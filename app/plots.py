@@ -13,7 +13,6 @@ from mdr_core.show.units import written
 
 from .courses import Course, onset_depth
 from .plot import Along, Plot, View
-from .registry import Registry
 from .state import LISTS, Entries
 
 # Axes, which other plots may share.
@@ -210,7 +209,7 @@ FORCE = Plot(
 
 
 #: All plots by name; extras add theirs, each with a tab.
-PLOTS: dict[str, Plot] = Registry({plot.name: plot for plot in (SPRINGS, PRESSURE, FORCE)})
+PLOTS: dict[str, Plot] = {plot.name: plot for plot in (SPRINGS, PRESSURE, FORCE)}
 LISTS["tiles"] = Entries(PLOTS.__contains__, 100)
 #: Names of the plots that are always shown.
 NAMED = tuple(PLOTS)

@@ -8,8 +8,6 @@ from typing import Any
 
 from mdr_core.show.quantities import QUANTITIES as RESULTS
 
-from .registry import Registry
-
 ASSETS = Path(__file__).parents[1] / "assets"
 
 
@@ -89,8 +87,8 @@ class Readout:
 
 
 #: By their names; numbers of a shape begin with its own, as "cone_slope".
-QUANTITIES: dict[str, Quantity] = Registry()
-CHOICES: dict[str, Choice] = Registry()
+QUANTITIES: dict[str, Quantity] = {}
+CHOICES: dict[str, Choice] = {}
 #: Every number that can be read, in the order in which all of them are listed.
 READOUTS: list[Readout] = []
 

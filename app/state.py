@@ -13,7 +13,6 @@ from mdr_core.show.units import fitting, written
 
 from .common.units import entry, read
 from .quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
-from .registry import Registry
 
 _DATA = read_data(ASSETS / "presets.json")
 #: The preset that the page opens with.
@@ -22,7 +21,7 @@ OPENING = next(iter(_DATA["scenes"]))
 MEDIUM_CHOICES = ("elasticity", "plasticity", "damping", "adhesion")
 FOLDED_CHOICES = ("elasticity", "damping", "adhesion")
 #: What the view is like rather than the scene, with defaults: undo leaves it alone. Extras add theirs.
-VIEW: dict[str, Any] = Registry({"at": 1.0, "tiles": (), "dark": False})
+VIEW: dict[str, Any] = {"at": 1.0, "tiles": (), "dark": False}
 
 
 @dataclass(frozen=True)
@@ -34,9 +33,9 @@ class Entries:
 
 
 #: Of lists in the state, by name; extras add theirs.
-LISTS: dict[str, Entries] = Registry()
+LISTS: dict[str, Entries] = {}
 #: Values of extras by their names, which have a point, with their defaults.
-OF_EXTRAS: dict[str, Any] = Registry()
+OF_EXTRAS: dict[str, Any] = {}
 
 
 @dataclass(frozen=True)
@@ -138,7 +137,7 @@ class Preset:
 
 
 #: By their keys, as in links; extras add theirs.
-PRESETS: dict[str, Preset] = Registry()
+PRESETS: dict[str, Preset] = {}
 #: Media and indenters of the presets, by their names.
 _PARTS: dict[str, dict[str, Any]] = {"media": {}, "indenters": {}}
 

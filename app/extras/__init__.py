@@ -13,7 +13,6 @@ from ..plot import OVERLAYS, rows_of
 from ..plots import PLOTS
 from ..quantities import CHOICES, QUANTITIES, Option, include, read_data
 from ..readouts import MOST
-from ..registry import Registry
 from ..state import LISTS, OF_EXTRAS, VIEW, Entries, include_presets
 
 _HERE = Path(__file__).parent
@@ -38,7 +37,6 @@ def _load() -> None:
         _register(extra, data.get(name, {}))
     for name in sorted(PLOTS, key=lambda name: PLOTS[name].order):
         PLOTS[name] = PLOTS.pop(name)
-    Registry.close_all()
 
 
 def _read(path: Path) -> dict[str, Any]:

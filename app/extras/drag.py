@@ -38,7 +38,7 @@ class Dragging(Service):
         super().__init__(page)
         self.hand = Hand(name="dragging")
         self.hand.on_change("depth", self._dragged)
-        figures = [page.board.cards[name].picture.figure for name in DRAGGED]
+        figures = [page.layout.cards[name].picture.figure for name in DRAGGED]
         for figure in figures:
             let_drag(figure)
         page.document.add_root(self.hand)

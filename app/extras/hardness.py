@@ -9,8 +9,8 @@ from mdr_core.show.units import digits, written
 
 from ..courses import Course
 from ..extra import Extra
+from ..figures import Logarithmic
 from ..plot import View, axis
-from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
 from ..ui import marked
 

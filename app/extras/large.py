@@ -5,8 +5,8 @@ from typing import Any
 
 from bokeh.models import Text
 
-from ..draw import Picture
 from ..extra import Extra, Service
+from ..figures import Picture
 from ..parts import Part, button
 from ..plot import Plot, View
 from ..state import State
@@ -37,7 +37,7 @@ class Letters(Service):
         self._set: dict[str, float] = {}
 
     def show(self, view: View) -> None:
-        drawn = {name: card for name, card in self.page.board.cards.items() if card.picture.axes}
+        drawn = {name: card for name, card in self.page.layout.cards.items() if card.picture.axes}
         for name, card in drawn.items():
             is_large = name == view.state["large.plot"]
             show(card.view, css_classes=["card", name, *["large"] * is_large])

@@ -63,7 +63,7 @@ class Pointing(Service):
         super().__init__(page)
         self.pointed = Springs(name="pointed")
         page.document.add_root(self.pointed)
-        args = {"figure": page.board.cards["springs"].picture.figure, "pointed": self.pointed}
+        args = {"figure": page.layout.cards["springs"].picture.figure, "pointed": self.pointed}
         page.document.js_on_event(DocumentReady, CustomJS(args=args, code=_SCRIPT))
 
     def show(self, view: View) -> None:

@@ -3,8 +3,8 @@
 from typing import Any
 
 from ..courses import Course
-from ..draw import drawn, in_legend
 from ..extra import Extra, Service
+from ..figures import drawn, in_legend
 from ..parts import Part
 from ..plot import Plot, View, rows_of
 from ..plots import visible

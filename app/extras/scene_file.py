@@ -20,9 +20,9 @@ import mdr_core as mdr
 from mdr_core.show.units import written
 
 from .. import link, readouts
-from ..draw import PLACES, Picture, drawn, legend, picture_of
 from ..extra import EXTRAS, Extra
-from ..player import frames, look
+from ..figures import PLACES, Picture, drawn, legend, picture_of
+from ..layout import frames, look
 from ..plot import Plot, View
 from ..plots import NAMED, PLOTS
 from ..quantities import CHOICES, QUANTITIES

@@ -9,8 +9,8 @@ from mdr_core.show.units import written
 
 from ..courses import Course
 from ..extra import Extra
+from ..figures import Map
 from ..plot import axis
-from ..shared.maps import Map
 from ..shared.rest import Found, Resting, Searched
 
 #: Pixels down and along the radius.

@@ -17,11 +17,11 @@ from ..common.errors import in_words
 from ..common.units import in_full
 from ..extra import Extra
 from ..fields import slider_range
+from ..figures import Logarithmic
 from ..host import last
 from ..parts import Part, button
 from ..plot import OF_AXIS, Plot, View, axis
 from ..quantities import CHOICES, QUANTITIES, Option, lowered, quantity, read_data
-from ..shared.logarithmic import Logarithmic
 from ..shared.rest import Found, Resting, Searched
 from ..state import PRESETS, State, used, used_by
 from ..sweeps import CLASSES, FAST, SOLVERS, Sweep

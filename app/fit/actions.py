@@ -10,7 +10,7 @@ from bokeh.document import Document
 
 from ..common.errors import Refused, error_text
 from ..common.process import Here, Replaced, Worker, queue_text
-from ..server import host_of
+from ..host import host_of
 
 Act = Callable[..., Coroutine[Any, Any, None]]
 

@@ -9,7 +9,7 @@ from bokeh.plotting import figure
 from mdr_core.show.figures import ROLES
 from mdr_core.show.units import fitting
 
-from ..tools import add_zoom
+from ..figures import add_zoom
 from ..ui import JS
 
 _NAMES = "others", "measured", "model", "noise", "residuals"

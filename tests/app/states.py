@@ -53,8 +53,8 @@ def solved(state: State):
 
 def side(page, name: str):
     """A part of the side, opened."""
-    page.frame.toggle(name)
-    return page.frame.parts[name]
+    page.layout.toggle(name)
+    return page.layout.parts[name]
 
 
 def part(page, name: str):

@@ -76,18 +76,18 @@ def texts(page):
     seen = set()
 
     def look():
-        for parts in page.view.select(type(page.frame.header)):
+        for parts in page.view.select(type(page.layout.header)):
             for part in parts.parts.values():
                 seen.update(strings(list(part.look.values())))
 
     for name, extra in sys.modules[type(page).__module__].EXTRAS.items():
         if extra.side:
-            page.frame.toggle(name)
+            page.layout.toggle(name)
             look()
     for drive in dict(page.choice("drive").look["options"]):
         page.choose("drive", drive)
-        for name, _ in page.board.others(page.shown).look["options"]:
-            page.board.others(page.shown).act(name)
+        for name, _ in page.layout.others(page.shown).look["options"]:
+            page.layout.others(page.shown).act(name)
             look()
     page.document.add_root(page.view.get_root(page.document))
     for model in page.document.models:
@@ -195,9 +195,9 @@ def test_a_new_extra_is_a_file_of_its_own(folder):
     (extras / "area.py").write_text(code, encoding="utf-8")
     (extras / "area.json").write_text(data, encoding="utf-8")
     page = importlib.import_module("with_area.page").Page(f"preset={DROP}&tiles=area&area.of=plastic")
-    assert page.board.others(page.shown).look["value"] == "area"
+    assert page.layout.others(page.shown).look["value"] == "area"
     states = page.shown.course.states
-    plot = page.board.cards["area"].plot
+    plot = page.layout.cards["area"].plot
     for option, radius in (("plastic", states.plastic_radius), ("contact", states.contact_radius)):
         page.choose("area.of", option)
         _, area = page.shown.places(plot, 0)["area"]
@@ -261,7 +261,7 @@ def test_a_number_above_a_plot_is_set_there_and_in_the_link(folder):
     (extras / "wrong.py").write_text(code, encoding="utf-8")
     (extras / "wrong.json").write_text(json.dumps({"numbers": [NUMBER]}), encoding="utf-8")
     page = importlib.import_module("with_number.page").Page("tiles=wrong")
-    field = page.board.cards["wrong"].head.parts["wrong.share"]
+    field = page.layout.cards["wrong"].head.parts["wrong.share"]
     field.act({"text": "0.25"})
     assert page.state["wrong.share"] == 0.25
     assert "wrong.share=0.25" in page.query()[0]

@@ -9,9 +9,9 @@ import pytest
 
 from app import changes
 from app.common.tip import read_tip
-from app.draw import Picture
 from app.drives import EXACT, follow
 from app.extras.drag import Dragging
+from app.figures import Picture
 from app.page import Page
 from app.shared.rest import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
@@ -52,7 +52,7 @@ def assert_in_use(page):
 
 def test_a_plot_or_a_held_scene_that_fails(page, monkeypatch):
     with monkeypatch.context() as failure:
-        failure.setattr(page.board, "_make", failing)
+        failure.setattr(page.layout, "_make", failing)
         press(page, "Surface")
     assert (page.state.tiles, part(page, "fourth plot").look["value"]) == ((), "")
     assert_in_use(page)
@@ -77,17 +77,17 @@ def test_a_plot_that_cannot_be_drawn_for_the_first_time_leaves_no_empty_frame(pa
     with monkeypatch.context() as failure:
         failure.setattr(Picture, "columns", unless_surface)
         press(page, "Surface")
-    assert [card.plot.name for card in page.board.seen()] == ["springs", "pressure", "force"]
+    assert [card.plot.name for card in page.layout.seen()] == ["springs", "pressure", "force"]
     assert_in_use(page)
     press(page, "Surface")
-    assert page.board.seen()[-1].plot.name == "surface"
+    assert page.layout.seen()[-1].plot.name == "surface"
 
 
 def test_a_preset_of_which_the_last_part_fails(page, monkeypatch):
     """What is beside the plots counts as shown too: undo leads to nothing that was refused."""
-    shown = page.frame.form.show
+    shown = page.layout.form.show
     monkeypatch.setattr(
-        page.frame.form, "show", lambda now: shown(now) if now.state.preset == GOLD else failing()
+        page.layout.form, "show", lambda now: shown(now) if now.state.preset == GOLD else failing()
     )
     page.choose("preset", DROP)
     assert page.state.preset == page.choice("preset").look["value"] == GOLD
@@ -154,13 +154,13 @@ def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
 
 
 def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
-    show = page.board.show
+    show = page.layout.draw
     press(page, "Section")
 
     def fails(columns, view):
         return failing() if view.computed["section"].rows else show(columns, view)
 
-    monkeypatch.setattr(page.board, "show", fails)
+    monkeypatch.setattr(page.layout, "draw", fails)
     assert rested(page) is FAULT
     assert_in_use(page)
 
@@ -276,7 +276,7 @@ def test_a_tip_limits_the_depth_of_every_drive_that_has_one():
 
 
 def test_a_message_that_names_no_part_is_answered_and_changes_nothing(page):
-    before, form = page.state, page.frame.form.view
+    before, form = page.state, page.layout.form.view
     for name in ("nothing", ["max_depth"], 3, None):
         form._on_message(SimpleNamespace(data=(name, {"text": "5 nm"})))
     assert page.state == before

@@ -60,7 +60,7 @@ def test_each_class_draws_its_law_with_its_numbers(option):
     }[option]
     place = "every a" if option == "constant" else f"a = {written(a, 'length')}"
     assert f"σ_c = {law} = {written(hardness, 'pressure')} at {place}.".replace("_", "") in said
-    shown = fields_of(page.frame.form.view)
+    shown = fields_of(page.layout.form.view)
     first = shown.index("E_star")
     assert shown[first : first + 2] == ["E_star", constant]
     assert cap in PLOTS["springs"].formula_of(page.shown.course)

@@ -7,9 +7,9 @@ import pytest
 from markupsafe import Markup
 
 from app import changes, link
-from app.draw import Picture, drawn, legend
 from app.drives import follow
 from app.extras.held import DASHES, computed, difference, held_scene, is_held, numbers, toggle_hold
+from app.figures import Picture, drawn, legend
 from app.page import Page
 from app.plot import rows_of
 from app.plots import PLOTS, D, F, X, Z
@@ -148,7 +148,7 @@ def test_the_legend_of_a_saved_picture_names_held_scenes_as_the_plot_does():
     page.apply(lambda state: state.replace(max_depth=2 * state.max_depth))
     for service in page.services:
         service.rest(page.shown)
-    drawn_as = page.board.cards["force"].picture.columns(page.shown, page.shown.course.now)
+    drawn_as = page.layout.cards["force"].picture.columns(page.shown, page.shown.course.now)
     names = {name for columns in drawn_as.values() for name in columns["row"]}
     legends = page.shown.computed["save"]
     assert "dₘₐₓ = 8.978 nm" in names

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from app.changes import choose
-from app.draw import drawn, in_legend, legend
 from app.drives import follow
+from app.figures import drawn, in_legend, legend
 from app.labels import HEIGHT, WIDTH, box, width
 from app.plot import View, rows_of
 from app.plots import NAMED, PLOTS

@@ -7,8 +7,8 @@ import pytest
 
 import mdr_core as mdr
 from app import changes
-from app.draw import Picture
 from app.drives import follow, scene_of
+from app.figures import Picture
 from app.plots import PLOTS
 from app.state import PRESETS, State, preset_state
 from mdr_core.show.units import UNITS, written

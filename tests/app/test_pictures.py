@@ -5,7 +5,7 @@ import io
 import numpy as np
 import pytest
 
-from app.draw import drawn, legend
+from app.figures import drawn, legend
 from app.plots import PLOTS
 from mdr_core.show.figures import ROLES
 

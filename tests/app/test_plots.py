@@ -12,18 +12,17 @@ from scipy.integrate import trapezoid
 
 import mdr_core as mdr
 from app import changes
-from app.draw import Picture, drawn, legend, picture_of
 from app.drives import follow, scene_of
 from app.extras import notes
 from app.extras.oblique import leaning
 from app.extras.section import section
 from app.extras.surface import Z as FAR_Z
 from app.extras.surface import surface
-from app.player import frames, marked_states
+from app.figures import Picture, drawn, legend, picture_of, ticks
+from app.layout import frames, marked_states
 from app.plot import Plot, View, rows_of
 from app.plots import NAMED, PLOTS, D, F, P, R, X, force, pressure
 from app.quantities import CHOICES, lowered
-from app.shared.logarithmic import ticks
 from app.state import medium, preset_state, profile
 from mdr_core.show.figures import line, mark, radii
 from mdr_core.show.springs import SPRINGS

@@ -35,7 +35,7 @@ def test_twice_the_depth_is_twice_the_picture():
     """
     page = Page()
     before = page.shown
-    page.scales.dragged.on = True
+    page.messages.dragged = True
     page.apply(lambda state: changes.put(state, "max_depth", 2 * state.max_depth))
     view, i = page.shown, page.shown.course.now
     assert [view.axis(each) for each in (X, Z, R, D, F)] == [before.axis(each) for each in (X, Z, R, D, F)]
@@ -51,7 +51,7 @@ def test_twice_the_depth_is_twice_the_picture():
         assert told == approx(said, rel=5e-3)
     for name in ("springs", "pressure", "force"):
         # What is drawn at this level Bokeh cuts off at the axes.
-        renderers = page.board.cards[name].picture.figure.renderers
+        renderers = page.layout.cards[name].picture.figure.renderers
         assert {renderer.level for renderer in renderers} == {"glyph"}
     page.undo()
     assert page.shown.kept
@@ -61,7 +61,7 @@ def test_twice_the_depth_is_twice_the_picture():
     page.undo()
     page.apply(lambda state: changes.put(state, "max_depth", 2 * state.max_depth))
     assert page.shown.kept
-    page.scales.dragged.on = False
+    page.messages.dragged = False
     assert page.shown.kept == {}
     assert page.shown.axis(D).end > before.axis(D).end
 

@@ -6,12 +6,11 @@ import numpy as np
 
 from app import readouts, theory
 from app.changes import choose, hit_again, put
-from app.draw import Picture, drawn
 from app.extras import share, sweep
+from app.figures import Picture, drawn, ticks
 from app.page import Page
 from app.plots import PLOTS
 from app.quantities import CHOICES
-from app.shared.logarithmic import ticks
 from app.shared.summary import file_name
 from app.state import PRESETS, preset_state
 from app.ui import CSS
@@ -62,11 +61,11 @@ def test_beside_the_springs_stands_when_one_yields_and_the_equations_stand_below
     for nothing in (state_with(plasticity="none"), state_with("microsphere-pdms", adhesion="work")):
         assert aside(nothing) == ""
     page = Page()
-    titles = [card.head.parts["formula"].look["object"] for card in page.board.cards.values()]
+    titles = [card.head.parts["formula"].look["object"] for card in page.layout.cards.values()]
     assert not [title for title in titles if re.search(r"\(\d+\)|∫", title)]
-    for card in page.board.cards.values():
-        assert card.plot.title in page.frame.below.object
-    assert "∫ a(s) ds" in page.frame.below.object
+    for card in page.layout.cards.values():
+        assert card.plot.title in page.layout.below.object
+    assert "∫ a(s) ds" in page.layout.below.object
 
 
 def test_friction_is_said_to_be_the_work_so_far_beside_what_is_of_the_end():
@@ -97,12 +96,12 @@ def test_compare_says_what_it_has_done_where_one_looks_and_until_something_chang
     press(page, "Compare")
 
     def kept():
-        figure = page.board.cards["force"].picture.figure
+        figure = page.layout.cards["force"].picture.figure
         (source,) = (each.data_source.data for each in figure.renderers if each.name == "labels")
         return source["text"][source["row"].index("kept")]
 
     assert kept() == "Kept for comparison. Now change something."
-    assert "Kept for comparison." in page.frame.parts["held"].view[-1].object
+    assert "Kept for comparison." in page.layout.parts["held"].view[-1].object
     page.apply(lambda state: put(state, "max_depth", 5e-9))
     assert kept() == ""
 
@@ -157,7 +156,7 @@ def test_a_line_has_at_most_as_many_numbers_as_there_is_room_for():
 def test_a_page_opens_in_the_theme_that_the_browser_has_told():
     dark = Page("", True)
     assert dark.state.dark
-    ink = dark.board.cards["force"].picture.layers[-1].source.data["text_color"][0]
+    ink = dark.layout.cards["force"].picture.layers[-1].source.data["text_color"][0]
     assert ink == "#e4e7eb"
     # A link that asks for a theme is right; the address then has it.
     assert not Page("dark=0", True).state.dark
@@ -167,7 +166,7 @@ def test_a_page_opens_in_the_theme_that_the_browser_has_told():
 def test_the_mark_of_the_present_state_is_whole_without_force():
     """It is 13 pixels wide, in a plot of at least 150 pixels."""
     page = Page("at=2")
-    picture = page.board.cards["force"].picture
+    picture = page.layout.cards["force"].picture
     assert isinstance(picture, Picture)
     below = -picture.figure.y_range.start / (picture.figure.y_range.end - picture.figure.y_range.start)
     assert below * 150 >= 6.5

@@ -8,9 +8,9 @@ import pytest
 from scipy.integrate import trapezoid
 
 from app import changes, readouts
-from app.draw import Picture
 from app.extras.held import Held
 from app.extras.scene_file import scene_file
+from app.figures import Picture
 from app.plots import NAMED, PLOTS
 from app.state import PRESETS, preset_state
 

@@ -136,7 +136,7 @@ def test_it_is_refused_in_words_with_dashpots_or_adhesion(behind, loss):
         page.choose(*second)
         assert page.state == before
         assert said in notices.pop()
-        assert "structure.behind" in page.frame.form.view.parts
+        assert "structure.behind" in page.layout.form.view.parts
 
 
 @pytest.mark.parametrize("key", [GOLD, DROP, PUNCH])

@@ -82,7 +82,7 @@ def test_half_angle_beside_the_slope_and_drop_height_beside_the_speed():
 
 def test_the_form_begins_with_the_drive_and_has_what_is_used():
     page = Page()
-    form = page.frame.form.view
+    form = page.layout.form.view
     assert fields_of(form) == ["max_depth", "cone_slope", "E_star", "q_c"]
     assert not part(page, "More about the medium").look["pressed"]
     press(page, "More about the medium")

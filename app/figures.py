@@ -1,4 +1,4 @@
-"""Plots as Bokeh figures: one source for the rows of a kind, drawn by `source.data = …`."""
+"""Figures of the page: frames and rows of data that are filled again and again, scales, choices of maps."""
 
 from itertools import chain
 from math import floor, log10
@@ -7,16 +7,17 @@ from typing import Any
 import bokeh.models as bk
 import numpy as np
 from bokeh.core.properties import field
+from bokeh.events import DoubleTap, PanEnd
 from bokeh.plotting import figure
 from markupsafe import Markup
 
-from mdr_core.show.figures import Axis, Row
+from mdr_core.show.figures import ROLES, Axis, Row
 
 from .plot import OF_AXIS, Plot, View, overlays, rows_of
 from .quantities import lowered
-from .tools import add_zoom
-from .ui import JS, marked
+from .ui import HERE, JS, marked
 
+_LOOK = [(HERE / "static" / "tools.css").read_text(encoding="utf-8")]
 #: The outline of a canvas, which no linked sheet reaches.
 _FOCUS = [".bk-Canvas { --highlight-color: var(--elastic); --outline-width: 2px; }"]
 #: Rows that are drawn together, from the back to the front, and the glyph of each kind.
@@ -174,6 +175,74 @@ class Picture:
             each.update(start=each.reset_start, end=each.reset_end)
 
 
+class Map(Picture):
+    """A plot with an image, and a bar with its colours."""
+
+    margins = (0.0, 0.0)
+
+    def __init__(self, plot: Any):
+        super().__init__(plot)
+        empty = {name: [] for name in ("image", "x", "y", "dw", "dh")}
+        self.source = bk.ColumnDataSource(empty, name=f"{plot.name} image")
+        self.source.syncable = False
+        mapper = bk.LinearColorMapper(palette="Cividis256", low=0, high=1)
+        glyph = self.figure.image("image", "x", "y", "dw", "dh", source=self.source, color_mapper=mapper)
+        glyph.name, glyph.level, self.bar = "image", "image", glyph.construct_color_bar(padding=2, width=12)
+        self.bar.update(background_fill_color=None, bar_line_color=None)
+        self.figure.add_layout(self.bar, "right")
+        # Behind lines of full strength the map is not seen.
+        self.figure.grid.grid_line_alpha = 0.25
+
+    def columns(self, view: View, i: int) -> dict[Any, dict[str, list]]:
+        found = super().columns(view, i)
+        if found:
+            axes, (across, up, values) = self.axes_of(view), view.places(self.plot, i)["image"]
+            (left, right), (low, high) = across / axes[0].factor, up / axes[1].factor
+            corner = {"x": [left], "y": [low], "dw": [right - left], "dh": [high - low]}
+            found[self.source] = corner | {"image": [np.float32(values / axes[2].factor)]}
+        return found
+
+    def show(self, columns: dict, view: View) -> None:
+        super().show(columns, view)
+        # The bar takes no colours from the sheet.
+        colour = ROLES["ink"][view.state.dark]
+        self.bar.update(title_text_color=colour, major_label_text_color=colour)
+
+    def set_axes(self, axes: list[Any]) -> None:
+        super().set_axes(axes[:2])
+        low, high = axes[2].ends
+        self.bar.color_mapper.update(low=low, high=high)
+        self.bar.title = f"{axes[2].title.split(',')[0]} ({axes[2].unit})"
+
+
+class Logarithmic(Picture):
+    """A plot whose axes may be logarithmic."""
+
+    def set_axes(self, axes: list[Axis]) -> None:
+        super().set_axes(axes)
+        f = self.figure
+        for name, side, axis in zip(("x_scale", "y_scale"), (f.below[0], f.left[0]), axes, strict=False):
+            if isinstance(getattr(f, name), bk.LogScale) != axis.log:
+                setattr(f, name, bk.LogScale() if axis.log else bk.LinearScale())
+            elif not axis.log:
+                continue
+            linear = bk.BasicTicker(), bk.BasicTickFormatter()
+            ticker, formatter = ticks(*axis.ends) if axis.log else linear
+            side.update(ticker=ticker, formatter=formatter)
+            for grid in (each for each in f.center if getattr(each, "axis", None) is side):
+                grid.ticker = ticker
+
+
+def ticks(low: float, high: float) -> tuple[Any, Any]:
+    """Ticker and formatter of a logarithmic axis; over two decades or less Bokeh's has too many."""
+    formatter = bk.CustomJSTickFormatter(code=JS["powers"])
+    if high > 101 * low:
+        return bk.LogTicker(num_minor_ticks=0), formatter
+    powers = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
+    fixed = bk.FixedTicker(ticks=[float(f"{n}e{power:.0f}") for power in powers for n in (1, 2, 5)])
+    return fixed if high > 5 * low else bk.BasicTicker(), formatter
+
+
 def picture_of(plot: Plot) -> Picture:
     """The picture of a plot, as it is drawn with its overlays."""
     return next((each.picture for each in (*overlays(plot), plot) if each.picture), Picture)(plot)
@@ -210,3 +279,12 @@ def legend(plot: Plot, shown: dict[str, str]) -> Markup:
         one = Markup('<span class="{}"><i class="{}"></i>{}</span>')
         rows.append(one.format(row.role, look, marked(shown[row.name])))
     return Markup("").join(rows)
+
+
+def add_zoom(figure: Any) -> None:
+    """Let a figure be zoomed to one box at a time; its button and a double click show the whole plot."""
+    figure.add_tools(bk.BoxZoomTool(description="Zoom to a box"), bk.ResetTool(description="Whole plot"))
+    figure.update(toolbar_location="above", toolbar_inner=True)
+    figure.toolbar.update(autohide=True, logo=None, active_drag=None, stylesheets=_LOOK)
+    figure.js_on_event(PanEnd, bk.CustomJS(code=JS["once"]))
+    figure.js_on_event(DoubleTap, bk.CustomJS(code=JS["whole"]))
