@@ -9,7 +9,7 @@ from markupsafe import Markup, escape
 
 from mdr_core.fit.oliver_pharr_result import OLIVER_PHARR, texts_of
 from mdr_core.fit.parameters import PARAMETERS
-from mdr_core.fit.report import with_error
+from mdr_core.show.report import with_error
 from mdr_core.show.units import KINDS, fitting, with_unit, written
 
 from ..ui import marked, own_html

@@ -9,9 +9,8 @@ from ..numerics.remark import Remark
 from ..numerics.results import Record
 from ..profiles.profile import Profile
 from ..show.quantities import QUANTITIES, Quantity, described, engineering
-from ..show.report import limit_rows, rows
+from ..show.report import limit_rows, rows, with_error
 from .iso_14577 import is_pyramid
-from .report import with_error
 
 if TYPE_CHECKING:
     import pandas

@@ -6,12 +6,12 @@ from typing import Literal
 import numpy as np
 
 from ..numerics.remark import Remark, Remedy
+from ..show.report import with_error
 from .creep import COUNTS
 from .errors import SIGNIFICANT, roughness
 from .oliver_pharr import oliver_pharr
 from .oliver_pharr_result import OliverPharr
 from .remarks import DOUBTS
-from .report import with_error
 
 #: Remarks that say that a model which is elastic does not describe the curve, or that E* is not determined.
 NOT_COMPARABLE = DOUBTS | {"unloading", "outliers", "second minimum", "bound", "undetermined"}

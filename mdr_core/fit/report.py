@@ -10,39 +10,14 @@ from .._check import Array
 from ..medium import Medium
 from ..numerics.results import Model, Record
 from ..profiles.profile import Profile
-from ..show.quantities import described, engineering, unit_of
-from ..show.report import limit_rows, rows
+from ..show.quantities import described, engineering
+from ..show.report import limit_rows, rows, with_error
 from .parameters import CLASSES, MEDIUM, PARAMETERS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 LEAST_SQUARES = Model("least squares", "the medium whose model has the least squares of residuals")
-
-
-def with_error(value, error, unit):
-    """A number and its standard error as text, with one unit and two digits of the error.
-
-    Of many numbers, without those that are NaN, it is the range, and the median of the errors. An error
-    below 10⁻⁶ of the number is that of the arithmetic, and left out.
-    """
-    known = ~np.isnan(value)
-    if not np.any(known):
-        return "none"
-    values, error = np.asarray(value)[known], float(np.median(np.asarray(error)[known]))
-    ends = sorted({float(values.min()), float(values.max())})
-    if ends[-1] == np.inf:
-        return "∞" if len(ends) == 1 else engineering(values, unit)
-    fit = unit_of(max(*map(abs, ends), 0.0 if error == np.inf else error), unit)
-    ends, error = [end / fit.factor for end in ends], error / fit.factor
-    if error == np.inf:
-        texts, ending = [f"{float(f'{end:.1g}'):g}" for end in ends], " ± ∞"
-    elif error <= 1e-6 * max(map(abs, ends)):
-        texts, ending = [f"{end:.6g}" for end in ends], ""
-    else:
-        digits = max(0, 1 - int(np.floor(np.log10(float(f"{error:.1e}")))))
-        texts, ending = [f"{end:.{digits}f}" for end in ends], f" ± {error:.{digits}f}"
-    return f"{' … '.join(texts)}{ending} {fit.name}".rstrip()
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -14,6 +14,7 @@ from ..medium import Medium
 from ..numerics.remark import Remark
 from ..numerics.results import check_single
 from ..show.quantities import engineering
+from ..show.report import with_error
 from .classes import ClassFit, HardnessVerdict, class_of_hardness, fit_again, fits_of_classes, verdict
 from .dataset import SAMPLES, dataset_of
 from .figures import plot_fit
@@ -22,7 +23,7 @@ from .oliver_pharr_result import OLIVER_PHARR
 from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
 from .quoted import Quoted, quoted, unloading
 from .remarks import by_importance, missing, remarks_of
-from .report import Fit, with_error
+from .report import Fit
 
 if TYPE_CHECKING:
     import xarray

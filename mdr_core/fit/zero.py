@@ -6,9 +6,9 @@ import numpy as np
 
 from ..numerics.remark import Remark
 from ..show.quantities import engineering
+from ..show.report import with_error
 from .errors import SIGNIFICANT, roughness
 from .first_contact import LEAST_LENGTH, LEAST_SAMPLES, FirstContact, contact_before, first_contact
-from .report import with_error
 from .unloading import parts_of
 
 #: First contact of depths that are taken as they are given.

@@ -10,7 +10,7 @@ from importlib import import_module
 import numpy as np
 
 from ..numerics.results import Presentation
-from .quantities import QUANTITIES, described, engineering
+from .quantities import QUANTITIES, described, engineering, unit_of
 
 #: Quantities of results with more entries are not computed in order to be shown.
 _MANY = 1000
@@ -18,6 +18,31 @@ _MANY = 1000
 _MOST_LINES = 12
 #: Quantities that are given, not computed.
 _GIVEN = {"depth", "time", "mass", "speed", "tangential_speed", "friction", "tangential_mass"}
+
+
+def with_error(value, error, unit):
+    """A number and its standard error as text, with one unit and two digits of the error.
+
+    Of many numbers, without those that are NaN, it is the range, and the median of the errors. An error
+    below 10⁻⁶ of the number is that of the arithmetic, and left out.
+    """
+    known = ~np.isnan(value)
+    if not np.any(known):
+        return "none"
+    values, error = np.asarray(value)[known], float(np.median(np.asarray(error)[known]))
+    ends = sorted({float(values.min()), float(values.max())})
+    if ends[-1] == np.inf:
+        return "∞" if len(ends) == 1 else engineering(values, unit)
+    fit = unit_of(max(*map(abs, ends), 0.0 if error == np.inf else error), unit)
+    ends, error = [end / fit.factor for end in ends], error / fit.factor
+    if error == np.inf:
+        texts, ending = [f"{float(f'{end:.1g}'):g}" for end in ends], " ± ∞"
+    elif error <= 1e-6 * max(map(abs, ends)):
+        texts, ending = [f"{end:.6g}" for end in ends], ""
+    else:
+        digits = max(0, 1 - int(np.floor(np.log10(float(f"{error:.1e}")))))
+        texts, ending = [f"{end:.{digits}f}" for end in ends], f" ± {error:.{digits}f}"
+    return f"{' … '.join(texts)}{ending} {fit.name}".rstrip()
 
 
 def imported(name, what, packages=None):

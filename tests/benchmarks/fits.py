@@ -11,7 +11,7 @@ from time import process_time
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.fit.report import with_error
+from mdr_core.show.report import with_error
 
 from ..fit import families
 from ..fit.test_fit import AFM, HERTZ, REFERENCE, measured, pulls

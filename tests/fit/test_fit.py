@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.fit.report import with_error
+from mdr_core.show.report import with_error
 
 from ..approx import approx
 from ..shapes import SHAPES, name
