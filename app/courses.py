@@ -7,8 +7,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.contact.yielding import yield_rule
-from mdr_core.impacts.motion import released_compression
+from mdr_core.solver.contact.yielding import yield_rule
+from mdr_core.solver.impacts.motion import released_compression
 
 #: Progress at the end of slow unloading, with the indenter at the height of the undeformed surface.
 LAST_PROGRESS = 2.2

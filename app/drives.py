@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.contact.unloading import unloading
-from mdr_core.contact.yielding import yield_rule
-from mdr_core.impacts.motion import motion as motion_of
+from mdr_core.solver.contact.unloading import unloading
+from mdr_core.solver.contact.yielding import yield_rule
+from mdr_core.solver.impacts.motion import motion as motion_of
 
 from .courses import LAST_PROGRESS, Course, nearest, onset_depth, path_progress
 from .quantities import QUANTITIES

@@ -9,40 +9,40 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from ._check import no_attribute
+from .base.check import no_attribute
 
 if TYPE_CHECKING:
     from . import abel, sweep
-    from .contact.creep import creep
-    from .contact.indentation import Indentation
-    from .contact.loading import indent, indent_to_force
-    from .contact.onset_of_yield import critical_force, yield_depth, yield_speed
-    from .drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
-    from .fit.hardness import fit_hardness
-    from .fit.indentation import fit_indentation
-    from .fit.oliver_pharr import oliver_pharr
-    from .foundation.chain_impact import chain_impact
-    from .foundation.depth_path import TimedIndentation, indent_in_time
-    from .foundation.foundation import Foundation
-    from .hardness import HardnessLaw
-    from .impacts.adhesive import capture_speeds
-    from .impacts.impact import impact
-    from .impacts.result import Impact
-    from .impacts.scaling import ScalingLaw, hardness_class
-    from .medium import Medium
-    from .numerics.motions import Motion
-    from .numerics.remark import Remark, Remedy
-    from .oblique.ball import Ball, at_angle
-    from .oblique.oblique_impact import ObliqueImpact, oblique_impact
-    from .profiles.power import Cone, FlatPunch, Paraboloid, PowerLaw
-    from .profiles.profile import Profile
-    from .profiles.rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
-    from .profiles.sampled import Sampled
-    from .profiles.smooth import Smooth
-    from .profiles.truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
-    from .reading import UnknownColumns, read_curve, read_curves
-    from .scene import Scene
-    from .structure import Structure
+    from .base.motions import Motion
+    from .base.remark import Remark, Remedy
+    from .measurements.fit.hardness import fit_hardness
+    from .measurements.fit.indentation import fit_indentation
+    from .measurements.reading import UnknownColumns, read_curve, read_curves
+    from .measurements.unloading.oliver_pharr import oliver_pharr
+    from .scenes.drives import DepthPath, ForcePath, FreeImpact, FreeObliqueImpact
+    from .scenes.scene import Scene
+    from .solver.contact.creep import creep
+    from .solver.contact.indentation import Indentation
+    from .solver.contact.loading import indent, indent_to_force
+    from .solver.contact.onset_of_yield import critical_force, yield_depth, yield_speed
+    from .solver.foundation.chain_impact import chain_impact
+    from .solver.foundation.depth_path import TimedIndentation, indent_in_time
+    from .solver.foundation.foundation import Foundation
+    from .solver.impacts.adhesive import capture_speeds
+    from .solver.impacts.impact import impact
+    from .solver.impacts.result import Impact
+    from .solver.impacts.scaling import ScalingLaw, hardness_class
+    from .solver.medium.hardness import HardnessLaw
+    from .solver.medium.medium import Medium
+    from .solver.medium.structure import Structure
+    from .solver.oblique.ball import Ball, at_angle
+    from .solver.oblique.oblique_impact import ObliqueImpact, oblique_impact
+    from .solver.profiles.power import Cone, FlatPunch, Paraboloid, PowerLaw
+    from .solver.profiles.profile import Profile
+    from .solver.profiles.rounded import Hyperboloid, ParabolicPunch, RoundedCone, Sphere
+    from .solver.profiles.sampled import Sampled
+    from .solver.profiles.smooth import Smooth
+    from .solver.profiles.truncated import RoundedPunch, TruncatedCone, TruncatedParaboloid
 
 __all__ = [
     "Ball",
@@ -104,81 +104,81 @@ __version__ = "0.9.0.dev0"
 
 #: Modules of the public names. Each is imported when one of its names is first asked for.
 _MODULES = {
-    "contact.creep": ("creep",),
-    "contact.indentation": ("Indentation",),
-    "contact.loading": (
+    "solver.contact.creep": ("creep",),
+    "solver.contact.indentation": ("Indentation",),
+    "solver.contact.loading": (
         "indent",
         "indent_to_force",
     ),
-    "contact.onset_of_yield": (
+    "solver.contact.onset_of_yield": (
         "critical_force",
         "yield_depth",
         "yield_speed",
     ),
-    "drives": (
+    "scenes.drives": (
         "DepthPath",
         "ForcePath",
         "FreeImpact",
         "FreeObliqueImpact",
     ),
-    "fit.hardness": ("fit_hardness",),
-    "fit.indentation": ("fit_indentation",),
-    "fit.oliver_pharr": ("oliver_pharr",),
-    "foundation.chain_impact": ("chain_impact",),
-    "foundation.depth_path": (
+    "measurements.fit.hardness": ("fit_hardness",),
+    "measurements.fit.indentation": ("fit_indentation",),
+    "measurements.unloading.oliver_pharr": ("oliver_pharr",),
+    "solver.foundation.chain_impact": ("chain_impact",),
+    "solver.foundation.depth_path": (
         "TimedIndentation",
         "indent_in_time",
     ),
-    "foundation.foundation": ("Foundation",),
-    "hardness": ("HardnessLaw",),
-    "impacts.adhesive": ("capture_speeds",),
-    "impacts.impact": ("impact",),
-    "impacts.result": ("Impact",),
-    "impacts.scaling": (
+    "solver.foundation.foundation": ("Foundation",),
+    "solver.medium.hardness": ("HardnessLaw",),
+    "solver.impacts.adhesive": ("capture_speeds",),
+    "solver.impacts.impact": ("impact",),
+    "solver.impacts.result": ("Impact",),
+    "solver.impacts.scaling": (
         "ScalingLaw",
         "hardness_class",
     ),
-    "medium": ("Medium",),
-    "numerics.motions": ("Motion",),
-    "numerics.remark": (
+    "solver.medium.medium": ("Medium",),
+    "base.motions": ("Motion",),
+    "base.remark": (
         "Remark",
         "Remedy",
     ),
-    "oblique.ball": (
+    "solver.oblique.ball": (
         "Ball",
         "at_angle",
     ),
-    "oblique.oblique_impact": (
+    "solver.oblique.oblique_impact": (
         "ObliqueImpact",
         "oblique_impact",
     ),
-    "profiles.power": (
+    "solver.profiles.power": (
         "Cone",
         "FlatPunch",
         "Paraboloid",
         "PowerLaw",
     ),
-    "profiles.profile": ("Profile",),
-    "profiles.rounded": (
+    "solver.profiles.profile": ("Profile",),
+    "solver.profiles.rounded": (
         "Hyperboloid",
         "ParabolicPunch",
         "RoundedCone",
         "Sphere",
     ),
-    "profiles.sampled": ("Sampled",),
-    "profiles.smooth": ("Smooth",),
-    "profiles.truncated": (
+    "solver.profiles.sampled": ("Sampled",),
+    "solver.profiles.smooth": ("Smooth",),
+    "solver.profiles.truncated": (
         "RoundedPunch",
         "TruncatedCone",
         "TruncatedParaboloid",
     ),
-    "reading": (
+    "measurements.reading": (
         "UnknownColumns",
         "read_curve",
         "read_curves",
     ),
-    "scene": ("Scene",),
-    "structure": ("Structure",),
+    "scenes.scene": ("Scene",),
+    "solver.medium.structure": ("Structure",),
 }
 _MODULE_OF = {name: module for module, names in _MODULES.items() for name in names}
 

@@ -16,7 +16,7 @@ COMPILED = ("numpy", "scipy")
 IMPORTS = (
     (0.46, "numpy", "Starting NumPy", 0.5), (0.5, "scipy.special", "Starting SciPy", 0.7),
     (0.54, "scipy.optimize", "Starting SciPy", 1), (0.58, "scipy.integrate", "Starting SciPy", 0.5),
-    (0.62, "mdr_core.contact", "Starting the solver", 0.5),
+    (0.62, "mdr_core.solver.contact", "Starting the solver", 0.5),
     (0.68, "bokeh.models", "Starting Bokeh", 1.2), (0.72, "bokeh.plotting", "Starting Bokeh", 0.7),
     (0.9, "panel", "Starting Panel", 3), (0.96, "app.browser", "Starting the explorer", 1),
 )  # fmt: skip

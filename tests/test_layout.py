@@ -13,89 +13,69 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.base import lazy
 
 from .approx import approx
 
 PACKAGE = Path(mdr.__file__).parent
+#: Folders of the kernel, which solves alone.
+KERNEL = "base", "solver"
 #: From the bottom up; what is of one folder may import what stands below it, and others of the folder.
-KERNEL = (
-    "_errors", "_read_only", "_door", "_check", "numerics", "abel", "profiles", "hardness",
-    "transverse_isotropy", "medium", "structure", "applicability", "foundation", "contact", "impacts",
-)  # fmt: skip
 ORDER = (
-    *KERNEL, "own", "show", "oblique", "measured_curve", "files", "reading", "fit", "sweep_arguments",
-    "sweep", "drives", "scene", "__init__",
+    "base", "solver.numerics", "solver.profiles", "solver.medium", "solver.applicability",
+    "solver.foundation", "solver.contact", "solver.impacts", "solver.own", "solver.oblique", "abel", "show",
+    "measurements.measured_curve", "measurements.files", "measurements.reading", "measurements.common",
+    "measurements.unloading", "measurements.fit", "sweep", "scenes", "scene", "__init__",
 )  # fmt: skip
-#: What is asked for by `above`, the door, and why: a new name is a line here, with its reason.
-DOORS = {
-    "own.shape": "a user's shape is admitted, up to the contact radii that are reached",
-    "own.law": "a user's law of hardness is admitted, and asked in the units of a cap",
-    "own.cap": "the rule of yield of a law of which nothing is known beforehand",
-    "show.report": "a result as text, table or dataset",
-    "show.limits": "the limits of a result as data and in words",
-    "show.plots": "a result is drawn",
-    "show.hints": "an error says what is meant by a name that is not here",
-    "show.progress": "a long calculation says how far it is",
-    "files.tips": "a tip is read from a file",
-}
 #: Modules behind calls of the kernel, those of both first, and why.
 BEHIND_BOTH = {
-    "_check": "arguments are checked",
-    "_door": "what stands above is imported when it is asked for",
-    "_errors": "refusals name the quantity, its value and a remedy",
-    "_read_only": "functions of users get arrays that they cannot change",
-    "applicability": "what goes together, and what a user wrote is admitted",
-    "hardness": "laws of hardness, the paper's sum among them",
-    "medium": "Medium",
-    "numerics.gauss": "quadrature",
-    "numerics.remark": "remarks on a shape, and refusals",
-    "numerics.results": "base classes of results",
-    "numerics.roots": "depths and radii are roots",
-    "profiles.profile": "Profile",
-    "transverse_isotropy": "the modulus of a Medium of another symmetry",
+    "base.check": "arguments are checked",
+    "base.lazy": "what stands above is imported when it is asked for",
+    "base.errors": "refusals name the quantity, its value and a remedy",
+    "base.read_only": "functions of users get arrays that they cannot change",
+    "solver.applicability": "what goes together, and what a user wrote is admitted",
+    "solver.medium.hardness": "laws of hardness, the paper's sum among them",
+    "solver.medium.medium": "Medium",
+    "solver.numerics.gauss": "quadrature",
+    "base.remark": "remarks on a shape, and refusals",
+    "base.results": "base classes of results",
+    "solver.numerics.roots": "depths and radii are roots",
+    "solver.profiles.profile": "Profile",
+    "solver.medium.transverse_isotropy": "the modulus of a Medium of another symmetry",
 }
 BEHIND = {
-    "contact.loading": BEHIND_BOTH | {
-        "contact.adhesion": "the rim of a contact with adhesion",
-        "contact.indentation": "the result",
-        "contact.integrals": "forces and energies, by the class of the shape",
-        "contact.live_interval": "the state of a contact",
-        "contact.loading": "indent",
-        "contact.pressure": "a field of the result",
-        "contact.quadrature": "integrals of a shape without closed forms",
-        "contact.stress": "a field of the result",
-        "contact.yielding": "the rule of yield",
-        "numerics.blocks": "arrays are treated in blocks",
-        "numerics.stable": "differences of powers without loss of digits",
-        "profiles.radius_table": "contact radii of shapes that have no formula for them",
+    "solver.contact.loading": BEHIND_BOTH | {
+        "solver.contact.adhesion": "the rim of a contact with adhesion",
+        "solver.contact.indentation": "the result",
+        "solver.contact.integrals": "forces and energies, by the class of the shape",
+        "solver.contact.live_interval": "the state of a contact",
+        "solver.contact.loading": "indent",
+        "solver.contact.pressure": "a field of the result",
+        "solver.contact.quadrature": "integrals of a shape without closed forms",
+        "solver.contact.stress": "a field of the result",
+        "solver.contact.yielding": "the rule of yield",
+        "solver.numerics.blocks": "arrays are treated in blocks",
+        "solver.numerics.stable": "differences of powers without loss of digits",
+        "solver.profiles.radius_table": "contact radii of shapes that have no formula for them",
     },
-    "foundation.chain_impact": BEHIND_BOTH | {
-        "foundation.cap": "the caps of elements",
-        "foundation.chain_impact": "chain_impact",
-        "foundation.element": "a spring with its dashpot and its cap",
-        "foundation.foundation": "the row as users see it, in the result",
-        "foundation.free_body": "the motion of the body",
-        "foundation.fronts": "where elements come into contact and leave it",
-        "foundation.grid": "the places of elements",
-        "foundation.narrow": "a contact narrower than an element",
-        "foundation.refinement": "the limit for vanishing elements",
-        "foundation.row": "the row of elements in one state",
-        "numerics.motions": "the motion over time, and names of the impact",
-        "structure": "Structure",
+    "solver.foundation.chain_impact": BEHIND_BOTH | {
+        "solver.foundation.cap": "the caps of elements",
+        "solver.foundation.chain_impact": "chain_impact",
+        "solver.foundation.element": "a spring with its dashpot and its cap",
+        "solver.foundation.foundation": "the row as users see it, in the result",
+        "solver.foundation.free_body": "the motion of the body",
+        "solver.foundation.fronts": "where elements come into contact and leave it",
+        "solver.foundation.grid": "the places of elements",
+        "solver.foundation.narrow": "a contact narrower than an element",
+        "solver.foundation.refinement": "the limit for vanishing elements",
+        "solver.foundation.row": "the row of elements in one state",
+        "base.motions": "the motion over time, and names of the impact",
+        "solver.medium.structure": "Structure",
     },
 }  # fmt: skip
-# What the chain bears witness of.
-CHECKED = {
-    "contact.live_interval", "contact.quadrature", "contact.integrals", "contact.yielding",
-    "own.cap",
-    "contact.closed_forms", "contact.adhesion", "contact.pressure", "contact.indentation",
-    "contact.loading", "contact.unloading", "contact.creep_loading", "contact.creep_retreat",
-    "contact.creep_states", "contact.creep", "impacts.impact",
-    "impacts.energy_balance", "impacts.adhesive", "impacts.contact_time",
-    "impacts.result", "impacts.viscous", "impacts.equation_of_motion",
-    "impacts.collocation_steps", "impacts.motion_solver", "impacts.motion",
-    "impacts.scaling", "impacts.snap", "profiles.radius_table", "contact.stress",
-}  # fmt: skip
+# What the chain bears witness of: all modules of these folders, and two more.
+CHECKED_FOLDERS = "solver.contact.", "solver.impacts."
+CHECKED = {"solver.own.cap", "solver.profiles.radius_table"}
 
 
 def modules():
@@ -114,16 +94,17 @@ def imported(name, tree):
             continue
         base = [*here[: len(here) + 1 - node.level], *(node.module.split(".") if node.module else [])]
         parts = [".".join([*base, alias.name]) for alias in node.names]
-        found |= {part if part in KNOWN else ".".join(base) for part in parts}
+        named = (part if {part, f"{part}.__init__"} & KNOWN else ".".join(base) for part in parts)
+        found |= {each if each in KNOWN else f"{each}.__init__" for each in named}
     return found
 
 
-def doors(tree):
-    """Modules that are asked for by `above`, the door upward."""
+def lazily(tree):
+    """Names of `lazy` that are asked for."""
     return {
-        ast.literal_eval(node.args[0])
+        node.attr
         for node in ast.walk(tree)
-        if isinstance(node, ast.Call) and ast.unparse(node.func) == "above"
+        if isinstance(node, ast.Attribute) and ast.unparse(node.value) == "lazy"
     }
 
 
@@ -143,11 +124,14 @@ def imports():
 
 
 def place(name):
-    return ORDER.index(name.split(".")[0])
+    """Of a module; the empty first files of `solver` and `measurements` have none."""
+    return max((n for n, each in enumerate(ORDER) if f"{name}.".startswith(f"{each}.")), default=-1)
 
 
 def test_every_folder_has_its_place():
-    assert {name.split(".")[0] for name in KNOWN} == set(ORDER)
+    without = {name for name in KNOWN if place(name) < 0}
+    assert without == {"solver.__init__", "measurements.__init__"}
+    assert {*range(len(ORDER))} <= {*map(place, KNOWN)}
 
 
 @pytest.mark.parametrize("name", sorted(KNOWN))
@@ -165,10 +149,9 @@ def test_modules_are_imported_at_the_top(name):
     """Not in functions, but for optional packages, and for what shows a result."""
     functions = (node for node in ast.walk(tree_of(name)) if isinstance(node, ast.FunctionDef))
     assert not imported(name, (node for each in functions for node in ast.walk(each)))
-    assert doors(tree_of(name)) <= {*DOORS}
     if "import_module" in (node.id for node in ast.walk(tree_of(name)) if isinstance(node, ast.Name)):
-        # `above`, optional packages and public names.
-        assert name in {"_door", "show.report", "sweep", "__init__"}
+        # What stands above, optional packages and public names.
+        assert name in {"base.lazy", "show.report", "sweep.__init__", "__init__"}
 
 
 def behind(name):
@@ -180,8 +163,10 @@ def behind(name):
     return {each for each in reached if not each.endswith("__init__")}
 
 
-def test_all_doors_lead_somewhere():
-    assert {*DOORS} == set().union(*map(doors, map(tree_of, KNOWN))) <= KNOWN
+def test_what_is_imported_lazily_is_asked_for_and_is_there():
+    assert {*lazy.MODULES} == set().union(*map(lazily, map(tree_of, KNOWN)))
+    stub = ast.parse((PACKAGE / "base" / "lazy.pyi").read_text(encoding="utf-8"))
+    assert imported("base.lazy", stub.body) == {*lazy.MODULES.values()} <= KNOWN
 
 
 @pytest.mark.parametrize("name", BEHIND)
@@ -196,7 +181,7 @@ def test_shapes_and_laws_of_the_library_need_no_room_for_what_users_write():
         "import sys, mdr_core as mdr; medium = mdr.Medium(1e9, q_c=1.0, hardness=1e6); "
         "mdr.indent(mdr.Sphere(1e-6), medium, 1e-9).force; "
         "mdr.chain_impact(mdr.Cone(0.3), mdr.Medium(1e9, q_c=1.0), 1e-9, 0.1); "
-        "print(*(name for name in sys.modules if name.startswith('mdr_core.own')))"
+        "print(*(name for name in sys.modules if name.startswith('mdr_core.solver.own')))"
     )
     assert not python(code).split()
 
@@ -235,13 +220,16 @@ def test_a_private_name_of_another_object_is_used_in_its_own_file_only(name):
 
 
 def test_the_chain_imports_nothing_that_it_checks():
-    # What a user wrote is admitted and asked through the door.
-    start = {name for name in KNOWN if name.startswith("foundation.")} | {"own.law", "own.shape"}
+    # What a user wrote is admitted and asked lazily.
+    start = {name for name in KNOWN if name.startswith("solver.foundation.")}
+    start |= {"solver.own.law", "solver.own.shape"}
+    checked = CHECKED | {name for name in KNOWN if name.startswith(CHECKED_FOLDERS)}
     reached = set().union(*map(behind, start))
     # The search has gone down to the bottom.
-    assert {"medium", "profiles.profile", "_check"} <= reached
-    assert CHECKED <= KNOWN
-    assert not reached & CHECKED
+    assert {"solver.medium.medium", "solver.profiles.profile", "base.check"} <= reached
+    assert len(checked) > 25
+    assert checked <= KNOWN
+    assert not reached & checked
 
 
 def test_only_public_names_are_shown():
@@ -253,7 +241,7 @@ def test_type_checkers_see_the_names_that_are_found_when_they_are_asked_for():
     seen = {
         (alias.name, node.module)
         for node in ast.walk(tree_of("__init__"))
-        if isinstance(node, ast.ImportFrom) and node.level and node.module != "_check"
+        if isinstance(node, ast.ImportFrom) and node.level and node.module != "base.check"
         for alias in node.names
     }
     found = {(name, module) for module, names in mdr._MODULES.items() for name in names}
@@ -274,9 +262,9 @@ def test_a_public_name_imports_what_it_needs():
         "import sys, mdr_core as mdr; mdr.indent(mdr.Cone(0.3), mdr.Medium(1e9, q_c=1.0), 1e-9).force; "
         "print(*(name for name in sys.modules if name.startswith('mdr_core.')))"
     )
-    run = {name.split(".")[1] for name in python(code).split()}
-    assert run <= set(KERNEL)
-    assert not run & {"impacts", "foundation"}
+    run = {tuple(name.split(".")[1:3]) for name in python(code).split()}
+    assert {folder for folder, *_ in run} <= set(KERNEL)
+    assert not run & {("solver", "impacts"), ("solver", "foundation")}
 
 
 def test_all_public_names_are_imported_by_a_star():

@@ -3,7 +3,7 @@
 import re
 from typing import Any
 
-from mdr_core._errors import InvalidArgument
+from mdr_core.base.errors import InvalidArgument
 from mdr_core.show.units import KINDS, written
 
 from ..quantities import QUANTITIES, lowered

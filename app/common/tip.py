@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.files.table import decoded
-from mdr_core.files.tips import samples_of
-from mdr_core.profiles.sampled import tip_through
+from mdr_core.measurements.files.table import decoded
+from mdr_core.measurements.files.tips import samples_of
 from mdr_core.show.units import written
+from mdr_core.solver.profiles.sampled import tip_through
 
 from .upload import MAX_SAMPLES, in_line
 

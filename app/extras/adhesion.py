@@ -6,9 +6,9 @@ import numpy as np
 from scipy.integrate import trapezoid
 
 from mdr_core import ForcePath
-from mdr_core.contact.unloading import AdhesiveLoop, adhesive_loop, unloading_curve
 from mdr_core.show.figures import NOTHING, area, label, line, mark
 from mdr_core.show.units import written
+from mdr_core.solver.contact.unloading import AdhesiveLoop, adhesive_loop, unloading_curve
 
 from ..courses import Course
 from ..extra import Extra

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.contact.unloading import unloading_curve
 from mdr_core.show.figures import NOTHING, word
 from mdr_core.show.springs import reduced
+from mdr_core.solver.contact.unloading import unloading_curve
 
 from ..extra import Extra
 from ..labels import HEIGHT, LINE, WIDTH, width

@@ -9,12 +9,12 @@ from typing import ClassVar
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.impacts.motion import motion as motion_of
-from mdr_core.oblique.oblique_motion import along_surface, oblique_motion
 from mdr_core.show import springs as drawn
 from mdr_core.show.figures import label, line, mark
 from mdr_core.show.limits import friction_limits
 from mdr_core.show.units import written
+from mdr_core.solver.impacts.motion import motion as motion_of
+from mdr_core.solver.oblique.oblique_motion import along_surface, oblique_motion
 
 from ..courses import Course, path_progress
 from ..drives import BEFORE_YIELD, INSTANTS, Impact

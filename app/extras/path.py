@@ -9,9 +9,9 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core import abel
-from mdr_core.applicability import refuse_adhesion
-from mdr_core.contact.live_interval import LiveInterval
-from mdr_core.contact.yielding import yield_rule
+from mdr_core.solver.applicability import refuse_adhesion
+from mdr_core.solver.contact.live_interval import LiveInterval
+from mdr_core.solver.contact.yielding import yield_rule
 
 from ..changes import equivalent
 from ..courses import Course, onset_depth, path_progress

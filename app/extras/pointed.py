@@ -10,8 +10,8 @@ from bokeh.events import DocumentReady
 from bokeh.model import DataModel
 from bokeh.models import CustomJS
 
-from mdr_core.contact.yielding import yield_rule
 from mdr_core.show.units import fitting
+from mdr_core.solver.contact.yielding import yield_rule
 
 from ..courses import Course, onset_depth
 from ..extra import Extra, Service

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.fit.noise import jitter
-from mdr_core.fit.quoted import unloading
-from mdr_core.numerics.remark import Remark, Remedy
-from mdr_core.reading import UnknownColumns
+from mdr_core.base.remark import Remark, Remedy
+from mdr_core.measurements.fit.noise import jitter
+from mdr_core.measurements.fit.quoted import unloading
+from mdr_core.measurements.reading import UnknownColumns
 from mdr_core.show.units import written
 
 from ..common.errors import error_text

@@ -5,7 +5,7 @@ from math import inf, radians, tan
 from typing import NamedTuple
 
 import mdr_core as mdr
-from mdr_core.fit.parameters import PARAMETERS
+from mdr_core.measurements.fit.parameters import PARAMETERS
 from mdr_core.show.units import KINDS
 
 from ..quantities import ASSETS

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.fit.parameters import PARAMETERS
+from mdr_core.measurements.fit.parameters import PARAMETERS
 
 from .. import link, tables
 from ..state import checked, preset_state

@@ -7,7 +7,7 @@ from typing import Any
 import panel as pn
 from markupsafe import Markup
 
-from mdr_core.reading import SIZES
+from mdr_core.measurements.reading import SIZES
 from mdr_core.show.units import written
 
 from ..common.upload import CURVE_BYTES, TIP_BYTES, Uploads

@@ -12,7 +12,7 @@ from bokeh.events import ConnectionLost, DocumentReady
 from bokeh.models import CustomJS
 from markupsafe import Markup
 
-from mdr_core.numerics.remark import Remark
+from mdr_core.base.remark import Remark
 
 from ..common.errors import Refused
 from ..common.folders import Files

@@ -6,7 +6,7 @@ from math import isfinite
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from mdr_core.reading import WORDS
+from mdr_core.measurements.reading import WORDS
 
 from ..common.upload import in_line
 from .choices import FITTED, MEDIA, NUMBERS, TIPS

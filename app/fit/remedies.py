@@ -4,8 +4,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from mdr_core.numerics.remark import Remedy
-from mdr_core.reading import SIZES
+from mdr_core.base.remark import Remedy
+from mdr_core.measurements.reading import SIZES
 from mdr_core.show.units import written
 
 from . import texts

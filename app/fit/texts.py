@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup, escape
 
-from mdr_core.fit.oliver_pharr_result import OLIVER_PHARR, texts_of
-from mdr_core.fit.parameters import PARAMETERS
+from mdr_core.measurements.fit.parameters import PARAMETERS
+from mdr_core.measurements.unloading.oliver_pharr_result import OLIVER_PHARR, texts_of
 from mdr_core.show.report import with_error
 from mdr_core.show.units import KINDS, fitting, with_unit, written
 

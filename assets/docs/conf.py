@@ -11,7 +11,7 @@ from sphinx import addnodes
 import mdr_core
 from app.extras.scene_file import scene_file
 from app.page import Page
-from mdr_core.numerics.remark import KINDS
+from mdr_core.base.remark import KINDS
 from mdr_explorer import static
 
 sys.path.insert(0, str(Path(__file__).parent))

@@ -11,10 +11,10 @@ from pathlib import Path
 from docutils import nodes
 
 import mdr_core
-from mdr_core.fit.oliver_pharr_result import OliverPharr
-from mdr_core.fit.report import Fit
-from mdr_core.numerics.motions import ImpactResult
-from mdr_core.numerics.results import Record, Result
+from mdr_core.base.motions import ImpactResult
+from mdr_core.base.results import Record, Result
+from mdr_core.measurements.fit.report import Fit
+from mdr_core.measurements.unloading.oliver_pharr_result import OliverPharr
 from mdr_core.show.synonyms import SYNONYMS
 
 _PAGES = Path(__file__).parent / "reference"

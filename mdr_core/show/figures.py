@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..contact.unloading import unloading_curve
+from ..solver.contact.unloading import unloading_curve
 from .quantities import unit_of
 from .units import written
 

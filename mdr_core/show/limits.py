@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from .. import _check
-from ..impacts.scaling import MAX_ERROR, depth_in_fast_limit
-from ..numerics.results import Limit
-from ..own.law import law_numbers
-from ..profiles.power import Cone
-from ..profiles.sampled import Sampled, bent_vertices
+from ..base import check
+from ..base.results import Limit
+from ..solver.impacts.scaling import MAX_ERROR, depth_in_fast_limit
+from ..solver.own.law import law_numbers
+from ..solver.profiles.power import Cone
+from ..solver.profiles.sampled import Sampled, bent_vertices
 from .quantities import engineering
 from .structure_limits import structure_limits
 
@@ -280,7 +280,7 @@ def stick_limits(error, tolerance, depth, mass):
 
 def speed_limit(speed, medium, density):
     """The largest speed (m/s) over the wave speed √(E*/ρ) of a medium of density ρ (kg/m³)."""
-    density = _check.positive("density", density, unit="kg/m³")
+    density = check.positive("density", density, unit="kg/m³")
     value = float(np.max(speed / np.sqrt(medium.E_star / density)))
     text = f"The speed is {value:.3g} times the wave speed √(E*/ρ)"
     text += (

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..contact.indentation import Indentation
-from ..numerics.results import check_single, quantities_of
+from ..base.results import check_single, quantities_of
+from ..solver.contact.indentation import Indentation
 from . import figures
 from .figures import FORCE_ROWS, NOTHING, PRESSURE_ROWS, Axis, line, parts
 from .quantities import QUANTITIES, engineering

@@ -4,7 +4,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from ..numerics.blocks import chunks
+from ..solver.numerics.blocks import chunks
 
 #: Time (s) before a bar appears.
 _DELAY = 2.0

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import _check
-from ..structure import Structure
+from ..base import check
+from ..solver.medium.structure import Structure
 from .units import KINDS, Unit, fitting, with_unit
 
 
@@ -160,7 +160,7 @@ def described(thing):
         if value is None:
             parts.append(f"no {known.long_name}")
             continue
-        if isinstance(value, _check.Parameters):
+        if isinstance(value, check.Parameters):
             kind, *given = described(value).split(", ")
             parts.append(f"σ_c by {kind}({', '.join(given)})")
             continue
@@ -168,6 +168,6 @@ def described(thing):
             text = engineering(value, known.unit if known else "")
             count = f" ({np.size(value)})" if np.ndim(value) else ""
         except (TypeError, ValueError):
-            text, count = _check.shown(value), ""
+            text, count = check.shown(value), ""
         parts.append(f"{known.symbol if known else name} {text}{count}")
     return ", ".join(parts)

@@ -9,7 +9,7 @@ from importlib import import_module
 
 import numpy as np
 
-from ..numerics.results import Presentation
+from ..base.results import Presentation
 from .quantities import QUANTITIES, described, engineering, unit_of
 
 #: Quantities of results with more entries are not computed in order to be shown.

@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from ..numerics.results import Limit
+from ..base.results import Limit
 from .quantities import engineering
 
 #: Contact time over the time after which bending waves are back from the nearest edge, up to which the
-#: restitution of a simply supported plate by its modes is within 1.4 % (tests/impacts/test_modes.py).
+#: restitution of a simply supported plate by its modes is within 1.4 %
+#: (tests/solver/impacts/test_modes.py).
 _EDGES = 1 / 3
 #: A wave of bending is back from a way r after r²/(7.70 √(D/ρh)), where Si(r²/(4 t √(D/ρh))) is π/2.
 _BACK = 7.70

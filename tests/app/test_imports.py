@@ -11,7 +11,13 @@ from app.common.process import _PROGRAM
 from .conftest import ROOT
 
 APP = ROOT / "app"
-FITS = ("app.fit", "mdr_core.fit", "mdr_core.files", "mdr_core.reading", "mdr_core.measured_curve")
+FITS = (
+    "app.fit",
+    "mdr_core.measurements.fit",
+    "mdr_core.measurements.files",
+    "mdr_core.measurements.reading",
+    "mdr_core.measurements.measured_curve",
+)
 PAGES = ("panel", "bokeh", "holoviews", "tornado", "app.page", "app.ui")
 
 

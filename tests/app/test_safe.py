@@ -83,7 +83,7 @@ def test_html_is_made_of_literals_of_the_page_alone():
 
 def test_an_address_of_a_component_imports_nothing(command):
     """`this` prints at its import; `unittest.__main__` ends the process that imports it."""
-    modules = ("this", "antigravity", "app.main", "mdr_core.reading", "unittest.__main__")
+    modules = ("this", "antigravity", "app.main", "mdr_core.measurements.reading", "unittest.__main__")
     for prefix in ("", "/app"):
         for module in modules:
             assert get(command, f"{prefix}/components/{module}/x/y/z")[0] == 404

@@ -15,9 +15,9 @@ from unittest.mock import patch
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.contact import creep_loading, yielding
-from mdr_core.contact.yielding import RadiusCap, YieldRule
-from mdr_core.impacts import collocation_steps, contact_time, motion_solver
+from mdr_core.solver.contact import creep_loading, yielding
+from mdr_core.solver.contact.yielding import RadiusCap, YieldRule
+from mdr_core.solver.impacts import collocation_steps, contact_time, motion_solver
 
 SHAPES = (
     mdr.Sphere(1e-6),

@@ -16,13 +16,13 @@ from unittest.mock import patch
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core import _check
-from mdr_core.contact import adhesion, creep_retreat, indentation, integrals, quadrature
-from mdr_core.impacts import contact_time, energy_balance, motion
-from mdr_core.numerics import gauss
-from mdr_core.own import law
-from mdr_core.profiles import radius_table
-from mdr_core.profiles.power import PowerLaw, kappa
+from mdr_core.base import check
+from mdr_core.solver.contact import adhesion, creep_retreat, indentation, integrals, quadrature
+from mdr_core.solver.impacts import contact_time, energy_balance, motion
+from mdr_core.solver.numerics import gauss
+from mdr_core.solver.own import law
+from mdr_core.solver.profiles import radius_table
+from mdr_core.solver.profiles.power import PowerLaw, kappa
 
 from ..laws import Layered
 
@@ -161,7 +161,7 @@ def crept(profile, medium):
 
 def shapeless():
     """`Parameters.shape` computed each time."""
-    return patch.object(_check.Parameters, "shape", property(_check.Parameters.shape.func))
+    return patch.object(check.Parameters, "shape", property(check.Parameters.shape.func))
 
 
 #: What, without it, and the call that it is for.
@@ -250,7 +250,7 @@ PATHS = (
      lambda: crept(ROUND, WET)),
     ("Retreat._edges kept, creep", lambda: recomputed(creep_retreat.Retreat, "_edges"),
      lambda: crept(ROUND, WET)),
-    ("_parameters kept, 100 cones", lambda: uncached_everywhere(_check._parameters),
+    ("_parameters kept, 100 cones", lambda: uncached_everywhere(check._parameters),
      lambda: [mdr.Cone(slope=0.2 + 0.01 * i) for i in range(100)]),
 )  # fmt: skip
 

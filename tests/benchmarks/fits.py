@@ -13,10 +13,10 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.show.report import with_error
 
-from ..fit import families
-from ..fit.test_fit import AFM, HERTZ, REFERENCE, measured, pulls
-from ..fit.test_fit_in_time import fit_of, in_time
-from ..fit.test_fit_of_classes import BERKOVICH, BOUNDS, OUT, E, made, real
+from ..measurements.fit import families
+from ..measurements.fit.test_fit import AFM, HERTZ, REFERENCE, measured, pulls
+from ..measurements.fit.test_fit_in_time import fit_of, in_time
+from ..measurements.fit.test_fit_of_classes import BERKOVICH, BOUNDS, OUT, E, made, real
 from ..shapes import name
 from . import remarks, unloadings
 

@@ -12,7 +12,7 @@ import numpy as np
 
 import mdr_core as mdr
 
-from ..files.test_bounds import LINES
+from ..measurements.files.test_bounds import LINES
 
 
 def seconds(path):

@@ -13,13 +13,13 @@ from pathlib import Path
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.numerics.remark import KINDS
+from mdr_core.base.remark import KINDS
 
-from ..fit import families
-from ..fit.test_creep import record
-from ..fit.test_fit import AFM, HERTZ, measured
-from ..fit.test_fit_in_time import fit_of
-from ..fit.test_fit_of_classes import BERKOVICH, BOUNDS, DATA, real
+from ..measurements.fit import families
+from ..measurements.fit.test_fit import AFM, HERTZ, measured
+from ..measurements.fit.test_fit_in_time import fit_of
+from ..measurements.fit.test_fit_of_classes import BERKOVICH, BOUNDS, DATA, real
+from ..measurements.unloading.test_creep import record
 
 GEL, GLASS, METAL = families.KINDS.values()
 #: Kinds of remarks that name what a family of simulated curves has.

@@ -8,7 +8,7 @@ from dataclasses import fields
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.profiles.radius_table import OneLength
+from mdr_core.solver.profiles.radius_table import OneLength
 
 from ..shapes import SHAPES, name
 from .harness import seconds

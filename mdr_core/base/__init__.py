@@ -1,0 +1,1 @@
+"""What all stands on: checks of arguments, errors, remarks, base classes of results."""

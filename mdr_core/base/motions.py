@@ -1,0 +1,187 @@
+"""Base classes of impacts, of motions, and the motion of one impact."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from . import lazy
+from .check import Array, shown
+from .results import Limit, Result
+
+
+class ImpactResult(Result):
+    """Base class of impacts along the normal, by `impact` and by `chain_impact`."""
+
+    _quantities = (
+        "mass", "speed", "restitution", "rebound_speed", "contact_time", "max_depth", "max_force",
+        "contact_radius", "plastic_radius", "plastic_depth", "damaged_area", "stored_energy",
+        "plastic_work", "viscous_work", "adhesive_work", "structure_work", "max_deflection",
+    )  # fmt: skip
+    _dimensions = ("impact",)
+
+    medium: Any
+    structure: Any
+    mass: Array
+    speed: Array
+    max_force: Array
+    restitution: Array
+    contact_time: Array
+    plastic_radius: Array
+
+    @property
+    def _shown(self):  # type: ignore[override]
+        # Adhesion and dashpots exclude each other.
+        adhesive = np.any(np.asarray(self.medium.work_of_adhesion) > 0)
+        losses = ("adhesive_work",) if adhesive else ("viscous_work",)
+        if not self.structure.rigid:
+            viscous = np.any(np.asarray(self.medium.eta) > 0)
+            losses = (*losses[: int(viscous)], "structure_work", "max_deflection")
+        names = "speed", "restitution", "max_depth", "max_force", "contact_time"
+        return *names, "stored_energy", "plastic_work", *losses
+
+    @property
+    def rebound_speed(self) -> Array:
+        """Rebound speed e v₀ (m/s)."""
+        return self.restitution * self.speed
+
+    @property
+    def captured(self) -> Any:
+        """Whether the body does not rebound: adhesion holds it, or it never leaves a plate.
+
+        On a plate whose waves take so much energy that the velocity of the body goes to 0 with the force:
+        then e is 0, and the contact time infinite.
+        """
+        return np.zeros(np.shape(self.speed), bool)[()]
+
+    @property
+    def max_deflection(self) -> Array:
+        """Largest deflection (m) of the structure under the contact; 0 without a structure.
+
+        On a plate m v₀ (1 + e)/Z: it is that at the end of the contact, and it stays. On a support F/K of
+        the largest force F.
+        """
+        momentum = self.mass * self.speed * (1 + self.restitution)
+        return momentum / self.structure.impedance + self.max_force / self.structure.stiffness
+
+    @property
+    def adhesive_work(self) -> Array:
+        """Energy (J) that adhesion takes."""
+        return np.zeros(np.shape(self.speed))[()]
+
+    @property
+    def damaged_area(self) -> Array:
+        """Area π c² (m²) of the plastic zone; in the fast limit that of the contact, π a²."""
+        return np.pi * self.plastic_radius**2
+
+    def speed_limit(self, density: float) -> Limit:
+        """The speed over the wave speed √(E*/ρ) of a medium of density ρ (kg/m³), as a `Limit`."""
+        return lazy.limits.speed_limit(self.speed, self.medium, density)
+
+
+class MotionResult(Result):
+    """Base class of motions of one impact, normal or oblique."""
+
+    _dimensions = ("time",)
+
+    depth: Array
+    impact: Any
+
+    def _source(self):
+        return self if self.impact is None else self.impact
+
+    @property
+    def limits(self) -> tuple[Limit, ...]:
+        """Limits of the model for the impact."""
+        return () if self.impact is None else self.impact.limits
+
+    @property
+    def turning_index(self) -> int:
+        """Index of the turning point, the instant of largest depth."""
+        return int(np.argmax(self.depth))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Motion(MotionResult):
+    """Motion of one impact from first contact to loss of contact, as arrays of equal length.
+
+    That of a body that never leaves a plate goes to where a thousandth of the largest live depth is left.
+
+    The turning point is among the instants. On unloading from a viscous medium the edge of the contact is
+    where g = d_p + ℓ, which is less than the depth d; elements outside are released and relax. The sum of
+    the energies is the same at every instant.
+
+    Attributes
+    ----------
+    time : ndarray
+        Time (s) since first contact; since the start for a chain that has a history.
+    depth, velocity, force : ndarray
+        Indentation depth d (m), its rate (m/s), force (N).
+    contact_radius, plastic_radius : ndarray
+        Radii a and c (m).
+    plastic_depth, live_depth : ndarray
+        Plastic depth d_p and length ℓ of the live interval [d_p, d_p + ℓ] (m); ℓ is the elastic
+        compression of the spring at the axis under the load.
+    kinetic_energy, stored_energy, plastic_work, viscous_work : ndarray
+        Energies (J) of the body and of the medium. The stored energy includes released springs.
+    deflection : ndarray
+        Deflection w (m) of the structure under the contact, 0 without one.
+    body_velocity : ndarray
+        Velocity (m/s) of the body, the sum of the rates of depth and deflection.
+    structure_work, support_energy : ndarray
+        Energies (J) that waves of the structure have carried away, and that a support stores.
+    states : Indentation or None
+        States of the contact at each instant, with pressure and surface; None for the chain.
+    impact : Impact, ChainImpact or None
+        The impact.
+
+    Examples
+    --------
+    >>> from mdr_core import FlatPunch, Medium, impact
+    >>> motion = impact(FlatPunch(radius=0.5), Medium(E_star=1.0), mass=1.0, speed=0.1).motion(5)
+    >>> print(round(motion.time[motion.turning_index], 6))  # a quarter of a period: π/2
+    1.570796
+    """
+
+    time: Array
+    depth: Array
+    velocity: Array
+    force: Array
+    contact_radius: Array
+    plastic_radius: Array
+    plastic_depth: Array
+    live_depth: Array
+    kinetic_energy: Array
+    stored_energy: Array
+    plastic_work: Array
+    viscous_work: Array
+    deflection: Array
+    body_velocity: Array
+    structure_work: Array
+    support_energy: Array
+    states: Any = None
+    impact: Any = None
+
+    _quantities = (
+        "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "plastic_depth",
+        "live_depth", "kinetic_energy", "stored_energy", "plastic_work", "viscous_work", "deflection",
+        "body_velocity", "structure_work", "support_energy",
+    )  # fmt: skip
+    _shown = ("time", "depth", "velocity", "force", "contact_radius", "plastic_radius")
+
+    def __getitem__(self, index: Any) -> "Motion":
+        values = {name: getattr(self, name)[index] for name in self._quantities}
+        return replace(self, **values, states=self.states and self.states[index])
+
+
+def instants(n, turn, end, start=0.0):
+    """n times (s): equally spaced from `start` to the turning point at `turn`, and from there to `end`.
+
+    A fifth of them at least are up to the turning point: a body on a plate may take long to leave.
+    """
+    if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 2 <= n <= 10**7:
+        raise ValueError(f"number of instants n = {shown(n)} must be a whole number from 2 to 10⁷")
+    if n == 2:
+        return np.array([start, end])
+    count = min(max(round((n - 1) * (turn - start) / (end - start)), n // 5, 1), n - 2)
+    return np.append(np.linspace(start, turn, count + 1), np.linspace(turn, end, n - count)[1:])

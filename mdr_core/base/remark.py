@@ -1,0 +1,184 @@
+"""A doubt about a number as a value: its kind, what is said, and what one can do about it."""
+
+from dataclasses import dataclass
+from typing import Any, Self
+
+from .errors import Refusal
+
+#: Kinds of a `Remark`, the most important first, and what each says.
+KINDS = {
+    "invalid": "a curve of a map is not fitted, and why",
+    "refused": "what is given cannot be read or fitted",
+    "deflection": "the depth includes the deflection of the cantilever, whose stiffness is not known",
+    "units": "numbers that no material or tip has: a unit, a sign, or columns that are exchanged",
+    "order": "samples are not in the order in which they were measured",
+    "no contact": "the record shows no contact",
+    "no unloading": "there is no unloading that can be evaluated",
+    "adhesion": "an adhesion that is left out, or that the forces hardly determine",
+    "bound": "a parameter is at the bound of its range",
+    "second minimum": "other values of the parameters fit about as well",
+    "undetermined": "the data do not determine a parameter: the residuals have no minimum",
+    "tilt": "a slope of the baseline that is left out",
+    "drag": "a drag of a liquid that is left out",
+    "drift": "a drift of the depth, or a relaxation of the medium",
+    "misfit": "the model does not fit: another class of hardness, medium or tip",
+    "jitter": "noise of the depth that is taken for new largest depths",
+    "unloading": "another force on unloading: creep or hysteresis",
+    "outliers": "single samples far from their neighbours",
+    "blocks": "residuals that are correlated over a large part of the curve",
+    "few": "too few samples for standard errors",
+    "loading": "loading alone hardly determines the modulus",
+    "vague": "the modulus has a large error",
+    "contact": "contact is lost at another depth than in the model",
+    "constants": "the data do not distinguish the constants of the hardness",
+    "elastic": "no yield is seen beyond the noise",
+    "noisy": "residuals are larger than the noise that was given",
+    "rest": "a change of the depth while the force is held, by creep or a drift",
+    "inviscid": "the viscosity is 0 within the noise",
+    "medium": "the unloading of a medium that is viscous or adhesive is not evaluated",
+    "held": "the modulus is held, and not a result",
+    "creep": "the depth creeps at the start of the unloading",
+    "missing": "samples without a number, contact or stiffness",
+    "sign": "a sign is reversed",
+    "cantilever": "from where a constant of the cantilever is taken",
+    "time": "times that do not ascend, or are not plainly the times of the curve, are left out",
+    "left out": "columns, tables, unloadings or measurements that are left out",
+    "several": "which one of several curves or unloadings was taken",
+    "corrected": "what is subtracted from the depth",
+    "zero": "the depth is 0 where the force is not",
+    "first contact": "from where depth and force of an unloading count",
+    "hold": "the hold of the force before the unloading, which shows its creep",
+    "area": "where a tip is another one than that of its area function",
+    "tip": "an ideal tip at depths at which real ones are blunt",
+}
+#: What a `Remedy` does: fit a parameter, hold one, give what is missing, look at a unit, take a part of the
+#: curve, choose another class of hardness.
+ACTIONS = "free", "hold", "give", "unit", "part", "class"
+
+
+#: What a user of the library does, where names are not enough: classes of hardness, parts, and units.
+_IN_PYTHON = {
+    ("class", "a"): "give hardness=None",
+    ("class", "b"): "give q_c=None",
+    ("class", "c"): "give f_c=None",
+    ("class", "elastic"): "give q_c=np.inf",
+    ("part", "all"): "give the whole record",
+    ("give", "profile"): "give its area function by Sampled.from_area_function",
+    ("unit", "depth"): "give depth in m",
+    ("unit", "radius"): "give radius in m",
+    ("unit", "force"): "give force in N",
+    ("unit", "E_star"): "give E_star in Pa",
+    ("unit", "mean_pressure"): "give mean_pressure in Pa",
+}
+
+
+@dataclass(frozen=True)
+class Remedy:
+    """What one can do about a `Remark`.
+
+    Attributes
+    ----------
+    action : str
+        "free" or "hold" a parameter, "give" what is missing, look at a "unit", evaluate a "part" of the
+        curve, or choose another "class" of hardness.
+    what : str
+        A name of the public interface: a parameter or argument, as "drag" or "spring_constant", a column,
+        as "depth", a part of the curve, as "loading", or a class, as "a".
+    value : optional
+        The value to hold or to give.
+
+    Examples
+    --------
+    >>> from mdr_core import Remedy
+    >>> Remedy("hold", "eta", 0.0)
+    Remedy(action='hold', what='eta', value=0.0)
+    """
+
+    action: str
+    what: str
+    value: Any = None
+
+    def __post_init__(self):
+        if self.action not in ACTIONS:
+            raise ValueError(f"action is {self.action!r}, but a remedy is one of {', '.join(ACTIONS)}")
+
+    @property
+    def in_python(self) -> str:
+        """What a user of the library does, as "hold eta = 0"."""
+        if known := _IN_PYTHON.get((self.action, self.what)):
+            return known
+        if self.action == "free":
+            return f"give {self.what}=None"
+        if self.action == "hold":
+            return f"hold {self.what}" + ("" if self.value is None else f" = {self.value:g}")
+        if self.action == "part":
+            return f"fit the {self.what} alone"
+        return f"give {self.what}=" + ("…" if self.value is None else f"{self.value!r}")
+
+
+class Remark(str):
+    """A doubt about a number of a fit, an unloading or a file, as a sentence.
+
+    Attributes
+    ----------
+    kind : str
+        What is doubted, one of `KINDS`.
+    text : str
+        The same without names of Python.
+    remedy : tuple of Remedy
+        What one can do; empty for nothing.
+
+    Examples
+    --------
+    >>> from mdr_core import Remark, Remedy
+    >>> hold = Remedy("hold", "q_c")
+    >>> remark = Remark("q_c is at its bound: hold q_c", "bound", "q_c is at its bound", (hold,))
+    >>> remark.startswith("q_c"), remark.kind, remark.remedy[0].action
+    (True, 'bound', 'hold')
+    """
+
+    __slots__ = ("kind", "remedy", "text")
+
+    kind: str
+    text: str
+    remedy: tuple[Remedy, ...]
+
+    def __new__(
+        cls, sentence: str, kind: str, text: str | None = None, remedy: tuple[Remedy, ...] = ()
+    ) -> Self:
+        if kind not in KINDS:
+            raise ValueError(f"kind is {kind!r}, but a remark is one of {', '.join(KINDS)}")
+        remark = super().__new__(cls, sentence)
+        remark.kind = kind
+        remark.text = str(sentence) if text is None else text
+        remark.remedy = tuple(remedy)
+        return remark
+
+    def __getnewargs__(self):
+        return str(self), self.kind, self.text, self.remedy
+
+    @classmethod
+    def of(cls, error: ValueError, kind: str, prefix: str = "") -> Self:
+        """A refusal as a remark, with its text and remedies where it has them, as a `Refusal` has."""
+        text = getattr(error, "text", str(error))
+        return cls(f"{prefix}{error}", kind, f"{prefix}{text}", getattr(error, "remedy", ()))
+
+    def after(self, prefix: str) -> Self:
+        """The same behind a prefix."""
+        return type(self)(f"{prefix}{self}", self.kind, f"{prefix}{self.text}", self.remedy)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Kind, text and remedies, as in files of JSON."""
+        remedy = [{"action": each.action, "what": each.what, "value": each.value} for each in self.remedy]
+        return {"kind": self.kind, "text": self.text, "remedy": remedy}
+
+
+def doubt(text: str, kind: str, *remedy: Remedy, together: bool = False) -> Remark:
+    """A remark whose sentence is its text and, in Python, its remedies: one of them, or all `together`."""
+    cures = (" and " if together else " or ").join(each.in_python for each in remedy)
+    return Remark(f"{text}{'; ' * bool(cures)}{cures}", kind, text, remedy)
+
+
+def refused(sentence: str, text: str, *remedy: Remedy) -> Refusal:
+    """The refusal of what is given, as a sentence for users of the library, and without names of Python."""
+    return Refusal(Remark(sentence, "refused", text, remedy))

@@ -1,0 +1,293 @@
+"""Base classes of results: quantities by name, entries, iteration; limits as data; names of the models.
+
+How a result is shown (text, tables, limits in words, plots) stands above the physics, and is imported
+when it is asked for.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
+
+import numpy as np
+
+from . import lazy
+from .check import no_attribute
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from numpy.typing import NDArray
+
+
+class Model(str):
+    """Name of a model, with the reason for choosing it in `reason`.
+
+    Examples
+    --------
+    >>> from mdr_core.base.results import CLOSED_FORM
+    >>> CLOSED_FORM == "closed form"
+    True
+    """
+
+    __slots__ = ("reason",)
+
+    def __new__(cls, name, reason):
+        model = super().__new__(cls, name)
+        model.reason = reason
+        return model
+
+    def __getnewargs__(self):
+        return str(self), self.reason
+
+
+CLOSED_FORM = Model(
+    "closed form",
+    "without viscosity, or infinitely slowly, the plastic depth is the only memory of the medium, and "
+    "every result is an integral over the live interval",
+)
+SCALAR_ODE = Model(
+    "scalar ODE",
+    "a single viscous impact obeys one scalar equation of motion, because elements are released from the "
+    "outside inward and do not come into contact again",
+)
+CREEP_LAW = Model(
+    "scalar ODE",
+    "while an indenter goes deeper, and while it recedes afterwards, its depth under a force obeys one "
+    "scalar equation, because no element that was released comes into contact again",
+)
+CHAIN = Model(
+    "chain",
+    "on a viscous path released elements may come into contact again while they relax, so that each "
+    "element has a memory of its own",
+)
+
+
+class Entries:
+    """Base class of dataclasses whose fields all have one entry, or one row, for each impact."""
+
+    def __getitem__(self, index: Any) -> Self:
+        return type(self)(**{field.name: getattr(self, field.name)[index] for field in fields(self)})
+
+
+@dataclass(frozen=True)
+class Limit:
+    """An assumption of the model, and how near a result is to its end; an entry of `result.limits`.
+
+    Attributes
+    ----------
+    what : str
+        Quantity that is bounded: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa,
+        "critical depth" below 0.1 nm, "Poisson ratio", "viscosity", "speed", "fast limit", "Tabor's
+        parameter", which must be larger than its bound, "facets" of samples with adhesion, for friction
+        "coupling" and "slip direction", and where elements stick "tolerance", "depth" over the elastic
+        compression at the turning point (d_c of a hardness q_c/a) and "mass" over the tangential one; with
+        a constant hardness "flow", the area of a contact that flows over that of the model; the length (m)
+        of a "jump" of a path given by force; and on a plate "edges", the contact time over that in which
+        waves are back from the nearest edge, and "thin", the contact radius over half of the thickness, or
+        6 thicknesses over the speed of shear waves and the contact time.
+    value, bound : float
+        Its largest value over all states, and the largest one for which the assumption is good.
+    exceeded : bool
+        Whether the value is larger than the bound.
+    sentence : str
+        The same in words, and a remedy.
+    concerns : str
+        "result", or the formula of the paper that is concerned while the result itself is exact.
+    severe : bool
+        Whether the result is only an estimate where the bound is exceeded.
+    """
+
+    what: str
+    value: float
+    bound: float
+    exceeded: bool
+    sentence: str
+    concerns: str = "result"
+    severe: bool = True
+
+    @property
+    def holds(self) -> bool:
+        """Whether the value is within the bound."""
+        return not self.exceeded
+
+    @property
+    def level(self) -> str:
+        """One word: "good", "note" where the result hardly changes, else "beyond"."""
+        if self.holds:
+            return "good"
+        return "beyond" if self.severe and self.concerns == "result" else "note"
+
+
+class Record:
+    """Base class of results with quantities by name, which are arrays of one shape.
+
+    A class of results gives the names below, and what a table says of its origin and limits. Others read
+    them by `Presentation` and `quantities_of`.
+    """
+
+    #: Names of all quantities, of those in its `repr`, and of the dimensions.
+    _quantities: ClassVar[tuple[str, ...]] = ()
+    _shown: ClassVar[tuple[str, ...]] = ()
+    _dimensions: ClassVar[tuple[str, ...]] = ("state",)
+
+    @property
+    def _name(self) -> str:
+        """The name under which it is shown."""
+        return type(self).__name__
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape that all quantities have: () for one state or impact."""
+        return np.shape(getattr(self, self._quantities[0]))
+
+    def __len__(self) -> int:
+        if not self.shape:
+            raise TypeError(f"this {self._name} is a single result and has no length; .shape is ()")
+        return self.shape[0]
+
+    def __bool__(self) -> bool:
+        return 0 not in self.shape
+
+    def __iter__(self) -> Iterator[Self]:
+        if not self.shape:
+            name = self._name
+            raise TypeError(f"this {name} is a single result: there is nothing to iterate over")
+        return (self[i] for i in range(self.shape[0]))
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name):
+            names = {*dir(type(self)), *type(self).__dataclass_fields__}
+            known = sorted(each for each in names if not each.startswith("_"))
+            raise no_attribute(f"this {self._name}", name, known)
+
+    def __array__(self, *_: Any, **__: Any) -> NoReturn:
+        raise TypeError(
+            f"a result ({self._name}) has many quantities and is not one array: take one, as in result."
+            f"{self._shown[0]}, or all by to_pandas() or to_xarray()"
+        )
+
+    def to_dict(self) -> "dict[str, float | NDArray[np.float64]]":
+        """All quantities by name, in SI units: floats, or arrays of one shape. Those that are None are not.
+
+        Examples
+        --------
+        >>> from mdr_core import Cone, Medium, indent
+        >>> indent(Cone(slope=1.0), Medium(E_star=1.0), [0.0, 1.0]).to_dict()["force"].round(4).tolist()
+        [0.0, 0.6366]
+        """
+        values = {name: getattr(self, name) for name in self._quantities}
+        values = {name: np.asarray(value) for name, value in values.items() if value is not None}
+        return {name: value if value.ndim else float(value) for name, value in values.items()}
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A table of all quantities in SI units, one row for each state or impact.
+
+        `attrs` has the model, the indenter and the medium, and "units" and "long_names" by the names of the
+        columns. Array-valued parameters of indenter and medium have columns of their own.
+        """
+        return lazy.report.table(self)
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """A dataset of all quantities, each with its `units`, `long_name` and symbol as attributes.
+
+        Prescribed quantities (depth, time, mass, speed, array-valued parameters) are coordinates.
+        """
+        return lazy.report.dataset(self)
+
+    def _source(self) -> Any:
+        """The result with the profile, the medium and the model; None where there is none."""
+        return None
+
+    def _limits(self) -> tuple[Limit, ...]:
+        """Limits of the model for this result."""
+        return ()
+
+    def __getitem__(self, index: Any) -> Self:
+        raise TypeError(f"this {self._name} is a single result: it has no entries")
+
+    def __repr__(self) -> str:
+        return lazy.report.text(self)
+
+    def _repr_html_(self) -> str:
+        return lazy.report.table_of_text(self)
+
+
+def quantities_of(kind: type[Record] | Record) -> tuple[str, ...]:
+    """Names of all quantities of a class of results, or of a result."""
+    return kind._quantities
+
+
+def check_single(result: Record, what: str) -> None:
+    """Refuses a result of several entries for something, `what`, that needs a single one."""
+    if result.shape:
+        raise ValueError(
+            f"{what} needs a single {Presentation(result).noun}, but this result has shape {result.shape}; "
+            f"select one first, as in result[-1].{what}(…)"
+        )
+
+
+@dataclass(frozen=True)
+class Presentation:
+    """What texts, tables and plots are told about a result beside its quantities."""
+
+    result: Record
+
+    @property
+    def name(self) -> str:
+        """The name under which it is shown, as "Impact"."""
+        return self.result._name
+
+    @property
+    def noun(self) -> str:
+        """Noun for one entry, as "state" or "instant"."""
+        last = self.dimensions[-1]
+        return "instant" if last == "time" else last
+
+    @property
+    def shown(self) -> tuple[str, ...]:
+        """Names of the quantities in its `repr`."""
+        return self.result._shown
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """Names of the dimensions that its class may have; the last one counts the states of a path."""
+        return self.result._dimensions
+
+    @property
+    def source(self) -> Any:
+        """The result with the profile, the medium and the model; None where there is none."""
+        return self.result._source()
+
+    @property
+    def limits(self) -> tuple[Limit, ...]:
+        """Limits of the model; found when they are asked for."""
+        return self.result._limits()
+
+
+class Result(Record):
+    """Base class of results of one profile on one medium, along a path, over time or of impacts."""
+
+    def plot(self, quantity: str = "force", over: str = "depth") -> Any:
+        """One quantity over another as HoloViews elements, by default the force–depth curve.
+
+        A path is shown in parts: loaded elastically, yielding, unloaded. Axes have names and units. Areas
+        of a force–depth curve are the plastic work of the path and what its last state stores.
+
+        Parameters
+        ----------
+        quantity, over : str
+            Names of two quantities of this result, as in `to_dict()`.
+
+        Raises
+        ------
+        ValueError
+            If a name is unknown, or the result has other than one dimension.
+        """
+        return lazy.plots.plot_curve(self, quantity, over)
+
+    def _source(self):
+        return self
+
+    def _limits(self):
+        return self.limits

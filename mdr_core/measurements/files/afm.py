@@ -1,0 +1,175 @@
+"""Read curves of AFM files by `afmformats`, and refuse other binary files."""
+
+import logging
+import re
+from contextlib import contextmanager
+from functools import partial
+
+import numpy as np
+
+from ...base import check
+from ...base.remark import Remark, Remedy, refused
+from ...show.report import imported
+from ..measured_curve import MODALITIES, MeasuredCurves
+from .cantilever import Cantilever
+from .curve import curve_of
+from .hdf5 import refuse_outside
+from .packed import refuse_large
+from .table import Table
+
+# Without a handler its errors would be printed beside the refusals.
+logging.getLogger("afmformats").addHandler(logging.NullHandler())
+
+#: Beginnings of the suffixes of AFM files that are no text.
+SUFFIXES = ".jpk", ".h5", ".hdf5", ".ibw", ".zip"
+#: Text that only files of AFM instruments have.
+_OF_AFM = re.compile(r"# afmformats |Force-Distance Curve|Device:\tChiaro")
+_GIVE = Remedy("give", "spring_constant"), Remedy("give", "sensitivity")
+#: What to do about errors of `afmformats`, in Python and in words.
+_CURES = {
+    "MissingMetaDataError": (
+        " Give spring_constant= (N/m) and sensitivity= (m/V)",
+        " Give the spring constant (N/m) and the sensitivity (m/V) of the cantilever",
+        _GIVE,
+    ),
+    "NotImplementedError": (
+        " Its forces are in N: give neither. minus_frame(1 / k) subtracts a deflection",
+        " Its forces are in N: give neither. A deflection is subtracted as a frame compliance of 1/k",
+        (),
+    ),
+    "UnicodeDecodeError": ("; if it is packed, unpack it and read its files",) * 2 + ((),),
+}
+#: What to export instead of files that are not read, by their suffixes.
+_EXPORTS = {
+    r"\.(spm|pfc|\d{3})": "NanoScope Analysis of Bruker: export the curve as ASCII text, with Ramp and "
+    "Deflection in nm and pN or nN",
+    r"\.(nid|nhf)": "Nanosurf's program: export depth or tip position and force as a text or CSV table",
+    r"\.tdms": "the program of the instrument, or Excel with the importer of NI: save depth, force and "
+    "time as a CSV table",
+    r"\.(h5|hdf5)": "the program that wrote it: save depth, force and time of a curve as a CSV table, with "
+    "units in its header",
+    r"\.(mdt)": "NT-MDT's program: export the curve as ASCII text",
+    r"\.(hap|fis)": "the program WIN-HCU of Fischer: export depth, force and time of a test as text",
+    r"\.(hys|tst|mss|nmd|msm)": "the instrument's program: export depth, force and time of a test as text "
+    "or Excel",
+    r"\.(ods|parquet|mat|npy|npz|pkl|opj|opju)": "the program that wrote it: save it as a CSV table with "
+    "names and units in its header",
+}
+_EXPORT = (
+    "the program of the instrument: export depth, force and time as a text or CSV table with units in its "
+    "header"
+)
+
+
+def refuse_binary(path, data):
+    """Refuse a file that is no text, with the export to make."""
+    suffix = path.suffix.lower()
+    known = next((text for pattern, text in _EXPORTS.items() if re.fullmatch(pattern, suffix)), None)
+    if known is None and not is_binary(data):
+        return
+    # Some programs give their text the suffix of their files.
+    if known is not None and not is_binary(data) and data.strip():
+        return
+    raise ValueError(
+        f"{path.name} is a binary file in a format that cannot be read. Use {known or _EXPORT}"
+    )
+
+
+def export_of(suffix):
+    """Sentence on what to export in place of a file with a suffix; empty if nothing is known."""
+    known = next((text for pattern, text in _EXPORTS.items() if re.fullmatch(pattern, suffix)), "")
+    return f". Use {known}" if known else ""
+
+
+def is_binary(data):
+    """Whether the bytes are no text: zeros, which only UTF-16 has, or other control characters."""
+    head = data[:4096]
+    marked = head.startswith((b"\xff\xfe", b"\xfe\xff"))
+    utf16 = marked or (b"\0" in head[:2] and head[:200].count(b"\0") > 0.4 * len(head[:200]))
+    if utf16:
+        return bool(re.search(rb"\0\0\0", head))
+    controls = sum(byte < 9 or 13 < byte < 32 for byte in head)
+    return b"\0" in data or controls > 0.02 * len(head)
+
+
+def is_afm_text(text):
+    """Whether a text is one that `afmformats` reads."""
+    return bool(_OF_AFM.search(text[:2000]))
+
+
+@contextmanager
+def _refused(errors, path):
+    """Errors of `afmformats` as ValueErrors that say what to give."""
+    try:
+        yield
+    # Most errors of this package are none that `except Exception` would handle.
+    except (Exception, errors.AFMFileFormatError, errors.MissingMetaDataError) as error:
+        export = export_of(path.suffix.lower())
+        sentence, words, remedy = _CURES.get(type(error).__name__, (export, export, ()))
+        text = f"{path.name} cannot be read by afmformats: {error}"
+        raise refused(text + sentence, text + words, *remedy) from None
+
+
+def from_afm(path, given):
+    """`MeasuredCurves` of a file that `afmformats` reads."""
+    refuse_large(path)
+    afmformats = imported("afmformats", f"reading {path.name}", '"mdr-core[afm]"')
+    if path.suffix.lower() in (".h5", ".hdf5"):
+        refuse_outside(path)
+    with _refused(afmformats.errors, path):
+        loaded, stiffness = _loaded(afmformats, path, given)
+        curves = sorted(loaded, key=lambda data: data.enum)
+        position = [[data.metadata.get(f"position {axis}", np.nan) for axis in "xy"] for data in curves]
+    position = None if np.isnan(position).any() else check.frozen(position)
+    makers = [partial(_afm_curve, afmformats.errors, data, stiffness) for data in curves]
+    return MeasuredCurves(path.name, position, makers)
+
+
+def _loaded(afmformats, path, given):
+    """Curves of a file, and the stiffness (N/m) that is used here, None where `afmformats` uses it.
+
+    Formats with forces in N take no constants. A height in them has the deflection in it, which a stiffness
+    subtracts, unless the file knows its own.
+    """
+    try:
+        return afmformats.load_data(path, meta_override=given), None
+    except NotImplementedError:
+        if list(given) != ["spring constant"]:
+            raise
+        loaded = afmformats.load_data(path)
+        if any("spring constant" in data.metadata or "tip position" in data for data in loaded):
+            raise
+        return loaded, given["spring constant"]
+
+
+def _deflection(head):
+    """A remark on a height of which the deflection is not subtracted."""
+    text = f"{head!r} includes the deflection force/stiffness: give "
+    return Remark(
+        f"{text}spring_constant= (N/m)",
+        "deflection",
+        f"{text}the spring constant of the cantilever (N/m)",
+        (Remedy("give", "spring_constant"),),
+    )
+
+
+def _afm_curve(errors, data, stiffness):
+    """`MeasuredCurve` of a curve in `afmformats`, approach and retract in the order of time."""
+    with _refused(errors, data.path):
+        heights = [head for head in ("tip position", "height (measured)", "height (piezo)") if head in data]
+        heads = [heights[0], "force", *(["time"] if "time" in data else [])]
+        values = {k: np.asarray(data[head], dtype=float) for k, head in enumerate(heads)}
+        number = np.asarray(data["segment"], dtype=int)
+        # Where all have one number the file does not know the segments.
+        segment = np.array(MODALITIES[data.modality])[number] if number.any() else None
+        stiffness = data.metadata.get("spring constant", stiffness)
+    table = Table(dict(enumerate(heads)), values, np.arange(1, number.size + 1), {}, {})
+    columns = {"depth": (0, "−m"), "force": (1, "N")} | ({"time": (2, "s")} if 2 in values else {})
+    # A height includes the deflection: without a stiffness it stays in it.
+    place = "piezo" if stiffness is not None and heads[0] != "tip position" else "depth"
+    columns = {place if each == "depth" else each: column for each, column in columns.items()}
+    remarks = [_deflection(heads[0])] * (stiffness is None and heads[0] != "tip position")
+    options = {"turn": False, "segment": segment, "remarks": remarks}
+    return curve_of(
+        table, data.path.name, columns, Cantilever(stiffness), "as afmformats reads them", **options
+    )

@@ -1,0 +1,36 @@
+"""Check that an HDF5 file has all of its data in itself."""
+
+from ...show.report import imported
+
+#: Most members of a file, and levels of its groups.
+_MEMBERS, _LEVELS = 1_000_000, 10
+
+
+def refuse_outside(path):
+    """Raise ValueError if a file names data in other files, before any data are read.
+
+    A dataset may be stored in any file that its reader may open, such as one with passwords; a link may
+    lead to another file, and a virtual dataset is made of others.
+    """
+    h5py = imported("h5py", f"reading {path.name}", '"mdr-core[afm]"')
+    count = 0
+
+    def fault(name, link):
+        """Return what is wrong with a member, which ends the walk; an error in it would be lost."""
+        nonlocal count
+        count += 1
+        if count > _MEMBERS or name.count("/") >= _LEVELS:
+            return f"more than {_MEMBERS} members or {_LEVELS} levels: save the curve as a CSV table"
+        outside = isinstance(link, h5py.ExternalLink)
+        if isinstance(link, h5py.HardLink) and isinstance(found := file[name], h5py.Dataset):
+            outside = found.external or found.is_virtual
+        text = f"{name[:80]!r} in another file, which is not read: copy the data into one file"
+        return text if outside else None
+
+    try:
+        with h5py.File(path, "r") as file:
+            found = file.visititems_links(fault)
+    except (OSError, RuntimeError, KeyError, SystemError) as error:
+        raise ValueError(f"{path.name} is a damaged HDF5 file: {error}") from None
+    if found:
+        raise ValueError(f"{path.name} has {found}")

@@ -1,0 +1,145 @@
+"""The question that is asked where a table does not say plainly what its columns are."""
+
+from typing import Any
+
+from ...base.remark import Remedy
+from .units import is_deflection, is_voltage
+
+#: Most columns that a question shows, and columns of words.
+_SHOWN, _WORDS = 14, 3
+#: Constants of a cantilever by the names of arguments, and their units.
+CONSTANTS = {"spring_constant": "N/m", "sensitivity": "m/V"}
+
+
+class NoCurve(ValueError):
+    """A table that is none of a curve, but of results or settings."""
+
+
+class UnknownColumns(ValueError):
+    """Raised for a table that does not say what its columns are, with a suggestion to confirm.
+
+    ``read_curves(path, **error.suggestion)`` reads the file as suggested, where that is right and complete.
+    A piezo or a deflection also needs ``spring_constant=``; the message says so.
+
+    Attributes
+    ----------
+    why : str
+        What is asked, in words. The message has the columns and a line to paste besides.
+    text : str
+        The same, and what to do, without names of Python.
+    remedy : tuple of Remedy
+        To give the columns, or the constants of a cantilever.
+    suggestion : dict
+        Arguments of `read_curves`, "columns" and perhaps "by", as far as they are known; empty if nothing
+        is. "?" stands for a unit that is open.
+    complete : bool
+        Whether the suggestion has both columns, and no unit is open.
+    table : Table
+        The heads and the numbers that are asked about; `table.name` is that of a sheet.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import mdr_core as mdr
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "run.csv"
+    ...     _ = path.write_text("Tiefe (nm);Kraft (mN)\\n0;0\\n10;1\\n20;4\\n", encoding="utf-8")
+    ...     try:
+    ...         curves = mdr.read_curves(path)
+    ...     except mdr.UnknownColumns as error:
+    ...         print(error.suggestion)
+    ...         curves = mdr.read_curves(path, **error.suggestion)
+    {'columns': {'depth': (0, 'nm'), 'force': (1, 'mN')}}
+    >>> print(round(curves[0].force.max(), 9))
+    0.004
+    """
+
+    def __init__(
+        self, why: str, table: Any, file: str = "", suggestion: dict[str, Any] | None = None,
+        *, hint: str = "", results: bool = False, text: str = "",
+        remedy: tuple[Remedy, ...] = (Remedy("give", "columns"),),
+    ):  # fmt: skip
+        self.why, self.table, self.file, self._hint = why, table, file, hint
+        self.text, self.remedy = text or why, remedy
+        self.suggestion: dict[str, Any] = suggestion or {}
+        #: Whether the rows are rather those of tests, one each, than samples of a curve.
+        self.results = results
+        columns = self.suggestion.get("columns") or {}
+        parts = columns if isinstance(columns, list) else [columns]
+        pairs = [column for part in parts for column in part.values() if column is not None]
+        self.complete = bool(pairs) and all(unit != "?" for _, unit in pairs)
+        sentence = f"{why}{hint}"
+        sentence += "" if sentence.endswith((".", "?")) else "."
+        place = ", ".join(filter(None, (file, table.name)))
+        known = not columns and not any(each.what == "columns" for each in remedy)
+        paste = "" if known else f"\n{_paste(self.suggestion)}"
+        super().__init__(f"{place}: {sentence}\n{_shown(table)}{paste}")
+
+    def __reduce__(self):
+        return _again, self._with(self.suggestion)
+
+    def elsewhere(self, suggestion: dict[str, Any]) -> "UnknownColumns":
+        """The same question with another suggestion."""
+        return _again(*self._with(suggestion))
+
+    def _with(self, suggestion):
+        given = {"hint": self._hint, "results": self.results, "text": self.text, "remedy": self.remedy}
+        return self.why, self.table, self.file, suggestion, given
+
+
+def _again(why, table, file, suggestion, given):
+    return UnknownColumns(why, table, file, suggestion, **given)
+
+
+def _shown(table):
+    """The heads with their first numbers, one line each."""
+    lines = []
+    if not any(table.heads.values()):
+        lines = [f"      {line.strip()[:90]}" for line in table.header[-5:]]
+    for k, head in list(table.heads.items())[:_SHOWN]:
+        numbers = ", ".join(f"{x:.5g}" for x in table.values[k][:3])
+        lines.append(f"  {k:>3}  {head[:40]!r:<42} {numbers}, …")
+    more = len(table.heads) - _SHOWN
+    if more > 0:
+        lines.append(f"  … and {more} more columns")
+    for key, cells in list(table.words.items())[:_WORDS]:
+        number, _, head = key.partition(" ")
+        lines.append(f"  {int(number) - 1:>3}  {head[:40]!r:<42} {', '.join(cells[:2])[:60]}, …")
+    return "\n".join(lines)
+
+
+def _paste(suggestion):
+    """The suggestion as it is pasted behind the name of the file."""
+    columns = suggestion.get("columns")
+    if not columns:
+        return 'Give the columns and their units: columns={"depth": (0, "nm"), "force": (1, "mN")}'
+    text = as_python(columns)
+    by = f", by={suggestion['by']!r}" if suggestion.get("by") is not None else ""
+    parts = columns if isinstance(columns, list) else [columns]
+    constants = [name for name in CONSTANTS if any(constants_needed(part)[name] for part in parts)]
+    text += by + "".join(f", {name}=…" for name in constants)
+    text += ", with " * bool(constants) + " and ".join(f"{name} in {CONSTANTS[name]}" for name in constants)
+    is_open = ', and replace "?" by the unit' if '"?"' in text else ""
+    return f"If this is right, give: columns={text}{is_open}"
+
+
+def constants_needed(columns):
+    """Whether columns need each constant of a cantilever: for a piezo, a deflection, or one in V."""
+    _, unit = columns.get("force") or (None, "N")
+    return {
+        "spring_constant": is_deflection(unit) or columns.get("piezo") is not None,
+        "sensitivity": is_voltage(unit),
+    }
+
+
+def as_python(columns):
+    """The value of `columns=` as it is written in a script."""
+    if isinstance(columns, list):
+        return f"[{', '.join(map(as_python, columns))}]"
+    pairs = []
+    for each, column in columns.items():
+        which, unit = column if column is not None else (None, "")
+        name = f'"{which}"' if isinstance(which, str) else which
+        pairs.append(f'"{each}": None' if column is None else f'"{each}": ({name}, "{unit}")')
+    return "{" + ", ".join(pairs) + "}"

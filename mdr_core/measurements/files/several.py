@@ -1,0 +1,168 @@
+"""Curves of several tables: of a text, or of the sheets of a workbook."""
+
+from contextlib import suppress
+from dataclasses import replace
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from ...base.remark import Remark, Remedy, refused
+from .columns import taken, told
+from .curve import curve_maker, curves_of
+from .formats import format_of
+from .question import NoCurve, UnknownColumns
+from .split import below, goes_on, known_depths
+from .table import read_tables
+
+
+def curves_of_text(text, file, options):
+    """Functions that make the curves of a text: of a known format, or of its tables."""
+    columns, by, given = options["columns"], options["by"], options["given"]
+    known = format_of(text)
+    if known and columns is None and by is None:
+        # What is not as the format has it, is read as a table.
+        with suppress(LookupError):
+            return known.curves(text, file, given)
+    tables = read_tables(known.body(text) if hasattr(known, "body") else text, file)
+    if len(tables) == 1:
+        return curves_of(tables[0], file, columns, by, given)
+    if by == "segments" and not isinstance(columns, list | tuple):
+        return _of_parts(tables, file, columns, given)
+    if by is None and columns is None:
+        _ask_for_segments(tables, file, given)
+    return curves_of_tables(tables, file, options)
+
+
+def curves_of_tables(tables, file, options):
+    """Functions that make the curves of tables, read plainly, as told, or asked about when they are taken.
+
+    What is told holds for the tables with the heads and units of the one that is asked about: the first one
+    that is not plain, or the first one that has the columns that are told by their names. Tables of results
+    and settings are left out, with a remark. Plain tables come first, so that an unclear one keeps its
+    number after its columns are given.
+    """
+    columns, by, given = options["columns"], options["by"], options["given"]
+    plain = [_tried(table, file, None, None, given) for table in tables]
+    found = plain
+    if columns is not None or by is not None:
+        key = _key_of_told(tables, plain, columns)
+        found = [
+            _tried(table, file, columns, by, given) if table.key == key else old
+            for table, old in zip(tables, plain, strict=True)
+        ]
+    left, makers, doubtful = [], [], []
+    wanted = [not _no_curve(outcome) for outcome in found]
+    first = _asked(plain)
+    for table, outcome, before in zip(tables, found, plain, strict=True):
+        if isinstance(outcome, list):
+            (makers if isinstance(before, list) else doubtful).extend(outcome)
+        elif any(wanted) and _no_curve(outcome):
+            left.append(Remark(f"{table.name!r} is left out, as it has no curve", "left out"))
+        else:
+            doubtful.append(partial(_refuse, _for_pasting(outcome, table, tables, first)))
+    makers += doubtful
+    if all(make.func is _refuse for make in makers):
+        makers[0]()
+    return [partial(_said, make, tuple(left)) for make in makers] if left else makers
+
+
+def _tried(table, file, columns, by, given):
+    """Functions that make the curves of a table, or the error that is raised instead."""
+    try:
+        return curves_of(table, file, columns, by, given)
+    except ValueError as error:
+        return error
+
+
+def _no_curve(outcome):
+    return isinstance(outcome, NoCurve) or getattr(outcome, "results", False)
+
+
+def _asked(plain):
+    """Number of the first table that is asked about, or of the first one with a curve."""
+    asked = (i for i, each in enumerate(plain) if isinstance(each, UnknownColumns) and not each.results)
+    return next(asked, next((i for i, each in enumerate(plain) if not _no_curve(each)), 0))
+
+
+def _key_of_told(tables, plain, columns):
+    """Heads and units of the tables for which `columns` and `by` are told."""
+    parts = columns if isinstance(columns, list | tuple) else [columns or {}]
+    cells = [c for part in parts if isinstance(part, dict) for c in part.values()]
+    names = [c[0] if isinstance(c, list | tuple) else c for c in cells]
+    for table in tables if any(isinstance(name, str) for name in names) else ():
+        # A name that a table does not have is of another one.
+        with suppress(ValueError):
+            for part in parts:
+                told(table, "", part)
+            return table.key
+    return tables[_asked(plain)].key
+
+
+def _for_pasting(error, table, tables, first):
+    """A question whose suggestion names the columns, if their numbers would be another table's."""
+    if not isinstance(error, UnknownColumns) or table.key == tables[first].key or not error.suggestion:
+        return error
+
+    def named(layout):
+        heads = list(table.heads.values())
+        own = {
+            each: (table.heads[c[0]], c[1]) if c and heads.count(table.heads[c[0]]) == 1 else c
+            for each, c in layout.items()
+        }
+        return own
+
+    columns = error.suggestion["columns"]
+    columns = [*map(named, columns)] if isinstance(columns, list) else named(columns)
+    return error.elsewhere(error.suggestion | {"columns": columns})
+
+
+def _refuse(error):
+    raise error
+
+
+def _said(make, left):
+    """A curve that also says which tables are left out."""
+    curve = make()
+    return replace(curve, remarks=(*curve.remarks, *left))
+
+
+def _ask_for_segments(tables, file, given):
+    """Ask where a further header follows while the depth goes on: parts of one curve."""
+    same = [table for table in tables if table.key == tables[0].key]
+    try:
+        layout = taken(tables[0], file, {}, given.get("spring_constant"))
+    except ValueError:
+        return
+    span = np.ptp(known_depths(same, layout))
+    if any(goes_on([before], table, layout, span) for before, table in pairwise(same)):
+        why = "a second header follows where the depth goes on"
+        hint = ": parts of one curve, or by='whole' for several"
+        raise UnknownColumns(why, tables[0], file, {"columns": layout, "by": "segments"}, hint=hint)
+
+
+def _of_parts(tables, file, columns, given):
+    """Functions that make curves whose parts have a header each: a part goes on where one ends."""
+    layout = told(tables[0], file, columns) if columns else taken(tables[0], file, {})
+    groups = [[tables[0]]]
+    span = np.ptp(known_depths([table for table in tables if table.key == tables[0].key], layout))
+    for table in tables[1:]:
+        same = table.key == tables[0].key
+        if same and goes_on(groups[-1], table, layout, span):
+            groups[-1].append(table)
+        elif same:
+            groups.append([table])
+    if all(len(group) == 1 for group in groups):
+        text = f"in {file}: no table goes on where one ends"
+        sentence = f"by = 'segments' joins nothing {text}"
+        raise refused(sentence, f"no parts of a curve are {text}", Remedy("give", "by"))
+    layout = {each: column for each, column in layout.items() if column}
+    label = f"{file}, curve {{}}" if len(groups) > 1 else file
+    options = {
+        "source": "as told" if columns else "by its header",
+        "asked": {"columns": layout, "by": "segments"},
+    }
+    return [
+        curve_maker(replace(below(group), name=""), label.format(i), layout, given, **options)
+        for i, group in enumerate(groups, 1)
+    ]

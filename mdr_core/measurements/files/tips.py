@@ -1,0 +1,43 @@
+"""Samples of a profile from a text file, as of a measured tip."""
+
+from pathlib import Path
+
+from ...base import check
+from ...solver.profiles.samples import LENGTHS
+from .table import decoded, read_table
+from .units import unit_named
+
+
+def samples_in(path, unit, limit):
+    """Radii and heights (m) in a text file, at most `limit` of them; `unit` if its header names none."""
+    return samples_of(decoded(Path(path).read_bytes()), str(path), unit, limit, "; or give unit='nm'")
+
+
+def samples_of(text, name, unit, limit, remedy=""):
+    """Radii and heights (m) in a text, at most `limit` of them; `unit` if its header names none.
+
+    `remedy` is what else the caller can do where no unit is named.
+    """
+    if unit is not None:
+        check.one_of("unit", unit, (*LENGTHS, "um"))
+    table = read_table(text, name, limit)
+    count = len(table.heads)
+    unnamed = count > 2 and bool(table.header) and not any(table.heads.values())
+    if table.odd or count < 2 or unnamed:
+        number = min(table.odd, default=table.lines[0])
+        expected = "two numbers r, z" if count <= 2 or unnamed else f"{count} numbers, r and z first"
+        line = f", found {table.odd[number].strip()!r:.60}" if table.odd else ""
+        raise ValueError(f"{name}, line {number}: expected {expected}{line}")
+    columns = list(table.heads)[:2]
+    named = [u if u in LENGTHS else None for u in map(table.unit, columns)]
+    if unit is None and None in named:
+        raise ValueError(
+            f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', out of "
+            f"{', '.join(LENGTHS)}{remedy}"
+        )
+    units = named if unit is None else [unit_named(unit)] * 2
+    if any(named) and named != units:
+        given = ", ".join(filter(None, named))
+        raise ValueError(f"{name}: unit={unit!r} was given, but the header says {given}")
+    r, z = map(table.values.get, columns)
+    return r * LENGTHS[units[0]], z * LENGTHS[units[1]]

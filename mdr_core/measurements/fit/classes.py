@@ -1,0 +1,146 @@
+"""Fits of each class of hardness alone, and the classes that a measured curve distinguishes.
+
+All classes have equally many parameters. With sums of squares S₁ and S₂ of their residuals and n
+independent samples, the likelihoods of two classes differ by the factor (S₂/S₁)^(n/2). n is the number of
+samples over the number in a block of correlated residuals.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...base import check
+from ...base.check import Array
+from ...solver.contact.integrals import integrals
+from ...solver.medium.medium import Medium
+from .depth_noise import turning_points_of
+from .parameters import BACKGROUND, CLASSES
+from .solution import problems, solved
+
+#: Least n ln(S₂/S₁) by which two classes are told apart: the square of three standard deviations.
+_TOLD = 9.0
+#: Least misfit of the best class, with correlated residuals, at which none describes the curve.
+_NONE = 0.01
+
+
+@dataclass(frozen=True, eq=False)
+class ClassFit:
+    """A fit with the hardness of one class alone, of one curve or of many.
+
+    `misfit` is the root mean square of the residuals over the largest force, or over the range of the force
+    where a part of the background (baseline, tilt, drag) is free; `medium` the fitted medium, and
+    `block_length` the number of samples over which residuals are correlated.
+    """
+
+    misfit: Array
+    medium: Medium
+    block_length: Array
+
+
+def fits_of_classes(profile, measured, held, depth_noise):
+    """`ClassFit` of each class that is modelled under the profile, by its letter.
+
+    `held` are the values (R,) of held parameters by name; constants of the hardness are not looked at.
+    """
+    others = {name: value for name, value in held.items() if name not in CLASSES.values()}
+    zero = np.zeros(len(measured.depth))
+    fits = {}
+    for letter, free in CLASSES.items():
+        if free == "hardness" and not integrals(profile).convex:
+            continue
+        constants = {name: zero for name in CLASSES.values() if name != free}
+        fits[letter] = _fit(profile, measured, others | constants, depth_noise)
+    return fits
+
+
+def _fit(profile, measured, held, depth_noise):
+    noise_known = measured.force_noise is not None or depth_noise > 0
+    solutions = [
+        solved(*problem, noise_known) for problem in problems(profile, measured, held, depth_noise)
+    ]
+    order = np.argsort(np.concatenate([solution.rows for solution in solutions]))
+    index = 0 if measured.single else slice(None)
+    media = [vars(solution.medium()) for solution in solutions]
+    misfits = [_misfit(solution) for solution in solutions]
+    lengths = [solution.block_length for solution in solutions]
+
+    def joined(groups):
+        return check.frozen(np.concatenate(groups)[order][index])
+
+    medium = {name: joined([each[name] for each in media]) for name in ("E_star", *CLASSES.values())}
+    return ClassFit(joined(misfits), Medium(**medium), joined(lengths))
+
+
+def _misfit(solution):
+    """Root mean square of the residuals over a force that is the same for all classes (R,)."""
+    curves, (values, _) = solution.curves, solution.values_and_states
+    force = curves.load[:, 0]
+    # A background that is fitted differs between the classes, and may be much larger than the record.
+    if not set(BACKGROUND) & set(curves.free):
+        force = np.max(np.abs(curves.force - curves.background(values)), axis=1)
+    return np.sqrt(np.mean(solution.deviation**2, axis=1)) / force
+
+
+@dataclass(frozen=True)
+class HardnessVerdict:
+    """Which class of hardness one curve has: `fit.class_of_hardness`.
+
+    `best` is the letter of the class with the least misfit, `possible` the letters of all classes that the
+    samples do not rule out, at three standard deviations, and `describes` whether the best class
+    describes the curve: its misfit is within 1 %, or its residuals are not correlated.
+    """
+
+    best: str
+    possible: tuple[str, ...]
+    describes: bool
+
+    def __str__(self) -> str:
+        letters = ") or (".join(self.possible)
+        answer = f"({letters})" if len(self.possible) == 1 else f"not determined, ({letters})"
+        return answer if self.describes else f"{answer}, none within {100 * _NONE:g} %"
+
+
+def class_of_hardness(fits, samples):
+    """`HardnessVerdict` of one curve of so many samples from its `fits_of_classes`."""
+    best = min(fits, key=lambda letter: fits[letter].misfit)
+    least = max(fits[best].misfit, np.finfo(float).tiny)
+    independent = samples / fits[best].block_length
+    possible = (
+        letter for letter, fit in fits.items() if independent * 2 * np.log(fit.misfit / least) < _TOLD
+    )
+    describes = fits[best].misfit <= _NONE or fits[best].block_length == 1
+    return HardnessVerdict(best, tuple(possible), bool(describes))
+
+
+def fit_again(fits, found, free):
+    """Row of a report on a fit of one class that the curve rules out; none where it does not.
+
+    `found` is the `HardnessVerdict`, `free` are the names of the free parameters.
+    """
+    taken = [letter for letter, name in CLASSES.items() if name in free]
+    if len(taken) != 1 or not set(taken) <= set(fits):
+        return
+    best = found.best
+    if taken[0] not in found.possible:
+        misfits = (f"{100 * fits[letter].misfit:.3g} %" for letter in (taken[0], best))
+        text = (
+            f"the curve is not of the fitted class ({taken[0]}): fit again with {CLASSES[best]}=None, "
+            f"class ({best}); misfit {' against '.join(misfits)}"
+        )
+        yield "another class", text
+
+
+def verdict(fits, found, free, depth, force, depth_noise):
+    """Rows of a report on one curve: misfits, classes that they do not rule out, and the assumptions.
+
+    `found` is the `HardnessVerdict`, `free` are the names of the free parameters.
+    """
+    misfits = ", ".join(f"({letter}) {100 * fit.misfit:.3g} %" for letter, fit in fits.items())
+    whole = "range of the force" if set(BACKGROUND) & set(free) else "largest force"
+    yield "class of hardness", f"{found}: misfit {misfits} of the {whole}"
+    turns, starts = turning_points_of(depth, force, depth_noise)
+    record = f"this record has {len(starts)} loadings" * (len(starts) > 1)
+    if not turns:
+        record = "this record has no unloading"
+    presumed = "a known tip that is not worn, one loading without pop-ins and one unloading"
+    yield "assumed for the class", f"{presumed}; {record}" if record else presumed

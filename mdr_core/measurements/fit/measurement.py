@@ -1,0 +1,111 @@
+"""Measured curves: their samples, those that are left out, and rates of depth from times."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ...base import check
+from ...solver.numerics.blocks import chunks
+
+#: A rate jumps where it changes by this share of the largest one, and so many times as much as two samples
+#: before and after.
+_JUMP, _ISOLATED = 0.03, 10.0
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """Measured curves, one a row (R, N), NaN where there is no sample; `lengths` are as given (R,).
+
+    `single` says whether one curve was given, `used` (R, N) which samples are fitted.
+    """
+
+    depth: np.ndarray
+    force: np.ndarray
+    time: np.ndarray | None
+    force_noise: np.ndarray | None
+    lengths: np.ndarray
+    single: bool
+
+    @cached_property
+    def used(self):
+        """Samples with finite values (R, N)."""
+        given = (self.depth, self.force, self.time, self.force_noise)
+        return np.logical_and.reduce([np.isfinite(values) for values in given if values is not None])
+
+    def rows(self, rows):
+        """The curves at some rows."""
+        values = (self.depth, self.force, self.time, self.force_noise, self.lengths)
+        return Measurement(*(v if v is None else v[rows] for v in values), single=self.single)
+
+    def groups(self):
+        """Yields curves with equally many samples: their numbers, depth, force, time and force noise.
+
+        They are arrays (R, N) of at most 64 curves; of times and noise that are not given None.
+        """
+        counts = np.count_nonzero(self.used, axis=1)
+        for count in np.unique(counts):
+            same = np.flatnonzero(counts == count)
+            for rows in (same[part] for part in chunks(same.size, 64)):
+                given = self.depth, self.force, self.time, self.force_noise
+                used = self.used[rows]
+                yield rows, *(v if v is None else v[rows][used].reshape(-1, count) for v in given)
+
+
+def measurement(depth, force, time, force_noise):
+    """A `Measurement` of arrays, one curve (N,) or many (R, N), or of lists of arrays, one each."""
+    given = {"depth": (depth, "m"), "force": (force, "N")}
+    given |= {} if time is None else {"time": (time, "s")}
+    values = {name: _padded(name, *pair) for name, pair in given.items()}
+    shapes = {name: array.shape for name, array in values.items()}
+    ndim = len(shapes["depth"])
+    lengths = [tuple(map(np.size, rows)) for rows, _ in given.values()] if ndim > 1 else [shapes["depth"]]
+    if len(set(shapes.values())) > 1 or len(set(lengths)) > 1 or not 1 <= ndim <= 2:
+        for i, counts in enumerate(zip(*lengths, strict=False) if ndim == 2 else ()):
+            if len(set(counts)) > 1:
+                shown = ", ".join(f"{name}[{i}] {n}" for name, n in zip(given, counts, strict=True))
+                raise ValueError(f"curve {i}: {shown} samples must be the same number")
+        shown = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+        raise ValueError(f"{shown} must have the same shape, (N,) for one curve or (R, N) for many")
+    if not values["depth"].size:
+        raise ValueError("depth and force are empty: a curve needs more samples than free parameters")
+    if force_noise is not None:
+        force_noise = _padded("force_noise", force_noise, "N")
+        check.common_shape("fit_indentation", depth=values["depth"], force_noise=force_noise)
+        check.refuse("force_noise", force_noise, force_noise <= 0, "must be positive", unit="N")
+        values["force_noise"] = np.broadcast_to(force_noise, shapes["depth"])
+    values = {name: np.atleast_2d(array) for name, array in values.items()}
+    values = {name: values.get(name) for name in ("depth", "force", "time", "force_noise")}
+    measured = Measurement(**values, lengths=np.array(lengths[0]), single=ndim == 1)
+    if not measured.used.any():
+        raise ValueError("no sample of depth and force has finite values of both")
+    return measured
+
+
+def _padded(name, values, unit):
+    """An array, or the arrays of a list with NaN up to the longest; NaN is a missing sample."""
+    if np.ma.is_masked(values):
+        raise ValueError(f"{name} has masked samples: leave them out of depth and force")
+    if not isinstance(values, list | tuple) or not any(map(np.ndim, values)):
+        return check.finite_array(name, values, unit=unit, most=check.LONGEST, missing=True)
+    rows = [_padded(f"{name}[{i}]", row, unit) for i, row in enumerate(values)]
+    if any(row.ndim != 1 for row in rows):
+        raise ValueError(f"{name} as a list must have one array (N,) for each curve")
+    padded = np.full((len(rows), max(row.size for row in rows)), np.nan)
+    for target, row in zip(padded, rows, strict=True):
+        target[: row.size] = row
+    return padded
+
+
+def rates(depth, time):
+    """Rates (m/s) by central differences, and at which samples they jump, arrays (R, N)."""
+    advice = "sort the samples, drop repeated times, and count time on from one segment to the next"
+    back = np.diff(time, prepend=-np.inf, axis=1) <= 0
+    check.refuse("time", time, back, "does not increase", unit="s", advice=advice)
+    rate = np.array([np.gradient(z, t) for z, t in zip(depth, time, strict=True)])
+    jump = np.zeros_like(depth)
+    jump[:, 1:-1] = np.abs(np.diff(np.diff(depth, axis=1) / np.diff(time, axis=1), axis=1))
+    around = np.pad(jump, ((0, 0), (2, 2)))
+    around = np.maximum(around[:, :-4], around[:, 4:])
+    largest = np.abs(rate).max(axis=1, keepdims=True)
+    return rate, (jump > _JUMP * largest) & (jump > _ISOLATED * around)

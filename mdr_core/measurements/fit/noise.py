@@ -1,0 +1,145 @@
+"""Tests whether residuals are independent noise of many samples, as standard errors assume.
+
+They may follow a curve, have outliers, be correlated over a large part of the curve, or be few.
+"""
+
+import numpy as np
+
+from ...base.remark import Remark, Remedy, doubt
+from ...show.quantities import engineering
+from ..common.errors import SIGNIFICANT, autocorrelation, roughness
+from .parameters import BACKGROUND, CLASSES, symbols
+
+#: Size of the residuals of the arithmetic, as a share of the range of force.
+_EXACT = 1e-7
+#: Root mean square of correlated residuals over the range of force above which the model does not fit, of
+#: elastic media and of those that yield, whose unloading is a small part of the curve.
+_MISFIT, _MISFIT_YIELDING = 0.05, 0.01
+#: Standard deviations from the neighbours, by their lower quartile, from which on a sample is an outlier,
+#: and least number of samples for it; the quartile of absolute normal deviations is 0.3186.
+_OUTLIER, _ENOUGH = 6.0, 30
+#: Modulus (Pa) from which on a medium that is not elastic is one that yields, rather than one that sticks,
+#: flows or is pressed in a liquid.
+_YIELDS = 1e9
+#: Number of samples in contact beyond that of the parameters from which on errors are known.
+_SPARE = 3
+#: Least noise of the depth that counts, as a share of the depth that is recovered on unloading, and share
+#: of the largest force above which that is: E* changes by about that share.
+_COUNTS, _LOADED = 1e-3, 0.05
+#: Number of blocks of correlated residuals below which the errors of a medium that yields are too small.
+_BLOCKS = 20
+
+
+def tests_of_noise(solved, i):
+    """Remarks on the residuals of curve i of a `Solution`."""
+    for check in (_jitter, _misfit, _few):
+        yield from check(solved, i)
+    size = np.sqrt(np.mean(solved.deviation[i] ** 2))
+    # Smaller ones are those of the arithmetic.
+    if size > _EXACT * solved.curves.load[i, 0]:
+        yield from _outliers(solved, i)
+        yield from _blocks(solved, i)
+
+
+def jitter(depth, force):
+    """Noise (m) of depths (N,) that go back and forth, and how often; 0 where the noise hardly counts.
+
+    Taken for real maxima of the depth it changes E* by about its share of the recovered depth. Below a
+    thousandth that is less than what the model misses.
+    """
+    steps, noise = np.diff(depth), roughness(depth[None])[0, 0]
+    reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
+    last = int(np.argmax(depth))
+    loaded = depth[last:][force[last:] > _LOADED * force.max()]
+    recovered = np.ptp(np.append(depth[last], loaded))
+    # On unloading alone the first depth is the largest.
+    unloading = depth[last] - depth[0] < 5 * noise
+    counts = reversals > max(4, 0.05 * steps.size) and noise > _COUNTS * recovered and not unloading
+    return (float(noise), reversals) if counts else (0.0, 0)
+
+
+def _jitter(solved, i):
+    """Depths that go back and forth although they are taken as exact: without memory they may."""
+    depth, curves = solved.curves.depth[i], solved.curves
+    noise, reversals = jitter(depth, curves.force[i])
+    if reversals and not (curves.depth_noise or curves.held_elastic):
+        text = (
+            f"the depth goes back and forth at {reversals} of {depth.size - 1} samples, and its noise of "
+            f"some {engineering(noise, 'm')} is taken for new largest depths: E* is biased"
+        )
+        yield doubt(text, "jitter", Remedy("give", "depth_noise", float(f"{noise:.2g}")))
+
+
+def _misfit(solved, i):
+    """Residuals that are not noise."""
+    curves, residual = solved.curves, solved.minimum.residual[i]
+    freedom, chi = solved.minimum.freedom, solved.reduced_chi_square[i]
+    correlation = autocorrelation(residual[solved.orders[i]])
+    size = np.sqrt(np.mean(solved.deviation[i] ** 2)) / curves.load[i, 0]
+    largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
+    if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
+        letters = [letter for letter, name in CLASSES.items() if name in curves.constants]
+        of_class = f"of class {' + '.join(f'({letter})' for letter in letters)}"
+        text = (
+            f"the residuals ({100 * size:.2g} % of the force) are systematic (correlation of neighbours "
+            f"{correlation:.2f}): the medium is not {'elastic' if curves.held_elastic else of_class}, or "
+            "the tip has another profile"
+        )
+        timeless = curves.time is None and not curves.adhesive
+        remedy = *_other_class(solved, i, letters), *[Remedy("give", "time")] * timeless
+        yield doubt(f"{text}{', or there is a drag or a drift' * timeless}", "misfit", *remedy)
+    elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > _EXACT:
+        text = (
+            f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
+            "larger than the given noise"
+        )
+        yield Remark(text, "noisy")
+
+
+def _other_class(solved, i, letters):
+    """The class of hardness to try in the place of one that does not fit."""
+    if solved.curves.held_elastic:
+        stiff = solved.values_and_states[0]["E_star"][i, 0] > _YIELDS
+        return (Remedy("class", "a"),) if stiff else ()
+    return (Remedy("class", "b" if letters == ["a"] else "a"),) if len(letters) == 1 else ()
+
+
+def _outliers(solved, i):
+    """Samples far from both neighbours that have most of the squares of the residuals."""
+    residual = solved.minimum.residual[i][~solved.curves.left_out[i]]
+    if residual.size < _ENOUGH or solved.curves.adhesive:
+        return
+    distance = residual[1:-1] - (residual[:-2] + residual[2:]) / 2
+    size = np.abs(distance)
+    far = size > _OUTLIER * np.quantile(size, 0.25) / 0.3186
+    if np.sum(distance[far] ** 2) > 0.5 * np.sum(residual**2):
+        # Of an outlier both neighbours are half as far from theirs.
+        single = np.count_nonzero(far & (size > 0.6 * size.max()))
+        text = (
+            f"about {single} of {residual.size} samples are outliers, more than {_OUTLIER:g} standard "
+            "deviations from their neighbours, and shift E* by more than its error: leave them out"
+        )
+        yield doubt(text, "outliers")
+
+
+def _blocks(solved, i):
+    """Noise that is correlated over a large part of a curve that yields."""
+    curves, length = solved.curves, solved.block_length[i]
+    count = curves.depth.shape[1]
+    elastic = curves.held_elastic or solved.elastic[i]
+    if 1 < length < count < _BLOCKS * length and not elastic:
+        text = (
+            f"neighbouring residuals are correlated over {length} of {count} samples: the standard errors "
+            "are estimated from few blocks, and may be too small by up to a factor of two"
+        )
+        yield Remark(text, "blocks")
+
+
+def _few(solved, i):
+    """Fewer samples in contact than standard errors need."""
+    _, state = solved.values_and_states
+    count = np.count_nonzero(state.live_interval.length[i] > 0)
+    names = [name for name in solved.curves.free if name not in BACKGROUND]
+    if names and count < len(names) + _SPARE:
+        text = f"only {count} samples are in contact for {symbols(names)}"
+        yield doubt(f"{text}: the standard errors are uncertain; record more", "few")

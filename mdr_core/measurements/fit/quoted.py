@@ -1,0 +1,166 @@
+"""The modulus to quote from a fit, and the results of Oliver and Pharr for the fitted curve."""
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from ...base.remark import Remark, Remedy
+from ...show.report import with_error
+from ..common.errors import SIGNIFICANT, roughness
+from ..unloading.creep import COUNTS
+from ..unloading.oliver_pharr import oliver_pharr
+from ..unloading.oliver_pharr_result import OliverPharr
+from .remarks import DOUBTS
+
+#: Remarks that say that a model which is elastic does not describe the curve, or that E* is not determined.
+NOT_COMPARABLE = DOUBTS | {"unloading", "outliers", "second minimum", "bound", "undetermined"}
+#: Remarks that say that the force is not that of the contact, whatever the medium.
+OF_THE_FORCE = {"units", "no contact", "tilt", "drag", "drift"}
+#: Share of the largest depth and force, below which those of the first sample are those of first contact.
+_SMALL = 1e-3
+#: Words for the sources of a number.
+_SOURCES = {"fit": "by the fit", "unloading": "by Oliver and Pharr"}
+
+
+@dataclass(frozen=True, repr=False)
+class Quoted:
+    """The modulus of one curve that is comparable with tables and other instruments: `fit.quoted`.
+
+    Of a medium that yields it is that of its unloading by Oliver and Pharr, of an elastic one that of the
+    fit. Where neither holds `value`, `standard_error` and `source` are None, `reason` says why, without
+    names of Python, and `kind` and `remedy` are as those of a `Remark`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mdr_core import Cone, Medium, fit_indentation, indent
+    >>> d = np.linspace(-20e-9, 60e-9, 100)
+    >>> F = indent(Cone(slope=0.3), Medium(E_star=10e9), d).force
+    >>> fit_indentation(Cone(slope=0.3), d, F, q_c=np.inf).quoted
+    E* 10 GPa by the fit: the medium is elastic
+    """
+
+    #: Name of the quantity, as among the parameters of a fit.
+    quantity: str
+    #: Value and standard error (Pa).
+    value: float | None
+    standard_error: float | None
+    #: Whether it is a parameter of the fit, or of the unloading alone.
+    source: Literal["fit", "unloading"] | None
+    #: Why it is this one, or why there is none.
+    reason: str
+    #: What is doubted where there is none, one of the kinds of remarks, and what one can do.
+    kind: str | None = None
+    remedy: tuple[Remedy, ...] = ()
+
+    def __repr__(self) -> str:
+        if self.source is None:
+            return f"no E*: {self.reason}"
+        value = with_error(self.value, self.standard_error, "Pa")
+        return f"E* {value} {_SOURCES[self.source]}: {self.reason}"
+
+
+def quoted(fit):
+    """`Quoted` of one curve."""
+    for kind in ("invalid", "deflection"):
+        if doubt := _doubt(fit, {kind}):
+            return _none(doubt)
+    if fit.medium.q_c == np.inf:
+        return _of_the_fit(fit)
+    result, contact = unloading(fit)
+    if result is None:
+        return _none(contact)
+    reason = f"the medium yields; first contact {contact.text}"
+    value, error = float(result.E_star), float(result.standard_errors["E_star"])
+    return Quoted("E_star", value, error, "unloading", reason)
+
+
+def _none(doubt):
+    """Nothing is to be quoted because of a doubt, a `Remark`."""
+    return Quoted("E_star", None, None, None, doubt.text, doubt.kind, doubt.remedy)
+
+
+def _of_the_fit(fit):
+    """`Quoted` of a medium that is elastic."""
+    if doubt := _doubt(fit, NOT_COMPARABLE):
+        model = next((name for _, name in _others(fit)), "elastic")
+        return _none(doubt.after(f"the {model} model does not fit: "))
+    if "E_star" not in fit.standard_errors:
+        return _none(Remark("E* is held", "held", remedy=(Remedy("free", "E_star"),)))
+    value, error = float(fit.medium.E_star), float(fit.standard_errors["E_star"])
+    if not error < np.inf:
+        return _none(
+            Remark("the data do not determine E*", "undetermined", remedy=(Remedy("hold", "E_star"),))
+        )
+    return Quoted("E_star", value, error, "fit", "the medium is elastic")
+
+
+def _others(fit):
+    """Yields parameters with which a medium is more than elastic and plastic, and what it is then."""
+    for name, text in (("eta", "viscous"), ("work_of_adhesion", "adhesive")):
+        if name in fit.standard_errors or getattr(fit.medium, name) > 0:
+            yield name, text
+
+
+def _doubt(fit, kinds):
+    """The first remark of some kinds, or None."""
+    return next((remark for remark in fit.remarks if remark.kind in kinds), None)
+
+
+def unloading(fit) -> tuple[OliverPharr | None, Remark]:
+    """Results of Oliver and Pharr for one fitted curve, and what first contact is; or None, and why.
+
+    First contact is that of the record where it begins in the air, or at its own zero; else that of the
+    fit, with its error, unless the model does not fit, of which its remarks tell.
+    """
+    for name, text in _others(fit):
+        text = f"the medium is {text}: its unloading does not follow a power law"
+        return None, Remark(text, "medium", remedy=(Remedy("hold", name, 0.0),))
+    # Beside a law of hardness that does not fit, these are of the law, not of the force.
+    if not _doubt(fit, {"misfit"}) and (doubt := _doubt(fit, OF_THE_FORCE)):
+        return None, doubt.after("the force of the contact is not known: ")
+    # Without background the measured force is that of the contact plus the residual.
+    force = fit.path.force + fit.residuals
+    try:
+        result = _evaluated(fit, fit.path.depth, force)
+        if "contact_point" in result.standard_errors:
+            return result, _first("is taken from the record, which begins in the air")
+        if "contact_point" not in fit.standard_errors:
+            return result, _first("is held")
+        if _begins_at_contact(fit.depth, force):
+            return _evaluated(fit, fit.depth, force), _first("is at depth 0")
+        if doubt := _doubt(fit, DOUBTS):
+            return None, doubt.after("the model does not fit, so that first contact is not known: ")
+        shift = fit.standard_errors["contact_point"]
+        shifted = _evaluated(fit, fit.path.depth + shift, force)
+    except ValueError as error:
+        return None, Remark.of(error, getattr(error, "kind", "no unloading"))
+    errors = {
+        name: np.hypot(error, getattr(shifted, name) - getattr(result, name))
+        for name, error in result.standard_errors.items()
+    }
+    return replace(result, standard_errors=errors), _first("is taken from the fit")
+
+
+def _first(text):
+    return Remark(text, "first contact")
+
+
+def _evaluated(fit, depth, force):
+    """Results of Oliver and Pharr, corrected for creep where times are given and it is not small."""
+    steps = np.zeros(1) if fit.time is None else np.diff(fit.time[np.isfinite(fit.time)])
+    increases = np.any(steps) and not np.any(steps < 0)
+    result = oliver_pharr(fit.profile, depth, force, time=fit.time if increases else None)
+    if increases and abs(result.stiffness / result.uncorrected.stiffness - 1) <= COUNTS:
+        return result.uncorrected
+    return result
+
+
+def _begins_at_contact(depth, force):
+    """Whether the first sample has no depth and no force within the noise, which is small."""
+    used = np.isfinite(depth) & np.isfinite(force)
+    depth, force = depth[used], force[used]
+    noise = SIGNIFICANT * roughness(force[None])[0, 0]
+    small = noise < _SMALL * force.max()
+    return small and abs(depth[0]) < _SMALL * np.ptp(depth) and abs(force[0]) <= _SMALL * force.max()

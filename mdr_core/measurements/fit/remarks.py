@@ -1,0 +1,301 @@
+"""Remarks on a fitted curve: parameters that the data do not determine, and deviations from the model."""
+
+from itertools import chain
+
+import numpy as np
+
+from ...base.remark import KINDS, Remark, Remedy, doubt
+from ...show.quantities import engineering
+from ..common.errors import SIGNIFICANT
+from ..common.materials import UNITS, is_modulus
+from ..common.order import out_of_order
+from ..common.tip import of_ideal_tip
+from .nested import nested_tests
+from .noise import tests_of_noise
+from .parameters import TOGETHER, symbols
+from .tension import of_tension
+
+#: Those that say that the model does not fit, and its first contact may be wrong by more than its error.
+DOUBTS = {
+    "units", "order", "no contact", "undetermined", "tilt", "drag", "drift", "misfit", "jitter", "noisy",
+}  # fmt: skip
+#: Those that take the parameters for those of a minimum, with the errors there.
+_OF_MINIMUM = {
+    "tilt", "drag", "drift", "misfit", "unloading", "outliers", "blocks", "loading", "vague", "rest",
+}  # fmt: skip
+#: Relative error of E* above which it counts as not determined, in general and from loading alone.
+_VAGUE, _VAGUE_LOADING = 0.2, 0.01
+#: Relative error of a parameter from which on it is not determined at all.
+_NOT_AT_ALL = 10.0
+#: Number of standard errors below which a constant of the hardness beside another one may be 0.
+_TOLD = 2.0
+#: Largest range of depth (m), and least share of the variance of the force that a contact explains.
+_LONGEST, _EXPLAINED = 1e-3, 0.75
+#: Least share that noise does not reach, and least ratio of the unexplained shares of other columns.
+_SEEN, _BENT = 0.25, 1.1
+#: Ranges of depth (m) that no indentation has, and that few have in soft media; the modulus (Pa) of the
+#: softest ones; contact radius over the radius of the tip beyond which its depths are in another unit.
+_ENORMOUS, _LARGE, _SOFTEST, _BEYOND_TIP = 1.0, 1e-2, 1e3, 10.0
+_SWAPPED, _NO_CONTACT = "depth and force are swapped", "this record shows no contact"
+#: Least distance of the pull-off from that of the model, as a share of the range of depth.
+_PULL_OFF = 0.02
+
+
+def remarks_of(solved):
+    """Remarks on each curve of a `Solution`."""
+    checks = (
+        _units, _order, _ambiguous, _adhesion, of_tension, _undetermined, tests_of_noise, nested_tests, _tip
+    )  # fmt: skip
+    return [_consistent([*chain(*(check(solved, i) for check in checks))]) for i in range(len(solved.rows))]
+
+
+def _consistent(remarks):
+    """Remarks on one curve without those that others make void."""
+    made = {remark.kind for remark in remarks}
+    void = set(_OF_MINIMUM) if "undetermined" in made else set()
+    # The contact may be hidden by what a linear parameter describes.
+    if {"tilt", "drag", "drift"} & (made - void):
+        void |= {"no contact"}
+    # These say more.
+    if {"misfit", "jitter"} & (made - void):
+        void |= {"unloading", "blocks"}
+    return [remark for remark in remarks if remark.kind not in void]
+
+
+def by_importance(remarks):
+    """Remarks in the order of `KINDS`."""
+    return tuple(sorted(remarks, key=lambda remark: list(KINDS).index(remark.kind)))
+
+
+def missing(used, samples):
+    """A remark on samples that are left out, if there are any."""
+    if used < samples:
+        text = f"{samples - used} of {samples} samples have no number and are left out"
+        yield Remark(text, "missing")
+
+
+def _units(solved, i):
+    """Columns that are swapped or of the other sign, records without contact, and data in other units."""
+    curves, values = solved.curves, solved.values_and_states[0]
+    if _is_enormous(solved, i):
+        reached = engineering(np.ptp(curves.depth[i]), "m")
+        text = f"the depths of this record extend over {reached}, too far for an indentation by this tip"
+        columns = curves.depth[i], curves.force[i]
+        swapped = _shares_of_others(*columns).get(_SWAPPED, 0.0) >= max(
+            _EXPLAINED, _share_of_contact(*columns)
+        )
+        yield _in_other_units(text, _SWAPPED if swapped else "")
+        return
+    if "E_star" not in curves.free:
+        return
+    depth, force, E = curves.depth[i], curves.force[i], values["E_star"][i, 0]
+    squares = np.sum(solved.deviation[i] ** 2)
+    variance = np.sum((force - force.mean()) ** 2)
+    line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
+    straight = not curves.adhesive and line < 1.1 * squares
+    plausible = is_modulus(E)
+    if plausible and not straight:
+        return
+    shares, own = _shares_of_others(depth, force), _share_of_contact(depth, force)
+    least = max(_EXPLAINED, own)
+    swapped = not plausible and shares.get(_SWAPPED, 0.0) >= least
+    cause = _SWAPPED if swapped else max(shares, key=shares.get)
+    other = shares[cause] >= least
+    unexplained = squares > (1 - _EXPLAINED) * variance
+    bent = other and 1 - own > _BENT * (1 - shares[cause])
+    if straight and (unexplained or bent):
+        text = "a straight line fits the force as well as an indentation"
+        if other:
+            yield _in_other_units(text, cause)
+        elif not _contact_is_seen(depth, force):
+            yield Remark(f"{text}: {_NO_CONTACT}", "no contact")
+    elif not plausible:
+        small = E < 1.0 and np.ptp(depth) < _LONGEST
+        text = f"no material has E* = {engineering(E, 'Pa')}"
+        if small and not swapped and not _contact_is_seen(depth, force):
+            yield Remark(f"{text}: {_NO_CONTACT}", "no contact")
+        else:
+            yield _in_other_units(text, _SWAPPED if swapped else "")
+
+
+def _in_other_units(text, cause):
+    """A remark on what no material has, because of columns or signs, or of units if no cause is known."""
+    if not cause:
+        return doubt(text, "units", *UNITS, together=True)
+    columns = (Remedy("give", "columns"),)
+    remedy = columns if cause == _SWAPPED else [each for each in UNITS if each.what in cause]
+    return Remark(f"{text}: {cause}", "units", remedy=remedy)
+
+
+def _is_enormous(solved, i):
+    """Whether depths are evidently in another unit than m."""
+    profile, values = solved.curves.profile, solved.values_and_states[0]
+    reached = float(np.ptp(solved.curves.depth[i]))
+    radius = profile.radius_at(np.minimum(reached, profile.known_depth))
+    soft = reached > _LARGE and values["E_star"][i, 0] < _SOFTEST
+    return reached > _ENORMOUS or soft or bool(radius > _BEYOND_TIP * profile.body_radius)
+
+
+def _order(solved, i):
+    """Samples that are not in the order in which they were measured, where the order matters."""
+    curves = solved.curves
+    if not curves.held_elastic or curves.adhesive:
+        yield from out_of_order(curves.depth[i], curves.force[i])
+
+
+def _shares_of_others(depth, force):
+    """`_share_of_contact` of the columns exchanged or with the other sign, by what is wrong then."""
+    others = {
+        "the depth has the wrong sign, it must be positive into the medium": (-depth, force),
+        "the force has the wrong sign, it must be positive in compression": (depth, -force),
+        "depth and force have the wrong sign": (-depth, -force),
+    }
+    if np.ptp(force) < _LONGEST and 1.0 < np.ptp(depth) / np.ptp(force) ** 2 < 1e13:
+        others[_SWAPPED] = force, depth
+    return {cause: _share_of_contact(*pair) for cause, pair in others.items()}
+
+
+def _pressed(depth):
+    """The loading, or the unloading of a record that begins near its largest depth, as a slice."""
+    top = int(np.argmax(depth))
+    return slice(top + 1) if top > depth.size / 4 else slice(top, None)
+
+
+def _share_of_contact(depth, force):
+    """Share of the variance of the force that grows as (depth − z₀)^(3/2), with the best z₀."""
+    part = _pressed(depth)
+    depth, deviation = depth[part], force[part] - force[part].mean()
+    points = np.linspace(depth.min(), depth.max(), 50)[:-1, None]
+    columns = np.maximum(depth - points, 0.0) ** 1.5
+    columns -= columns.mean(axis=1, keepdims=True)
+    product = np.maximum(columns @ deviation, 0.0)
+    power = np.sum(columns**2, axis=1) * (deviation @ deviation)
+    return np.max(product**2 / np.maximum(power, 1e-300))
+
+
+def _contact_is_seen(depth, force):
+    """Whether the force grows with depth, or varies more at large depths than elsewhere."""
+    part = _pressed(depth)
+    fifths = np.array_split(force[part][np.argsort(depth[part])], 5)
+    *others, last = (np.std(fifth) for fifth in fifths)
+    return _share_of_contact(depth, force) > _SEEN or last > 2 * np.median(others)
+
+
+def _ambiguous(solved, i):
+    """Parameters at a bound, a second minimum."""
+    curves, squares = solved.curves, np.sum(solved.minimum.residual[i] ** 2)
+    for name, at_bound in zip(curves.free, solved.minimum.at_bound[i], strict=False):
+        if at_bound and name == "eta":
+            yield doubt("the viscosity is 0 within the noise", "inviscid", Remedy("hold", name, 0.0))
+        elif at_bound and name not in TOGETHER:
+            yield doubt(f"{symbols([name])} is at the bound of its range", "bound", Remedy("hold", name))
+    noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
+    if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
+        rival = curves.rows([i]).values(solved.rival[[i]])
+        E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
+        remedy = Remedy("hold", "contact_point"), Remedy("hold", "E_star")
+        yield doubt(f"E* = {E} with contact at {point} fits about as well", "second minimum", *remedy)
+
+
+def _adhesion(solved, i):
+    """A work of adhesion that is hardly determined, and a pull-off at another depth than in the model."""
+    curves, (values, state) = solved.curves, solved.values_and_states
+    if not curves.adhesive:
+        return
+    force = (curves.force - curves.background(values))[i]
+    noise = curves.sigma[i] * (1.0 if solved.noise_known else np.sqrt(solved.reduced_chi_square[i]))
+    error = solved.errors(i).get("work_of_adhesion", 0.0)
+    if error > _VAGUE:
+        cause = "" if np.any(force < -SIGNIFICANT * noise) else "; there is no tension beyond the noise"
+        text = f"the forces in contact hardly determine w ({_share(error)}{cause})"
+        yield doubt(text, "adhesion", Remedy("hold", "work_of_adhesion", 0.0 if cause else None))
+    depth = curves.depth[i]
+    lost = [_depth_of_loss(depth, held) for held in (curves.contact[i], state.live_interval.length[i] > 0)]
+    if abs(lost[1] - lost[0]) > _PULL_OFF * np.ptp(depth):
+        measured, model, difference = (engineering(z, "m") for z in (*lost, lost[1] - lost[0]))
+        yield Remark(
+            f"contact is lost at z = {measured} in the data and at {model} in the model (difference "
+            f"{difference}): a soft cantilever loses contact earlier, or adhesion differs between "
+            "approach and retraction",
+            "contact",
+        )
+
+
+def _share(error):
+    """How well a number with a relative error is determined."""
+    return f"to {100 * error:.2g} %" if error < _NOT_AT_ALL else "not at all"
+
+
+def _depth_of_loss(depth, contact):
+    """Depth (m) at which contact is lost at last, that of the last sample where it is not lost."""
+    losses = np.flatnonzero(contact[:-1] & ~contact[1:])
+    return depth[losses[-1] + 1] if losses.size else depth[-1]
+
+
+def _undetermined(solved, i):
+    """Parameters that the data do not determine."""
+    _, state = solved.values_and_states
+    errors = solved.errors(i)
+    constants = [name for name in solved.curves.constants if name in errors]
+    if solved.elastic[i] and constants:
+        text = f"no yield is seen beyond the noise: {_hardest(solved, i)}"
+        yield doubt(text, "elastic", Remedy("class", "elastic"))
+        return
+    if len(constants) > 1:
+        yield from _constants(solved, i, constants)
+    unloading = np.count_nonzero((state.live_interval.length[i] > 0) & ~state.loading[i])
+    error, hold = errors.get("E_star", 0.0), Remedy("hold", "E_star")
+    if solved.curves.held_elastic:
+        if _VAGUE < error < np.inf:
+            yield doubt(f"the data hardly determine E* ({_share(error)})", "vague", hold)
+    elif unloading < 2 and error > _VAGUE_LOADING:
+        text = f"loading alone hardly determines E* ({_share(error)})"
+        yield doubt(text, "loading", Remedy("part", "all"), hold)
+    elif error > _VAGUE:
+        recovered = "critical depth" if solved.curves.constants == ("q_c",) else "recovered depth"
+        text = (
+            f"the unloading hardly determines E* ({_share(error)}): only {unloading} samples are within "
+            f"the {recovered} of {engineering(state.cap[i, -1], 'm')}"
+        )
+        yield doubt(text, "vague", hold)
+    for name, error in errors.items():
+        if error == np.inf and name != "work_of_adhesion":
+            text = (
+                f"the data do not determine {symbols([name])}, or a parameter correlated with it: the "
+                "residuals have no minimum, but a direction in which they do not change"
+            )
+            yield doubt(text, "undetermined", Remedy("hold", name))
+
+
+def _hardest(solved, i):
+    """The least hardness of a curve without yield, as text."""
+    values, state = solved.values_and_states
+    depth = state.depth[i].max()
+    if solved.curves.constants == ("q_c",):
+        least = engineering(depth, "m")
+        return f"q_c = ∞ means a critical depth above about {least}; press deeper"
+    radius = solved.curves.profile.radius_at(np.minimum(depth, solved.curves.profile.known_depth))
+    least = engineering(2 * values["E_star"][i, 0] * depth / (np.pi * radius), "Pa")
+    return f"the medium is elastic, and its hardness at the largest contact radius is above about {least}"
+
+
+def _constants(solved, i, names):
+    """A constant of the hardness beside others that may as well be 0."""
+    values = dict(zip(solved.curves.free, solved.minimum.x[i], strict=False))
+    shares = {name: values[name] / solved.errors(i)[name] for name in names}
+    name = min(shares, key=shares.get)
+    if shares[name] < _TOLD:
+        text = (
+            f"the data do not distinguish {symbols(names)}: {symbols([name])} is {shares[name]:.2g} times "
+            "its standard error"
+        )
+        yield doubt(text, "constants", Remedy("hold", name, 0.0))
+
+
+def _tip(solved, i):
+    """A small contact under an ideal tip, where first contact is held."""
+    curves, (_, state) = solved.curves, solved.values_and_states
+    largest = min(float(state.depth[i].max()), curves.profile.known_depth)
+    if "contact_point" not in curves.free and largest > 0:
+        height = curves.profile.height_at(curves.profile.radius_at(np.array([largest])))
+        yield from of_ideal_tip(curves.profile, height, held=True)

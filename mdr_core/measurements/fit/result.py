@@ -1,0 +1,373 @@
+"""Results of `fit_indentation`: parameters, states and residuals of all curves."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...base import check
+from ...base.check import Array, ArrayLike
+from ...base.remark import Remark
+from ...base.results import check_single
+from ...show.quantities import engineering
+from ...show.report import with_error
+from ...solver.contact.indentation import Indentation
+from ...solver.contact.live_interval import LiveInterval
+from ...solver.medium.medium import Medium
+from ..unloading.oliver_pharr_result import OLIVER_PHARR
+from .classes import ClassFit, HardnessVerdict, class_of_hardness, fit_again, fits_of_classes, verdict
+from .dataset import SAMPLES, dataset_of
+from .figures import plot_fit
+from .measurement import Measurement
+from .parameters import BACKGROUND, CLASSES, MEDIUM, PARAMETERS
+from .quoted import Quoted, quoted, unloading
+from .remarks import by_importance, missing, remarks_of
+from .report import Fit
+
+if TYPE_CHECKING:
+    import xarray
+
+#: Remarks of which a curve may have several, one for each parameter.
+_OF_PARAMETERS = {"bound", "undetermined"}
+#: Fields with one entry per curve; those with one per sample are `SAMPLES`.
+_OF_CURVES = ("contact_point", *BACKGROUND, "covariance", "reduced_chi_square", "block_length")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class IndentationFit(Fit):
+    """Media fitted to one or many curves, a `Fit` returned by `fit_indentation`; `fit[i]` is one curve's.
+
+    Parameters and errors are arrays (R,) for many curves, `covariance` is (R, P, P). q_c is infinite where
+    nothing has yielded. Residuals are those of the force (N) at the measured depth. Curves of different
+    numbers of samples are filled with NaN up to the longest; `fit[i]` is not. Curves that are `invalid`
+    have NaN for what was not fitted.
+    """
+
+    #: Measured depth (m), force (N), and time (s), None where it was not given.
+    depth: Array
+    force: Array
+    time: Array | None
+    #: Fitted or held values (m, N, N/m, N·s/m).
+    contact_point: Array
+    baseline: Array
+    tilt: Array
+    drag: Array
+    #: Sum of squares in units of the noise over the degrees of freedom, NaN for noise from the residuals.
+    reduced_chi_square: Array
+    #: Number of samples in a block of the standard errors, 1 where residuals are not correlated.
+    block_length: Array
+    #: Standard deviation of the force (N), given or estimated; of each sample if an array was given.
+    force_noise: Array
+    #: Standard deviation of the measured depth (m), as given.
+    depth_noise: float
+    #: States of the fitted model, with depth noise at the most probable depths; where a sample is left out,
+    #: that of the sample before.
+    path: Indentation
+    #: Remarks on each curve, those of its file first and those of the fit, and numbers of samples given.
+    _read: tuple[tuple[Remark, ...], ...]
+    _remarks: tuple[tuple[Remark, ...], ...]
+    _lengths: np.ndarray
+
+    _names = tuple(PARAMETERS)
+    _zero_unless_asked = (*CLASSES.values(), "eta", "tilt", "drag", "work_of_adhesion")
+    _dimensions = ("curve",)
+
+    @property
+    def residual_noise(self) -> Array:
+        """Standard deviation (N) of the residuals by the noise of force and depth, √(σ_F² + (S σ_d)²)."""
+        stiffness = np.asarray(self.path.stiffness)
+        return np.hypot(self._noise_of_samples(), stiffness * self.depth_noise)
+
+    @property
+    def _yields(self):
+        return not np.all(np.isinf(self.medium.q_c))
+
+    def _noise_of_samples(self):
+        """Standard deviation (N) of the force, of an array that broadcasts with the samples."""
+        noise = np.asarray(self.force_noise)
+        return noise if noise.ndim > len(self.shape) else noise[..., None]
+
+    def __getitem__(self, index: Any) -> "IndentationFit":
+        if not self.shape:
+            return super().__getitem__(index)
+        curves = np.arange(len(self))[index]
+        if curves.ndim > 1:
+            raise IndexError("a fit has one axis, the curves: its index is a number, a slice or a list")
+        index = index if isinstance(index, slice) else curves
+        longest = np.max(self._lengths[index], initial=0)
+        noise = self.force_noise[index]
+        samples = {name: getattr(self, name) for name in SAMPLES}
+        return replace(
+            self,
+            medium=_medium(self.medium.entries(index)),
+            standard_errors={name: error[index] for name, error in self.standard_errors.items()},
+            path=self.path[index][..., :longest],
+            force_noise=noise[..., :longest] if self.force_noise.ndim > 1 else noise,
+            _read=tuple(self._read[i] for i in curves.ravel()),
+            _remarks=tuple(self._remarks[i] for i in curves.ravel()),
+            _lengths=self._lengths[index],
+            **{name: getattr(self, name)[index] for name in _OF_CURVES},
+            **{name: v if v is None else v[index][..., :longest] for name, v in samples.items()},
+        )
+
+    @property
+    def remarks(self) -> tuple[Remark, ...]:
+        """Remarks, those of the file first, then of the fit, the most important first.
+
+        Of many curves one of each kind, with the number of the first one that has it, and how many have it;
+        `text` and `remedy` are those of that curve. Those of a single one are ``fit[i].remarks``.
+        """
+        if not self.shape:
+            return (*self._read[0], *self._remarks[0])
+        return (*_of_many(self._read), *by_importance(_of_many(self._remarks)))
+
+    @property
+    def invalid(self) -> dict[int, Remark]:
+        """Reasons why curves were not fitted, by their numbers; see `fit_indentation`."""
+        return {
+            i: remark
+            for i, remarks in enumerate(self._remarks)
+            for remark in remarks
+            if remark.kind == "invalid"
+        }
+
+    def _refuse_invalid(self, what):
+        for i, reason in self.invalid.items():
+            raise ValueError(
+                f"{what}: curve {i} was {reason}; select the fitted curves, as in fit[numbers]"
+            )
+
+    @cached_property
+    def classes(self) -> dict[str, ClassFit]:
+        """Fits with the hardness of each class alone by its letter, "a", "b", "c"; found when first read.
+
+        What else is held or free is as in this fit. Empty for an elastic medium, and with viscosity.
+        `class_of_hardness` has how far the misfits tell the classes apart.
+        """
+        self._refuse_invalid("classes")
+        if not self._yields or "eta" in self.standard_errors or np.any(self.medium.eta):
+            return {}
+        # Noise from the residuals is NaN in χ²: it was not known.
+        known = not np.isnan(self.reduced_chi_square).any()
+        noise = np.broadcast_to(self._noise_of_samples(), self.depth.shape) if known else None
+        samples = (self.depth, self.force, self.time, noise)
+        measured = Measurement(
+            *(None if values is None else np.atleast_2d(values) for values in samples),
+            np.atleast_1d(self._lengths),
+            not self.shape,
+        )
+        values = {name: v for name, v in self._values().items() if name not in self.standard_errors}
+        held = {name: np.atleast_1d(value) for name, value in values.items()}
+        return fits_of_classes(self.profile, measured, held, self.depth_noise)
+
+    @property
+    def class_of_hardness(self) -> HardnessVerdict | None:
+        """The class of hardness that one curve shows, None where there are no `classes`."""
+        check_single(self, "class_of_hardness")
+        if not self.classes:
+            return None
+        return class_of_hardness(self.classes, np.count_nonzero(np.isfinite(self.residuals)))
+
+    @cached_property
+    def quoted(self) -> Quoted:
+        """The modulus of one curve that is to be quoted, and of what it is; found when first read."""
+        check_single(self, "quoted")
+        return quoted(self)
+
+    def plot(self) -> Any:
+        """Measured and fitted force over depth, and the residuals, of one curve as HoloViews elements.
+
+        The band of the residuals is one standard deviation of their noise, √(σ_F² + (S σ_d)²), S the
+        stiffness. Drawn are measured depths and forces, with offset and background.
+        """
+        check_single(self, "plot")
+        self._refuse_invalid("plot")
+        return plot_fit(self)
+
+    def to_xarray(self, position: ArrayLike | None = None) -> "xarray.Dataset":
+        """Everything as a dataset: parameters, errors and covariance, and of each sample what was measured,
+        the model and the residual; `attrs` has the remarks, and how many curves are `invalid`, and why.
+
+        Parameters
+        ----------
+        position : array_like, optional
+            Positions (m) of the curves of a map on the surface, (R, 2): the coordinates x and y.
+        """
+        return dataset_of(self, position)
+
+    def _text(self, name, value, unit):
+        # Whichever constant was fitted, an elastic medium has q_c = ∞, and 0 of the others.
+        fitted = set(self.standard_errors) & set(CLASSES.values())
+        if fitted and name in CLASSES.values() and not self.shape and self.medium.q_c == np.inf:
+            return "∞"
+        return super()._text(name, value, unit)
+
+    def _hardness(self):
+        """Rows on the hardness of one curve that yields: its class, and the pressures."""
+        if classes := self.classes:
+            used = np.isfinite(self.residuals)
+            samples = self.depth[used], self.force[used], self.depth_noise
+            yield from verdict(classes, self.class_of_hardness, self.standard_errors, *samples)
+        top = int(np.argmax(self.path.force))
+        if self._yields and self.path.force[top] > 0:
+            a, mean = self.path.contact_radius[top], self.path.mean_pressure[top]
+            yielded = engineering(self.medium.hardness_at(a), "Pa")
+            text = f"{engineering(mean, 'Pa')} over the model's a = {engineering(a, 'm')}"
+            yield "mean pressure F/(π a²)", f"{text}, {yielded} where all of it yields"
+
+    def _comparable(self):
+        """Rows on the number to quote of one curve, another law to fit, and why the model's E* differs."""
+        if self.shape or self.invalid:
+            return
+        quote = self.quoted
+        if quote.source is None:
+            yield "to quote", f"no E*: {quote.reason}"
+        else:
+            value = with_error(quote.value, quote.standard_error, "Pa")
+            yield "to quote", f"E* {value} of the {quote.source}: {quote.reason}"
+        if classes := self.classes:
+            yield from fit_again(classes, self.class_of_hardness, self.standard_errors)
+        if quote.source == "unloading":
+            yield (
+                "the model's",
+                "its contact sinks in elastically, and is smaller: E* and hardness are larger",
+            )
+
+    def _unloading(self):
+        """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
+        result, _ = unloading(self)
+        if result is None or {"misfit", "jitter", "noisy"} & {remark.kind for remark in self.remarks}:
+            return
+        errors = result.standard_errors
+        texts = [
+            f"{OLIVER_PHARR[name].symbol} {with_error(getattr(result, name), errors[name], 'Pa')}"
+            for name in ("E_star", "hardness")
+        ]
+        force = self.path.force + self.residuals
+        a = engineering(np.sqrt(np.nanmax(force) / (np.pi * result.hardness)), "m")
+        yield "Oliver and Pharr", f"{', '.join(texts)} over a = {a}"
+
+    def _limits(self):
+        return self.path.limits
+
+    def _quality(self):
+        for label, values, unit in (
+            ("force noise σ_F", self.force_noise, "N"),
+            ("reduced χ²", self.reduced_chi_square, ""),
+        ):
+            if np.isfinite(values).any():
+                yield label, engineering(np.asarray(values)[np.isfinite(values)], unit)
+        if not self.shape and not self.invalid:
+            yield from self._hardness()
+            yield from self._unloading()
+        if np.any(self.block_length > 1):
+            lengths = engineering(self.block_length[~np.isnan(self.block_length)], "")
+            yield "standard errors", f"block-wise (Newey–West), blocks of {lengths} samples"
+
+
+def _of_many(remarks):
+    """One remark of each kind, of the first curve that has it, with their number in its sentence."""
+    same = {}
+    for i, own in enumerate(remarks):
+        for remark in own:
+            # Two parameters at their bounds are two remarks.
+            named = remark.remedy if remark.kind in _OF_PARAMETERS else ()
+            same.setdefault((remark.kind, named), {}).setdefault(i, remark)
+    for found in same.values():
+        i, first = next(iter(found.items()))
+        sentence = f"curve {i} ({len(found)} of {len(remarks)} curves): {first}"
+        yield Remark(sentence, first.kind, first.text, first.remedy)
+
+
+class _MediumOrNone(Medium):
+    """A medium whose parameters are NaN where a curve was not fitted."""
+
+    def __post_init__(self):
+        """Takes any numbers."""
+
+
+def _medium(medium):
+    """A medium without the class for NaN where it has none."""
+    return medium if np.isnan(medium.E_star).any() else Medium(**medium.__getstate__())
+
+
+def collected(profile, measured, depth_noise, solutions, reasons, read):
+    """One result of the solutions, in the order of the curves; `reasons` are those of invalid ones.
+
+    `read` are the remarks of curves that were read from files.
+    """
+    count, free = len(measured.depth), solutions[0].curves.free
+    rows = np.concatenate([solution.rows for solution in solutions])
+    order = np.argsort(rows)
+    groups = [_arrays(solution, measured.used[solution.rows]) for solution in solutions]
+    joined = {name: np.concatenate([group[name] for group in groups])[order] for name in groups[0]}
+    if reasons:
+        joined = {name: _among(values, rows[order], count, name in free) for name, values in joined.items()}
+    of_fits = [each for solution in solutions for each in remarks_of(solution)]
+    remarks = [(reasons[i].after("not fitted: "),) if i in reasons else () for i in range(count)]
+    for i, own in zip(rows.tolist(), of_fits, strict=True):
+        omitted = missing(np.count_nonzero(measured.used[i]), measured.lengths[i])
+        remarks[i] = by_importance((*own, *omitted))
+    medium = _medium(_MediumOrNone(**{name: joined.pop(name) for name in MEDIUM}))
+    ends = (joined.pop(name) for name in ("lower", "upper", "live_depth"))
+    states = joined.pop("path_depth"), LiveInterval(*ends), joined.pop("uniform_load")
+    path = Indentation(profile, medium.entries(np.s_[:, None]), *states, bool(np.any(medium.eta)))
+    joined |= {name: getattr(measured, name) for name in ("depth", "force", "time")}
+    if measured.force_noise is not None:
+        joined["force_noise"] = measured.force_noise
+    errors = np.sqrt(np.einsum("rpp->rp", joined["covariance"]))
+    fit = IndentationFit(
+        profile=profile,
+        medium=medium,
+        path=path,
+        depth_noise=depth_noise,
+        standard_errors={name: check.frozen(errors[:, i]) for i, name in enumerate(free)},
+        **{name: value if value is None else check.frozen(value) for name, value in joined.items()},
+        _read=tuple(map(tuple, read)) or ((),) * count,
+        _remarks=tuple(remarks),
+        _lengths=measured.lengths,
+    )
+    return fit[0] if measured.single else fit
+
+
+def _among(values, fitted, count, free):
+    """Values of the fitted curves among all: others have a number that is held for all, or NaN."""
+    same = not free and values.ndim == 1 and np.all(values == values[0])
+    among = np.full((count, *values.shape[1:]), values[0] if same else np.nan)
+    among[fitted] = values
+    return among
+
+
+def _arrays(solution, used):
+    """Arrays of a `Solution` by name, one row a curve, one column a sample that was given."""
+    curves, (values, state) = solution.curves, solution.values_and_states
+    units = curves.units(values)[:, : len(curves.free)]
+    # The path follows the model also where samples have no weight, and the search of a curve with adhesion
+    # has contact where the data have it.
+    residuals = np.where(
+        curves.left_out | curves.adhesive,
+        curves.force - curves.background(values) - state.force,
+        solution.deviation,
+    )
+    samples = {
+        "residuals": residuals,
+        "path_depth": state.depth,
+        "lower": state.live_interval.lower,
+        "upper": state.live_interval.upper,
+        "live_depth": state.live_interval.length,
+        "uniform_load": state.uniform_load,
+    }
+    # A sample that is left out has the state of the one before.
+    before = np.maximum(np.cumsum(used, axis=1) - 1, 0)
+    samples = {name: np.take_along_axis(array, before, axis=1) for name, array in samples.items()}
+    samples["residuals"][~used] = np.nan
+    chi, sigma = solution.reduced_chi_square, np.median(curves.sigma, axis=1)
+    parameters = {name: np.broadcast_to(values[name], (len(chi), 1))[:, 0] for name in PARAMETERS}
+    of_curves = {
+        "covariance": solution.covariance * (units[:, :, None] * units[:, None, :]),
+        "reduced_chi_square": chi if solution.noise_known else np.full_like(chi, np.nan),
+        "force_noise": sigma if solution.noise_known else sigma * np.sqrt(chi),
+        "block_length": solution.block_length,
+    }
+    return parameters | samples | of_curves

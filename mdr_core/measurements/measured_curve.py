@@ -1,0 +1,279 @@
+"""Measured force–depth curves, and corrections of their depth before a fit."""
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Self, overload
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from ..base.check import Array, frozen, number, positive_number
+from ..base.remark import Remark
+from ..base.results import Record
+from ..show.quantities import engineering
+from ..show.report import rows
+from ..show.units import KINDS
+
+#: Shares of the ranges of depth and force: a turn of the depth; changes in a hold, and its force above the
+#: smallest one. Share of the samples, and least number of them, that a hold has.
+_TURN, _STILL, _PRESSED, _HOLD, _FEW = 0.05, 0.01, 0.05, 0.02, 10
+#: Mean force of a hold that tells the drift, at most, as a share of the largest force.
+_LOW = 0.2
+#: Samples of a hold between which slopes are taken.
+_SLOPES = 500
+
+
+#: Words in the names of segments; that of the hold first, as "unload" has "load" in it.
+_SEGMENTS = {
+    "hold": "hold|dwell|pause|halte",
+    "retract": "unload|retract|withdraw|entlast",
+    "approach": "load|approach|extend|belast",
+}
+#: Segments of the modalities of `afmformats` by their numbers.
+MODALITIES = {
+    "force-distance": ["approach", "retract"],
+    "creep-compliance": ["approach", "hold", "retract"],
+    "stress-relaxation": ["hold", "approach", "hold", "retract"],
+}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MeasuredCurve(Record):
+    """A measured curve, returned by `read_curve`, and how its file was understood.
+
+    `approach` and `retract` are parts of it. A drift and frame compliance are subtracted from the
+    depth by `minus_drift` and `minus_frame`, each of which returns a new curve.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import mdr_core as mdr
+    >>> rows = ["t (s), h (nm), F (mN)", "0, 0, 0", "1, 20, 4", "2, 21, 4", "3, 22, 4", "4, 5, 0"]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "run.csv"
+    ...     _ = path.write_text("\\n".join(rows), encoding="utf-8")
+    ...     curve = mdr.read_curve(path)
+    >>> rate = curve.drift(slice(1, 4))  # m/s, of the samples of a hold
+    >>> (1e9 * curve.minus_drift(rate).minus_frame(1e-7).depth).round(6).tolist()
+    [0.0, 18.6, 18.6, 18.6, 1.0]
+    """
+
+    #: Name of the file.
+    name: str
+    #: Stiffness of the cantilever (N/m) and position on the sample (m, m), None where they are not known.
+    spring_constant: float | None
+    position: Array | None
+    #: Number of the column in the file, from 0 on, and unit of each quantity, "−nm" for a reversed sign;
+    #: "piezo" in the place of "depth" for the position of one. `read_curve(path, columns=…)` takes them.
+    columns: dict[str, tuple[int, str] | None]
+    #: Reversed signs, corrections, and lines and columns that are left out.
+    remarks: tuple[Remark, ...]
+    table: Any
+    #: Depth (m), force (N) and time (s), None for a time that the file does not have.
+    depth: Array
+    force: Array
+    time: Array | None
+    #: Contact stiffness dF/dh (N/m) where the instrument measures it, as by an oscillation on top of the
+    #: loading (continuous stiffness measurement), NaN where a cell has none; None without such a column.
+    stiffness: Array | None
+    #: "approach", "hold" or "retract" for each sample, as the file names them. Where it does not, approach
+    #: and retract end where the depth turns round by more than 5 % of its range, and in a hold depth and
+    #: force stay within 1 % of their ranges, for 2 % of the samples or more.
+    segment: NDArray[np.str_]
+    #: How the columns are known: "by its header", "as told", or by a format.
+    source: str = ""
+
+    _shown = ("depth", "force")
+    _dimensions = ("sample",)
+
+    @property
+    def _quantities(self):  # type: ignore[override]
+        names = ("depth" if name == "piezo" else name for name in self.columns)
+        return tuple(name for name in names if getattr(self, name) is not None)
+
+    def _rows(self):
+        yield "file", self.name
+        if self.source:
+            yield "columns", self.source
+        for name, known in self.columns.items():
+            if known is None:
+                continue
+            column, unit = known
+            text = f"{self.table.heads[column] or f'column {column + 1}'!r} in {unit}"
+            if name == "piezo":
+                text += f", the position of a piezo, minus force/({self.spring_constant:.6g} N/m)"
+            elif name == "force" and KINDS.get(unit.lstrip("−")) not in (None, "force"):
+                text += f", a deflection, times {self.spring_constant:.6g} N/m"
+            yield {"piezo": "depth"}.get(name, name), text
+        yield from (("remark", remark) for remark in self.remarks)
+
+    @property
+    def approach(self) -> Self:
+        """The samples of the approach, or of loading. Raises ValueError if there are none."""
+        return self._part("approach")
+
+    @property
+    def retract(self) -> Self:
+        """The samples of the retract, or of unloading. Raises ValueError if there are none."""
+        return self._part("retract")
+
+    def _part(self, name):
+        rows = self.segment == name
+        if not rows.any():
+            known = ", ".join(sorted(set(self.segment.tolist())))
+            raise ValueError(f"{self.name} has no {name}: the segments of its samples are {known}")
+        arrays = {each: frozen(getattr(self, each)[rows]) for each in (*self._quantities, "segment")}
+        return replace(self, **arrays)
+
+    def drift(self, hold: slice | None = None) -> float:
+        """Rate (m/s) at which the depth changes in a hold: the median of the slopes between its samples.
+
+        A few samples that are none of the hold, as of the withdrawal after it, do not change the median
+        (Theil 1950, Sen 1968). A medium that recovers from its unloading drifts, too: leave out the
+        beginning of such a hold.
+
+        Parameters
+        ----------
+        hold : slice, optional
+            The samples of the hold, as in ``slice(800, 900)``. By default the last hold of `segment` after
+            the largest force, with a mean force below a fifth of it.
+
+        Raises
+        ------
+        ValueError
+            If there are no times, no such hold, or less than three samples in it.
+        """
+        time = self._times()
+        if hold is None:
+            edges = np.flatnonzero(np.diff(self.segment == "hold", prepend=False, append=False))
+            holds = [slice(start, stop) for start, stop in edges.reshape(-1, 2).tolist()]
+            force, peak = self.force, np.argmax(self.force)
+            low = [
+                part for part in holds if part.start > peak and np.mean(force[part]) < _LOW * force[peak]
+            ]
+            if not low:
+                raise ValueError(
+                    f"{self.name} has no hold after the largest force and below a fifth of it: give the "
+                    "samples of one, as in curve.drift(slice(800, 900)), or the rate itself"
+                )
+            hold = low[-1]
+        if not isinstance(hold, slice):
+            raise ValueError(f"hold = {hold!r:.60} must be a slice of samples, as in slice(800, 900)")
+        time, depth = time[hold], self.depth[hold]
+        if time.size < 3:
+            raise ValueError(f"{hold} has {time.size} samples of {self.name}: a hold needs three or more")
+        thin = max(1, time.size // _SLOPES)
+        steps, rises = (np.subtract.outer(each[::thin], each[::thin]) for each in (time, depth))
+        return float(np.median(rises[steps > 0] / steps[steps > 0]))
+
+    def minus_drift(self, rate: float) -> Self:
+        """The curve without a drift: depth minus rate times time, from the first sample on.
+
+        Parameters
+        ----------
+        rate : float
+            Rate of the drift (m/s), positive where the depth grows, as of `drift`.
+
+        Raises
+        ------
+        ValueError
+            If there are no times.
+        """
+        time, rate = self._times(), number("rate", rate, "m/s")
+        if not np.isfinite(rate):
+            raise ValueError(f"rate = {rate:g} m/s must be finite")
+        text = f"a drift of {engineering(rate, 'm/s')}"
+        return self._minus(rate * (time - time[0]), text)
+
+    def minus_frame(self, compliance: float) -> Self:
+        """The curve without frame compliance: depth minus compliance times force.
+
+        Parameters
+        ----------
+        compliance : float
+            Frame compliance (m/N), 0 or positive.
+        """
+        compliance = positive_number("compliance", compliance, unit="m/N", zero=True)
+        text = f"a frame compliance of {engineering(compliance, 'm/N')}"
+        return self._minus(compliance * self.force, text)
+
+    def _times(self):
+        if self.time is None:
+            raise ValueError(f"{self.name} has no times, which a drift needs")
+        return self.time
+
+    def _minus(self, depth, text):
+        remarks = (*self.remarks, Remark(f"depth: {text} is subtracted", "corrected"))
+        return replace(self, depth=frozen(self.depth - depth), remarks=remarks)
+
+
+def segments_of(depth, force, time=None):
+    """Segment of each sample by depth (m) and force (N), for files that do not name it."""
+    turns, extreme, sign = [], 0, 1
+    values, least = depth.tolist(), _TURN * np.ptp(depth)
+    for i, value in enumerate(values):
+        if sign * (value - values[extreme]) > 0:
+            extreme = i
+        elif sign * (values[extreme] - value) > least:
+            # A record that begins with the retract has no sample before it.
+            turns.append(extreme or -1)
+            extreme, sign = i, -sign
+    passed = np.searchsorted(turns, np.arange(depth.size))
+    width = max(_FEW, int(_HOLD * depth.size)) | 1
+    largest, smallest = scipy.ndimage.maximum_filter1d, scipy.ndimage.minimum_filter1d
+    still = force > force.min() + _PRESSED * np.ptp(force)
+    for part in (depth, force):
+        still &= largest(part, width) - smallest(part, width) < _STILL * np.ptp(part)
+    holds = largest(still, width)
+    return frozen(np.where(holds, "hold", np.array(["approach", "retract"])[passed % 2]))
+
+
+def named_segments(words):
+    """Name of the column with names of segments, at each sample or at the first one, and the segments."""
+    for column, cells in words.items():
+        names = [""]
+        for cell in cells:
+            known = (name for name, words in _SEGMENTS.items() if re.search(words, cell, re.I))
+            names.append(next(known, names[-1]))
+        if all(names[1:]):
+            return column, np.array(names[1:])
+    return "", None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MeasuredCurves(Sequence[MeasuredCurve]):
+    """All curves of a file, returned by `read_curves`: length, index, slices and iteration.
+
+    A curve is understood when it is taken: one that is refused does not stop the others.
+    """
+
+    #: Name of the file.
+    name: str
+    #: Positions of the curves on the sample (N, 2) in m, None where the file does not have them.
+    position: Array | None
+    #: Functions that make the curves.
+    _makers: Sequence[Callable[[], MeasuredCurve]]
+
+    def __repr__(self) -> str:
+        return f"MeasuredCurves: {len(self)} of {self.name}"
+
+    def __len__(self) -> int:
+        return len(self._makers)
+
+    @overload
+    def __getitem__(self, index: int) -> MeasuredCurve: ...
+    @overload
+    def __getitem__(self, index: slice) -> "MeasuredCurves": ...
+    def __getitem__(self, index):
+        position = None if self.position is None else frozen(self.position[index])
+        if isinstance(index, slice):
+            return replace(self, _makers=self._makers[index], position=position)
+        return replace(self._makers[index](), position=position)
+
+
+@rows.register
+def _rows_of_curve(curve: MeasuredCurve):
+    return curve._rows()

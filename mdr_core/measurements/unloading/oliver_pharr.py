@@ -1,0 +1,314 @@
+"""Modulus and hardness from unloadings or a measured stiffness, by the method of Oliver and Pharr."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ...base import check
+from ...base.check import ArrayLike
+from ...base.errors import Refusal
+from ...base.remark import Remark, Remedy
+from ...show.quantities import engineering
+from ...solver.applicability import check_pair
+from ...solver.medium.medium import Medium
+from ...solver.profiles.profile import Profile
+from ..common.columns import Times, columns_of, finite_columns, measured_stiffness, remarks_of_one
+from ..common.materials import doubts
+from ..common.order import apart, out_of_order
+from ..common.tip import of_ideal_tip
+from ..measured_curve import MeasuredCurve
+from . import creep as creeping
+from .continuous import over_depth
+from .exponent import doubt
+from .iso_14577 import iso_numbers, remark_on_beginning
+from .moduli import moduli, not_from_contact, remaining
+from .oliver_pharr_result import ISO_14577, OliverPharr
+from .unloading import last_at_top, laws_of, parts_of
+from .zero import zero_of
+
+
+@check.keywords_explained
+def oliver_pharr(
+    profile: Profile,
+    depth: ArrayLike | MeasuredCurve,
+    force: ArrayLike | None = None,
+    *,
+    time: Times = ...,
+    stiffness: ArrayLike | bool | None = None,
+    epsilon: float = 0.75,
+    beta: float = 1.0,
+    cycles: bool = False,
+) -> "OliverPharr":
+    """Compute modulus and hardness from the unloadings of a force–depth curve by Oliver and Pharr (1992).
+
+    F = α (h − h_f)^m is fitted to the upper half of the unloading: samples after the largest depth, from
+    the last one with 99 % of the force, so that a hold is left out, to the first one below half of it. F
+    and its slope S at the largest depth h give the contact depth h_c = h − ε F/S. With the radius a of the
+    profile at that height, z(a) = h_c, and A = π a², E* = S √π/(2β √A) and H = F/A.
+
+    Parameters
+    ----------
+    profile : Profile
+        The indenter.
+    depth, force : array_like
+        Depths (m) and forces (N), (N,), in the order of time. Samples with NaN are left out. Where the
+        record begins in the air first contact and the force without contact are found and subtracted;
+        else depths count from first contact and forces from the baseline. See Notes. In the place of depth
+        and force a `MeasuredCurve`, as of `read_curve`.
+    time : array_like, optional
+        Increasing times (s) of the samples, (N,): the stiffness is corrected for creep. See Notes. Those of
+        a `MeasuredCurve` are taken unless this is None.
+    stiffness : array_like or True, optional
+        Measured contact stiffness S (N/m) at each sample, (N,), of a continuous measurement; NaN where
+        there is none; True for that of a `MeasuredCurve`. Results are then those of each sample. Not with
+        `time` or `cycles`.
+    epsilon : float, optional
+        Constant ε: 1 for a flat punch, 3/4 for a paraboloid, 2 − 4/π for a cone.
+    beta : float, optional
+        Correction β of the stiffness, 1 for axisymmetric indenters.
+    cycles : bool, optional
+        Whether each unloading has an entry, in the order of time: where the force falls by a tenth of a
+        peak and more, before it rises again by as much. Those that follow no power law are left out, with
+        a remark. Otherwise the unloading after the largest depth is taken.
+
+    Returns
+    -------
+    OliverPharr
+        With `stiffness` of each sample, `OverDepth`.
+
+    Raises
+    ------
+    ValueError
+        If there are no five samples of the upper half of an unloading, or they follow no power law; if the
+        contact depth is not positive, or the profile is not known to it; if times do not increase; if no
+        sample has a positive stiffness.
+
+    Notes
+    -----
+    For an elastic contact and the ε of its shape E* is exact. A yielded cone in a medium of this package
+    has z(a) = 2d/π, and here z(a) → d: E* is up to π/2 times smaller than the medium's, H (π/2)² times.
+
+    **First contact.** A record begins in the air where the force of its first 5 samples and more is noise
+    about a constant, over 2 % of the largest depth or more. A power law of the depth from first contact on
+    is then fitted to the beginning of the loading. Its z₀ is `contact_point`, whose error is included in
+    the errors of the results, with a remark. So it is in the air after a preload, from which the indenter
+    is lifted off. Otherwise depths are taken as given and `contact_point` is 0. If the first depth is 0
+    where the force is 1 % of the largest one or more, a remark has E* and H of both readings: of a depth
+    that was set to 0 in contact, and of a force with an offset.
+
+    **Creep** at the start of an unloading makes S too large. With `time`, and a hold of the force before
+    the unloading, the depth of the unloading is reduced by creep at the rate ḣ of the end of the hold: at
+    the start of the unloading 1/S = 1/S_measured − ḣ/Ṗ, where Ṗ < 0 is the rate of the force (Feng and
+    Ngan, J. Mater. Res. 17, 2002, 660). `uncorrected` has the results without it. For simulated records
+    with −ḣ/Ṗ of 20 % of 1/S, E* is then within 1 % instead of 14 or 15 % too large, where the unloading
+    takes no longer than the hold; where it takes four times as long, and the rate falls meanwhile, E* is
+    up to 3 % too small. A remark gives the length of the hold. It is the time between straight lines
+    through the force before and after, at the force that is held, so that the tip of a triangle is no
+    hold. Without `time` creep shows in m: a remark says where it is larger than that of the tip's elastic
+    contact, or than 1.7 where more than half of the depth remains, or different by 0.2 and more in parts
+    of the unloading, each beyond the scatter. Where m is above 1.5 and a fourth of the depth remains, the
+    errors are as large as the results of parts down to 20 % of the force deviate.
+
+    **ISO 14577.** `elastic_work_ratio` is n_IT = W_elast/W_total, of the work of the unloading, and of the
+    loading and the hold before it. Below the last sample the unloading is continued by its power law, not
+    from above 20 % of the largest force; a hold after the unloading is no part of it. `indentation_creep`
+    is C_IT = (h₂ − h₁)/h₁ of the depths at both ends of a hold, `martens_hardness` HM = F/(26.43 h²) at
+    the end of the loading, for cones of 70.2° to 70.4°, which stand for Berkovich and Vickers pyramids.
+    Those that a record lacks are None, and NaN for such an unloading of several. If the force falls by less
+    than a tenth they are NaN, with a remark. Another remark names the force from which n_IT is continued.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mdr_core import Cone, Medium, indent, oliver_pharr
+    >>> d = np.append(np.linspace(0, 60e-9, 100), np.linspace(60e-9, 0, 100))
+    >>> F = indent(Cone(slope=0.3), Medium(E_star=10e9), d).force
+    >>> result = oliver_pharr(Cone(slope=0.3), d, F, epsilon=2 - 4 / np.pi)
+    >>> print(f"{result.E_star:.6g} {result.hardness:.6g} {result.exponent:.6g}")  # H = E* s/2
+    1e+10 1.5e+09 2
+
+    Two cycles, a table over contact depth by ``.to_pandas()``:
+
+    >>> d, F = np.append(0.5 * d, d), np.append(0.25 * F, F)
+    >>> table = oliver_pharr(Cone(slope=0.3), d, F, epsilon=2 - 4 / np.pi, cycles=True)
+    >>> print((1e9 * table.contact_depth).round(3), (1e-9 * table.E_star).round(6))
+    [19.099 38.197] [10. 10.]
+
+    E* and H over depth from a measured stiffness, as of a continuous measurement:
+
+    >>> d = np.linspace(10e-9, 60e-9, 6)
+    >>> state = indent(Cone(slope=0.3), Medium(E_star=10e9), d)
+    >>> F, S = state.force, state.stiffness
+    >>> over = oliver_pharr(Cone(slope=0.3), d, F, stiffness=S, epsilon=2 - 4 / np.pi)
+    >>> print((1e-9 * over.E_star).round(6))
+    [10. 10. 10. 10. 10. 10.]
+    """
+    check_pair(profile, Medium(1.0), "an unloading")
+    constants = check.positive_number("epsilon", epsilon, zero=True), check.positive_number("beta", beta)
+    given = columns_of(depth, force, None if stiffness is not None and time is ... else time)
+    time = given.time
+    read = remarks_of_one(given.remarks)
+    stiffness = measured_stiffness(given, stiffness)
+    if stiffness is not None and (time is not None or cycles):
+        raise ValueError("stiffness is measured at each sample: give it without time and cycles")
+    columns = finite_columns(given.depth, given.force, time, stiffness)
+    path = columns["depth"], columns["force"]
+    read = (*read, *apart(*path))
+    if stiffness is None:
+        read = (*read, *out_of_order(*path))
+    first, contact, found, in_contact = zero_of(profile, *path)
+    columns = {name: values[first:] for name, values in columns.items()}
+    depth, force = columns["depth"] - contact.depth, columns["force"] - contact.baseline
+    found = () if found is None else (found,)
+    if stiffness is not None:
+        result = over_depth(profile, depth, force, columns["stiffness"], constants, contact, found)
+        return _with_other_readings(result, read, in_contact, constants)
+    parts, remarks = _of_parts(profile, depth, force, columns.get("time"), constants, contact, cycles)
+    numbers, triples = zip(*parts.items(), strict=True)
+    corrected, uncorrected, iso = zip(*triples, strict=True)
+    numbers = check.frozen(numbers if cycles else numbers[0])
+    result = _collected(profile, corrected, iso, contact, constants[0], numbers, (*remarks, *found))
+    result = _with_other_readings(result, read, in_contact, constants)
+    if time is None:
+        return result
+    before = _collected(profile, uncorrected, iso, contact, constants[0], numbers, ())
+    return replace(result, uncorrected=before)
+
+
+def _of_parts(profile, depth, force, time, constants, contact, cycles):
+    """Values and errors by unloading, with and without a correction for creep; and remarks."""
+    parts, results, remarks = parts_of(force), {}, []
+    taken = sum(part.start <= last_at_top(depth) for part in parts) or 1
+    every = cycles and parts
+    for number, part in enumerate(parts, 1) if every else [(taken, slice(None))]:
+        which = f"unloading {number} of {len(parts)}"
+        moments = None if time is None else time[part]
+        try:
+            both, notes = _with_creep(profile, depth[part], force[part], moments, constants, contact)
+            if parts:
+                whole = part if every else slice(0, parts[taken - 1].stop)
+                iso, text = iso_numbers(profile, depth, force, time, whole, both)
+            else:
+                iso, text = None, remark_on_beginning(force)
+            notes += [Remark(text, "missing")] if text else []
+            results[number] = *both, iso
+            remarks += [each.after(f"{which}: ") for each in notes] if cycles and len(parts) > 1 else notes
+        except ValueError as error:
+            if not cycles or len(parts) < 2:
+                raise
+            remarks.append(Remark.of(error, "left out", f"{which} is left out: "))
+    if not results:
+        raise Refusal(remarks[0])
+    if len(parts) > 1 and not cycles:
+        text = f"unloading {taken} of {len(parts)}, which follows the largest depth, was evaluated"
+        remedy = (Remedy("give", "cycles", True),)
+        remarks.insert(0, Remark(f"{text}; give cycles=True for each of them", "several", text, remedy))
+    return results, remarks
+
+
+def _with_creep(profile, depth, force, time, constants, contact):
+    """Values and errors of one unloading with and without correction for creep, and remarks."""
+    rise, notes = creeping.rise_of_depth(depth, force), []
+    creep = None if time is None else creeping.creep(depth, force, time)
+    try:
+        laws = laws_of(depth, force)
+        uncorrected = _values_and_errors(profile, depth, laws, constants, contact)
+    except ValueError as error:
+        if rise and creep is None:
+            raise Refusal(creeping.of_rise(rise, time is not None)) from error
+        if creep is None:
+            raise
+        uncorrected = np.full((2, 5), np.nan)
+    if creep is None:
+        if rise:
+            notes.append(creeping.of_rise(rise, time is not None))
+        elif remark := doubt(profile, depth.max(), laws, time is not None):
+            notes.append(remark)
+        if time is not None:
+            notes.append(creeping.no_hold(depth, force, time))
+        return (uncorrected, uncorrected), notes
+    depths = [creep.without(depth, time, n) for n in (0, 1)]
+    laws = [laws_of(each, force) for each in depths]
+    corrected, shifted = (
+        _values_and_errors(profile, *each, constants, contact) for each in zip(depths, laws, strict=True)
+    )
+    corrected[1] = np.hypot(corrected[1], shifted[0] - corrected[0])
+    share = creeping.share_of_compliance(creep.rate, corrected[0, 0], force, time, creep.end)
+    if rise or share > creeping.COUNTS:
+        notes.append(creeping.of_share(share))
+    if remark := doubt(profile, depth.max(), laws[0], True):
+        notes.append(remark)
+    notes.append(creeping.of_hold(creep.length))
+    return (corrected, uncorrected), notes
+
+
+def _values_and_errors(profile, depth, laws, constants, contact):
+    """Results and standard errors of the `Laws` of an unloading, (2, 5), in the order of `OliverPharr`."""
+    epsilon, beta = constants
+
+    def results(F, S, m, shift=0.0):
+        contact_depth = depth.max() + shift - epsilon * F / S
+        return np.stack([S, contact_depth, *moduli(profile, contact_depth, F, S, beta), m]).T
+
+    solution = laws.solution
+    values, *noisy = results(*np.column_stack([solution, solution[:, None] + laws.deviations]))
+    # A contact radius of 0 or ∞ makes the modulus or the hardness so.
+    if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
+        contact_depth = engineering(values[1], "m")
+        text = f"the contact depth h − ε F/S = {contact_depth} must be positive and within the profile"
+        raise not_from_contact(text)
+    others, further = (
+        [part for part in (results(*each) for each in group) if np.isfinite(part).all()]
+        for group in (laws.others, laws.further)
+    )
+    spread = np.ptp([values, *others], axis=0) / 2
+    if laws.bends(depth.max()):
+        spread = np.abs(np.array([values, *others, *further]) - values).max(axis=0)
+    errors = np.maximum(np.linalg.norm(np.array(noisy) - values, axis=0), spread)
+    if contact.depth_error:
+        shifted = results(*solution, shift=-contact.depth_error)
+        errors = np.hypot(errors, np.where(np.isfinite(shifted), shifted - values, np.inf))
+    return np.array([values, errors])
+
+
+def _collected(profile, results, iso, contact, epsilon, numbers, remarks):
+    """An `OliverPharr` of the values and errors of unloadings by number, or of one where that is one."""
+    columns = np.array(results) if numbers.ndim else np.array(results[0])
+    names = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
+    values, errors = (
+        dict(zip(names, map(check.frozen, each.T), strict=True))
+        for each in (columns[..., 0, :], columns[..., 1, :])
+    )
+    shape = columns.shape[:-2]
+    values |= {"contact_point": check.frozen(np.full(shape, contact.depth)), "unloading": numbers}
+    if contact.depth_error:
+        errors["contact_point"] = check.frozen(np.full(shape, contact.depth_error))
+    # An unloading that has hardly begun has none of these numbers: all are NaN.
+    begun, iso = iso[0] is not None, np.array([each or (np.nan,) * 3 for each in iso])
+    for name, each in zip(ISO_14577, (iso if numbers.ndim else iso[0]).T, strict=True):
+        # A number that no unloading of the record has is not there.
+        if not (begun and np.all(np.isnan(each))):
+            values[name] = check.frozen(each)
+    S, h_c, E, H, m = (values[name] for name in names)
+    remains = remaining(profile, h_c, S, H, m, epsilon)
+    remarks = [*remarks, *doubts(E, H, remains), *profile.remarks]
+    remarks += of_ideal_tip(profile, values["contact_depth"])
+    return OliverPharr(profile=profile, **values, standard_errors=errors, remarks=tuple(remarks))
+
+
+def _with_other_readings(result, read, in_contact, constants):
+    """The results, with remarks of the file, and on other first contacts if the depth is 0 at a force."""
+    if in_contact is None:
+        return replace(result, remarks=(*read, *result.remarks))
+    epsilon, beta = constants
+    S, h_c = result.stiffness, result.contact_depth
+    F = result.hardness * np.pi * (S / (2 * beta * result.E_star)) ** 2
+    shifted = F - in_contact.force
+    pairs = (
+        (result.E_star, result.hardness),
+        moduli(result.profile, h_c - in_contact.depth, F, S, beta),
+        moduli(result.profile, h_c + epsilon * in_contact.force / S, shifted, S, beta),
+    )
+    # One number of several unloadings or samples.
+    remark = in_contact.remark(*(tuple(float(np.nanmedian(each)) for each in pair) for pair in pairs))
+    return replace(result, remarks=(*read, remark, *result.remarks))

@@ -1,0 +1,180 @@
+"""Results of the method of Oliver and Pharr: for unloadings, and over the depth of a measured stiffness."""
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...base.remark import Remark
+from ...base.results import Record
+from ...show.quantities import QUANTITIES, Quantity, described, engineering
+from ...show.report import limit_rows, rows, with_error
+from ...solver.profiles.profile import Profile
+from .iso_14577 import is_pyramid
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+#: Quantities of the results, and others.
+OLIVER_PHARR = QUANTITIES | {
+    "contact_depth": Quantity("h_c", "m", "contact depth"),
+    "hardness": Quantity("H", "Pa", "hardness"),
+    "exponent": Quantity("m", "", "exponent"),
+    "contact_point": Quantity("z₀", "m", "first contact"),
+    "elastic_work_ratio": Quantity("n_IT", "", "elastic work ratio"),
+    "indentation_creep": Quantity("C_IT", "", "indentation creep"),
+    "martens_hardness": Quantity("HM", "Pa", "Martens hardness"),
+}
+#: Quantities of ISO 14577, which a record may lack, and those that are printed in per cent.
+ISO_14577 = ("elastic_work_ratio", "indentation_creep", "martens_hardness")
+_RATIOS = ISO_14577[:2]
+_NO_PYRAMID = "none: of Berkovich and Vickers pyramids only, cones of 70.2° to 70.4°"
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class OliverPharr(Record):
+    """Results for one unloading, or for each of a curve, returned by `oliver_pharr`.
+
+    The standard errors, by name, are those of the scatter about the power law, and not less than half the
+    range of the results for six parts of the unloading: from 99 or 95 % of the largest force down to 50, 40
+    or 30 %; with those of first contact and of the rate of creep where these were found. Where m is above
+    1.5 and a fourth of the depth remains, they are not less than the largest deviation of the results for
+    these parts and for those down to 20 %. With
+    ``cycles=True`` all are arrays (U,), and `result[i]` is one unloading, i from 0 on. Its number in the
+    record, from 1 on, is `unloading`; remarks, print and tables have the same number.
+    """
+
+    profile: Profile
+    #: Stiffness S (N/m), contact depth h_c (m), modulus E* (Pa), hardness H (Pa) and exponent m.
+    stiffness: Any
+    contact_depth: Any
+    E_star: Any
+    hardness: Any
+    exponent: Any
+    #: First contact z₀ (m) that was subtracted from the depth, 0 where depths are as given.
+    contact_point: Any
+    standard_errors: dict[str, Any]
+    #: How first contact was found, creep, which unloading was taken of several, and which were left out.
+    remarks: tuple[Remark, ...] = ()
+    #: Results without the correction for creep, where times were given; NaN where these are no power law.
+    uncorrected: "OliverPharr | None" = None
+    #: Number of the unloading in the record, from 1 on; those that are left out are counted.
+    unloading: Any = None
+    #: Quantities of ISO 14577, each None where the record lacks it, NaN for such an unloading of several:
+    #: n_IT, the work that the unloading gives back over that of the loading and the hold before it; C_IT,
+    #: (h₂ − h₁)/h₁ of the depths at both ends of a hold; HM (Pa), F/(26.43 h²) at the end of the loading,
+    #: of the cone of a Berkovich or Vickers pyramid.
+    elastic_work_ratio: Any = None
+    indentation_creep: Any = None
+    martens_hardness: Any = None
+
+    _dimensions = ("unloading",)
+    _quantities = (
+        *("stiffness", "contact_depth", "E_star", "hardness", "exponent", "contact_point"),
+        *ISO_14577,
+    )
+    _shown = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
+
+    def __getitem__(self, index: Any) -> "OliverPharr":
+        if not self.shape:
+            return super().__getitem__(index)
+        errors = {name: error[index] for name, error in self.standard_errors.items()}
+        values = {name: getattr(self, name) for name in self._quantities}
+        values = {name: value if value is None else value[index] for name, value in values.items()}
+        for name in set(ISO_14577) & set(values):
+            value = values[name]
+            if value is not None and np.all(np.isnan(value)):
+                values[name] = None
+        if self.unloading is not None:
+            values["unloading"] = self.unloading[index]
+        uncorrected = None if self.uncorrected is None else self.uncorrected[index]
+        return replace(self, **values, standard_errors=errors, uncorrected=uncorrected)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Values by name, in SI units, and their standard errors, whose names end in `_error`."""
+        return super().to_dict() | {f"{name}_error": error for name, error in self.standard_errors.items()}
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A table in SI units, one row for each unloading by its number in the record, or each sample."""
+        table = super().to_pandas()
+        if self.shape and self.unloading is not None:
+            table = table.set_index(np.asarray(self.unloading)).rename_axis("unloading")
+        return table
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """A dataset, with the numbers of the unloadings in the record as coordinate."""
+        dataset = super().to_xarray()
+        return dataset if self.unloading is None else dataset.assign_coords(unloading=self.unloading)
+
+    def _rows(self):
+        yield "indenter", described(self.profile)
+        for i in range(len(self) if self.shape else 0):
+            texts = texts_of(self[i])
+            texts.pop("contact_point", None)
+            standard = {name: texts.pop(name) for name in ISO_14577 if name in texts}
+            for label, group in ((f"unloading {self.unloading[i]}", texts), ("", standard)):
+                if group:
+                    symbols = (f"{OLIVER_PHARR[name].symbol} {text}" for name, text in group.items())
+                    yield label, ", ".join(symbols)
+        if self.shape and "contact_point" in self.standard_errors and len(self):
+            quantity = OLIVER_PHARR["contact_point"]
+            yield f"{quantity.long_name} {quantity.symbol}", texts_of(self[0])["contact_point"]
+        for name, text in () if self.shape else texts_of(self).items():
+            yield f"{OLIVER_PHARR[name].long_name} {OLIVER_PHARR[name].symbol}", text
+        if self.uncorrected is not None and not self.shape:
+            texts = texts_of(self.uncorrected)
+            text = f"E* {texts['E_star']}, H {texts['hardness']}"
+            yield "uncorrected for creep", text
+        if "martens_hardness" in self._quantities and not is_pyramid(self.profile):
+            yield OLIVER_PHARR["martens_hardness"].long_name, _NO_PYRAMID
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class OverDepth(OliverPharr):
+    """Results at each sample of a curve with a measured stiffness, arrays (N,), NaN without contact.
+
+    Standard errors are the scatter of neighbouring samples, with that of first contact where it was found.
+    """
+
+    exponent: Any = None
+    #: Depth (m) from first contact on.
+    depth: Any = None
+
+    _dimensions = ("sample",)
+    _quantities = ("depth", "stiffness", "contact_depth", "E_star", "hardness", "contact_point")
+    _shown = ("stiffness", "contact_depth", "E_star", "hardness")
+
+    def _rows(self):
+        if not self.shape:
+            yield from super()._rows()
+            return
+        yield "indenter", described(self.profile)
+        for name in ("depth", *self._shown):
+            quantity, values = OLIVER_PHARR[name], getattr(self, name)
+            text = engineering(values[np.isfinite(values)], quantity.unit)
+            yield f"{quantity.long_name} {quantity.symbol}", text
+
+
+def texts_of(result: OliverPharr) -> dict[str, str]:
+    """Quantities of one unloading by name, as text with their errors; ratios in per cent."""
+    errors = result.standard_errors
+    texts = {
+        name: with_error(getattr(result, name), errors[name], OLIVER_PHARR[name].unit) for name in errors
+    }
+    for name in ISO_14577:
+        value = getattr(result, name)
+        if value is not None and not np.isnan(value):
+            texts[name] = engineering(*((100 * value, "%") if name in _RATIOS else (value, "Pa")))
+    return texts
+
+
+@rows.register
+def _rows_of_unloading(result: OliverPharr):
+    return result._rows()
+
+
+@limit_rows.register
+def _limit_rows_of_unloading(result: OliverPharr, most):
+    # Remarks stand whole, where other rows are cut.
+    yield from (("remark", remark) for remark in result.remarks)

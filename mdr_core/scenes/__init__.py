@@ -1,0 +1,1 @@
+"""A whole calculation as a value: scenes and their drives."""

@@ -1,0 +1,161 @@
+"""States of creep by the scalar laws: live intervals, leads, energies, and what elements do."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...base.results import CLOSED_FORM, CREEP_LAW, Model
+from ..foundation.depth_path import states_along
+from ..foundation.force_path import Start
+from ..medium.medium import Medium
+from ..profiles.profile import Profile
+from .creep_retreat import Retreat
+from .integrals import integrals
+from .live_interval import LiveInterval
+
+
+@dataclass(frozen=True, eq=False)
+class ScalarPath:
+    """States by the scalar laws, arrays of one entry each; the `History` of a `TimedIndentation`.
+
+    Live intervals, the lead e = d − D (m) over the edge of the contact, τḋ (m), energies (J), and the
+    `Retreat`, if there is one, whose last states are the last ones of the path.
+    """
+
+    profile: Profile
+    medium: Medium
+    interval: LiveInterval
+    lead: np.ndarray
+    lag: np.ndarray
+    stored_energy: np.ndarray
+    plastic_work: np.ndarray
+    viscous_work: np.ndarray
+    retreat: Retreat | None = None
+
+    @property
+    def model(self) -> Model:
+        """Name of the model."""
+        return CREEP_LAW if self.medium.eta > 0 else CLOSED_FORM
+
+    @property
+    def depth(self):
+        """Depth d (m)."""
+        return self.interval.upper + self.lead
+
+    def elements(self, x, count):
+        """Line load (N/m) and elastic compression (m) at x (m) in the first states, shape (count, M)."""
+        columns = np.array([
+            self.interval.upper, self.interval.length, self.lead, self.lag,
+        ])[:, :count, None]  # fmt: skip
+        edge, length, lead, lag = columns
+        height = np.asarray(self.profile.reduced(x))
+        springs = np.clip(edge - height, 0.0, length)
+        contact = height < edge
+        elastic = np.where(contact, springs + lead, self._released(height)[:count])
+        # The dashpots of a retreating contact take the lead off.
+        load = np.where(contact, springs + np.maximum(lag, 0.0), 0.0)
+        return self.medium.E_star * load, elastic
+
+    def _released(self, height):
+        """Compressions (m) of released elements of reduced heights (m) in all states."""
+        result = np.zeros((len(self.lead), height.size))
+        if self.retreat is not None:
+            later = self.retreat.released(height)
+            # The turning point need not be at one of the times.
+            result[len(result) - len(later) + 1 :] = later[1:]
+        return result
+
+    def states(self, time, force, error):
+        """The `TimedIndentation` of this path."""
+        edge = np.asarray(self.interval.upper)
+        radius = np.where(force > 0, self.profile.radius_at(edge), 0.0)
+        return states_along(
+            self, np.arange(len(time)), profile=self.profile, medium=self.medium, time=time,
+            depth=self.depth, force=force, contact_radius=radius, stored_energy=self.stored_energy,
+            plastic_work=self.plastic_work, viscous_work=self.viscous_work,
+            plastic_depth=self.interval.lower, error=error,
+        )  # fmt: skip
+
+    @property
+    def last(self):
+        """The last state, for the chain to go on from."""
+        return Start(
+            depth=float(self.depth[-1]),
+            largest=float(self.retreat.interval.upper),
+            plastic_depth=float(self.interval.lower[-1]),
+            edge=float(self.interval.upper[-1]),
+            elastic=lambda x: self.elements(x, len(self.lead))[1][-1],
+            plastic_work=float(self.plastic_work[-1]),
+            viscous_work=float(self.viscous_work[-1]),
+        )
+
+
+def pressed_states(profile, medium, law, pressed):
+    """`ScalarPath` of a growing depth, from its law and the `Pressed` depths."""
+    rule, modulus = law.rule, 2 * medium.E_star
+    f = law.area[: pressed.depth.size]
+    interval, _ = rule.loading(pressed.depth)
+    area, radius = law.pressed(pressed.depth)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        lag = np.where(radius > 0, np.maximum(f - area, 0.0) / radius, 0.0)
+    stored = integrals(rule.profile).energy_integral(interval)
+    plastic = rule.plastic_integral(np.zeros_like(interval.lower), interval.lower)
+    viscous = _lost(pressed.depth, f, pressed.moment, stored + plastic)
+    return ScalarPath(
+        profile,
+        medium,
+        interval,
+        lead=np.zeros_like(lag),
+        lag=lag,
+        stored_energy=modulus * stored,
+        plastic_work=modulus * plastic,
+        viscous_work=modulus * viscous,
+    )
+
+
+def retreating_states(before, law, pressed, retreat):
+    """`ScalarPath` that goes on from the states `before` a turning point, with those of its `Retreat`."""
+    rule, modulus, turning = law.rule, 2 * before.medium.E_star, retreat.interval
+    # The first state of the retreat is the turning point, which is none of the path.
+    lead, remainder, work = retreat.states[:, 1:]
+    f = retreat.area[1:]
+    interval = LiveInterval.above(turning.lower, retreat.length[1:])
+    stored = integrals(rule.profile).energy_integral(interval) + lead * f + remainder / 2
+    plastic = float(rule.plastic_integral(np.zeros_like(turning.lower), turning.lower))
+    energy_at_turn = float(integrals(rule.profile).energy_integral(turning)) + plastic
+    # Work of the dashpots up to the turning point.
+    lost = _lost(
+        np.append(before.depth, pressed.turning_depth),
+        np.append(law.area[: pressed.depth.size], retreat.area[0]),
+        np.append(pressed.moment, pressed.turning_moment),
+        np.append((before.stored_energy + before.plastic_work) / modulus, energy_at_turn),
+    )[-1]
+    return replace(
+        before,
+        interval=_appended(before.interval, interval),
+        lead=np.append(before.lead, lead),
+        lag=np.append(before.lag, -lead),
+        stored_energy=np.append(before.stored_energy, modulus * stored),
+        plastic_work=np.append(before.plastic_work, np.full(len(lead), modulus * plastic)),
+        viscous_work=np.append(before.viscous_work, modulus * (lost + work)),
+        retreat=retreat,
+    )
+
+
+def _lost(depth, area, moment, energy):
+    """Work of the dashpots over 2E* (m³): that of the force less the `energy` stored and taken by yielding.
+
+    From depths d (m), f (m²), ∫ d df (m³) and energies over 2E* (m³) at all times, the first of which is
+    reached infinitely slowly: the work of the force, ∫ f dd, is f d − ∫ d df.
+    """
+    work = area * depth - area[0] * depth[0] - moment
+    return np.maximum.accumulate(np.maximum(work - (energy - energy[0]), 0.0))
+
+
+def _appended(first, later):
+    """`LiveInterval` of the states of one, and then those of another."""
+    return LiveInterval(
+        np.append(first.lower, later.lower),
+        np.append(first.upper, later.upper),
+        np.append(first.length, later.length),
+    )

@@ -1,0 +1,244 @@
+"""Scaling laws of very fast impacts, and the class of hardness of a material.
+
+Popov (2015), section 1, distinguishes three classes of plasticity: hardness (a) constant, (b) inversely
+proportional to the contact radius, (c) inversely proportional to the contact area. In a fully yielded
+contact the force is proportional to a^i with i = 2, 1, 0.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...base import check
+from ...base.check import Array, ArrayLike
+from ...base.results import Entries, Record
+from ..contact.integrals import integrals
+from ..contact.live_interval import LiveInterval
+from ..medium.medium import refuse_other_classes
+from ..numerics.roots import increasing_root
+
+_FORCE_POWER = {"a": 2, "b": 1, "c": 0}
+#: Largest relative error at which the fast limit holds.
+MAX_ERROR = 0.1
+
+
+@dataclass(frozen=True)
+class ScalingLaw:
+    """Power laws in the impact energy W for very fast impacts on a medium of one class of hardness.
+
+    With F ∝ aⁱ and a ∝ d^(1/n), the work is proportional to d^((n + i)/n), the elastic energy to F²/a. The
+    medium is on a rigid support: a `Structure` takes up a part of the energy, which is no power of W.
+
+    Parameters
+    ----------
+    hardness_class : {"a", "b", "c"}
+        Class: hardness constant, ∝ 1/radius, ∝ 1/area.
+    exponent : float
+        Exponent n of the indenter z = c rⁿ, positive: 1 for a cone, 2 for a paraboloid.
+
+    Examples
+    --------
+    >>> from mdr_core import ScalingLaw
+    >>> ScalingLaw("b", 1.0).area  # Popov (2015), Eq. (24)
+    1.0
+    """
+
+    hardness_class: str
+    exponent: float
+
+    def __post_init__(self):
+        check.one_of("hardness_class", self.hardness_class, _FORCE_POWER)
+        exponent = check.positive_number("ScalingLaw exponent", self.exponent)
+        check.store(self, exponent=exponent)
+
+    @property
+    def force(self) -> int:
+        """Power i = 2, 1, 0 of the contact radius in the force at full yield."""
+        return _FORCE_POWER[self.hardness_class]
+
+    @property
+    def radius(self) -> float:
+        """Power of W in the contact radius."""
+        return 1 / (self.exponent + self.force)
+
+    @property
+    def depth(self) -> float:
+        """Power of W in the depth: 1 in class (c)."""
+        return self.exponent * self.radius
+
+    @property
+    def area(self) -> float:
+        """Power of W in the contact area: 1 for a cone in class (b)."""
+        return 2 * self.radius
+
+    @property
+    def volume(self) -> float:
+        """Power of W in the expelled volume: 1 in class (a)."""
+        return (self.exponent + 2) * self.radius
+
+    @property
+    def restitution(self) -> float:
+        """Power of the *speed* in the coefficient of restitution."""
+        return (self.force - 1 - self.exponent) * self.radius
+
+
+@dataclass(frozen=True)
+class HardnessClass:
+    """Class of hardness of measured imprints; made by the function `hardness_class`.
+
+    `hardness_class` is its letter, None where none or several fit, `reason` the reason in words; `slope`
+    is the measured power with its standard error `slope_error`, infinite for two points; `laws` the
+    `ScalingLaw` of each class, where the power is one of the energy.
+    """
+
+    hardness_class: str | None
+    slope: float
+    slope_error: float
+    laws: dict[str, ScalingLaw] = field(repr=False)
+    reason: str
+
+
+def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> HardnessClass:
+    """Determine the class of hardness from the radii of imprints of fast impacts at several energies.
+
+    The slope of ln(radius) over ln(energy) is compared with 1/(n + i). A class fits within two standard
+    errors, or within 10 %, because real impacts are only approximately fast. The body
+    that is hit must be thick and massive: a plate or a soft support takes a part of the energy. The classes
+    are those of Popov (2015), section 1.
+
+    Parameters
+    ----------
+    energy, radius : array_like
+        Energies (J) dissipated by the impacts, at least two different ones, and radii (m) of the imprints.
+    exponent : float
+        Exponent n of the indenter z = c rⁿ, positive: 1 for a cone, 2 for a paraboloid.
+
+    Returns
+    -------
+    HardnessClass
+        With the letter of the class, `hardness_class`, or None, and the reason in words.
+
+    Raises
+    ------
+    ValueError
+        If energies and radii are not positive or of different shapes, or all energies are the same.
+
+    Examples
+    --------
+    >>> from mdr_core import Cone, Medium, hardness_class, impact
+    >>> hit = impact(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), 1e-6, [1.0, 3.0, 10.0])
+    >>> hardness_class(hit.plastic_work, hit.plastic_radius, exponent=1.0).hardness_class
+    'b'
+    """
+    energy = np.atleast_1d(check.positive("energy", energy, unit="J"))
+    radius = np.atleast_1d(check.positive("radius", radius, unit="m"))
+    x, y = np.log(energy.ravel()), np.log(radius.ravel())
+    if energy.shape != radius.shape or np.all(x == x[:1]):
+        bound = "must be of the same shape, with at least two different energies"
+        raise ValueError(f"energy {energy.shape} and radius {radius.shape} {bound}")
+    laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
+    expected = {name: (law.radius, MAX_ERROR * law.radius) for name, law in laws.items()}
+    return HardnessClass(laws=laws, **class_of(expected, x, y, "energies"))
+
+
+def class_of(expected, x, y, points):
+    """Fields of a `HardnessClass` by name, but for `laws`: the slope of y over x at some `points`.
+
+    `expected` has the power of each class, and the tolerance of it if two standard errors are smaller.
+    """
+    slope, error = _straight_line(x, y)
+    fits = [n for n, (power, limit) in expected.items() if abs(slope - power) <= max(2 * error, limit)]
+    powers = ", ".join(f"{name}: {power:.3g}" for name, (power, _) in expected.items())
+    measured = f"the slope {slope:.3g} ± {error:.2g}, where the classes have {powers}"
+    name = fits[0] if len(fits) == 1 else None
+    if np.isnan(slope):
+        reason = f"insufficient: {points} of one value determine no class"
+    elif error == np.inf:
+        reason = f"insufficient: two {points} leave no error of the slope {slope:.3g}; give three or more"
+    elif name:
+        reason = f"class {name} alone fits {measured}"
+    else:
+        reason = f"{'more than one class' if fits else 'none'} fits {measured}"
+    return {"hardness_class": name, "slope": slope, "slope_error": error, "reason": reason}
+
+
+def _straight_line(x, y):
+    """Slope of y over x by least squares, NaN for a single x, and its standard error, infinite for two."""
+    count = np.unique(x).size
+    if count < 2:
+        return np.nan, np.inf
+    x, y = x - x.mean(), y - y.mean()
+    slope = (x @ y) / (x @ x)
+    residual = y - slope * x
+    if count == 2:
+        return float(slope), np.inf
+    return float(slope), float(np.sqrt(residual @ residual / (x.size - 2) / (x @ x)))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FastLimit(Entries, Record):
+    """Impact in the limit of a fully yielded contact, and its errors against the exact solution.
+
+    Popov (2015), Eqs. (23), (24): the work is π q_c ∫ a dd, for a cone q_c d²/s, and the whole contact
+    is damaged. The coefficient of restitution is √(U/W) with U = E* a d_c².
+
+    Largest depth (m), contact area (m²) and coefficient of restitution in this limit, with their relative
+    errors, which are large where the limit does not hold.
+    """
+
+    max_depth: Array
+    contact_area: Array
+    restitution: Array
+    max_depth_error: Array
+    contact_area_error: Array
+    restitution_error: Array
+
+    _quantities = _shown = (
+        "max_depth", "contact_area", "restitution", "max_depth_error", "contact_area_error",
+        "restitution_error",
+    )  # fmt: skip
+    _dimensions = ("impact",)
+
+
+def depth_in_fast_limit(hit):
+    """Depth (m) at which π q_c ∫ a dd is the energy of an `Impact`; ∞ below the known depth."""
+    profile, energy = hit.profile, hit.mass * hit.speed**2 / 2
+    target = np.broadcast_to(energy / (np.pi * hit.medium.q_c), np.shape(hit.max_depth))
+
+    def work(depth):
+        return integrals(profile).radius_integral(LiveInterval.elastic(depth)), profile.radius_at(depth)
+
+    return increasing_root(work, target, hit.max_depth, profile.known_depth)
+
+
+def fast_limit(hit):
+    """The `FastLimit` of an `Impact`."""
+    profile, medium = hit.profile, hit.medium
+    if not hit.structure.rigid:
+        raise ValueError(
+            "the fast limit is not for impacts on a structure, which takes up a part of the energy; leave "
+            "the structure out"
+        )
+    refuse_other_classes(medium, "the fast limit", "ScalingLaw has the powers of each class")
+    d_c = np.asarray(medium.critical_depth)
+    bound = "is infinite, so that nothing yields"
+    check.refuse("critical depth", d_c, np.isinf(d_c), bound, unit="m", advice="give the medium a q_c")
+    depth = depth_in_fast_limit(hit)
+    known = np.min(profile.known_depth, initial=check.LONGEST)
+    bound = f"presses deeper than the known depth of the profile, {known:g} m, in this limit"
+    speed = np.asarray(hit.speed)
+    check.refuse("speed", speed, np.isinf(depth), bound, unit="m/s", advice="reduce the speed")
+    a = profile.radius_at(depth)
+    area = np.pi * a**2
+    energy = hit.mass * hit.speed**2 / 2
+    restitution = np.sqrt(medium.E_star * a * d_c**2 / energy)
+    # A body that adhesion holds has no restitution.
+    with np.errstate(divide="ignore"):
+        return FastLimit(
+            max_depth=check.frozen(depth),
+            contact_area=check.frozen(area),
+            restitution=check.frozen(restitution),
+            max_depth_error=check.frozen(depth / hit.max_depth - 1),
+            contact_area_error=check.frozen(area / (np.pi * hit.contact_radius**2) - 1),
+            restitution_error=check.frozen(restitution / hit.restitution - 1),
+        )

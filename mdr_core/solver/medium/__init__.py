@@ -1,0 +1,1 @@
+"""What is indented: the medium, its laws of hardness, the structure behind it."""

@@ -1,0 +1,358 @@
+"""Ensembles of impacts and indentations over named dimensions of xarray, in memory or with dask.
+
+Parameters are numbers or DataArrays, which broadcast by the names of their dimensions. Results of dask
+arrays are lazy: `compute` solves them chunk by chunk, on the cores of a machine or, with a
+``dask.distributed.Client``, on a cluster. The sum over a stream that does not fit in memory::
+
+    speed = xr.DataArray(0.1 * dask.array.random.weibull(2.0, 10**9, chunks=10**6), dims="particle")
+    stream = sweep.impacts(Sphere, radius=1e-5, E_star=1e9, q_c=10.0, mass=1e-12, speed=speed,
+                           quantities=("restitution", "damaged_area"))
+    total = stream.damaged_area.sum().compute()
+
+A long run to disk: the same script continues it, wherever it was killed. A store gets its name when it is
+complete. Chunks of a region are written in any order, so that a region in which any number is missing has
+not been computed to the end. One without missing numbers is left out::
+
+    store = Path("stream.zarr")
+    if not store.exists():
+        new, encoding = Path("new.zarr"), {name: {"_FillValue": numpy.nan} for name in stream}
+        stream.to_zarr(new, mode="w", compute=False, encoding=encoding)
+        new.rename(store)
+    for start in range(0, 10**9, 10**7):
+        region = {"particle": slice(start, start + 10**7)}
+        done = xr.open_zarr(store).isel(region)
+        if done.isnull().any().to_array().any():
+            stream.isel(region).to_zarr(store, region=region)
+
+While a sweep of arrays in memory runs, tqdm shows its progress where it is installed and the output is a
+terminal; of dask arrays ``dask.diagnostics.ProgressBar()`` does.
+
+Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; the regions on disk remain.
+Particles of ``invalid="nan"`` have NaN for results: their regions are computed again.
+
+An example:
+
+>>> from mdr_core import FlatPunch, sweep
+>>> import xarray as xr
+>>> depth = xr.DataArray([0.1, 0.2], dims="path")
+>>> table = sweep.indentations(FlatPunch, radius=0.5, E_star=1.0, depth=depth)
+>>> print(table.force.values.round(9))  # 2E* a d
+[0.1 0.2]
+"""
+
+from collections.abc import Iterable
+from functools import partial
+from importlib import import_module
+from inspect import isclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..base import check
+from ..base.results import quantities_of
+from ..show.progress import tracked_chunks
+from ..show.quantities import QUANTITIES, described
+from ..show.report import imported
+from ..solver.applicability import check_reached
+from ..solver.contact.adhesion import first_contacts
+from ..solver.contact.indentation import Indentation
+from ..solver.contact.yielding import yield_rule
+from ..solver.impacts.impact import impact
+from ..solver.impacts.result import Impact
+from ..solver.medium.hardness import HardnessLaw
+from ..solver.medium.medium import Medium
+from ..solver.medium.structure import Structure
+from ..solver.oblique.oblique_impact import ObliqueImpact, oblique_impact
+from ..solver.profiles.profile import Profile, check_known
+from .arguments import (
+    InvalidParticles,
+    check_alignment,
+    check_shape_parameters,
+    hardness_parameters,
+    indices,
+    labelled,
+)
+
+if TYPE_CHECKING:
+    import xarray
+
+    #: Type of a parameter.
+    Given = float | np.floating[Any] | xarray.DataArray
+    Shape = type[Profile] | Profile
+
+__all__ = ["impacts", "indentations", "oblique_impacts"]
+
+#: Entries that are solved at a time, with some MB; viscous and oblique impacts take seconds.
+_BLOCK = 2**14
+
+
+def __dir__():
+    return __all__
+
+
+def impacts(
+    shape: "Shape",
+    *,
+    E_star: "Given",
+    q_c: "Given | None" = None,
+    hardness: "Given | HardnessLaw | None" = None,
+    f_c: "Given | None" = None,
+    eta: "Given" = 0.0,
+    work_of_adhesion: "Given" = 0.0,
+    mass: "Given",
+    speed: "Given",
+    plastic_depth: "Given" = 0.0,
+    impedance: "Given" = np.inf,
+    stiffness: "Given" = np.inf,
+    quantities: str | Iterable[str] = ("restitution",),
+    invalid: str = "raise",
+    **shape_parameters: "Given",
+) -> "xarray.Dataset":
+    """Impacts of free bodies (`mdr_core.impact`) over named dimensions.
+
+    Parameters
+    ----------
+    shape : type or Profile
+        Class of the indenters, whose parameters follow by name, or a single indenter.
+    E_star, q_c, hardness, f_c, eta, work_of_adhesion : float or DataArray
+        Effective modulus (Pa), the constants of the hardness (N/m, Pa, N), viscosity (Pa·s) and work of
+        adhesion (J/m²) of the `Medium`, with its defaults. `hardness` may be one `HardnessLaw` for all.
+    mass, speed : float or DataArray
+        Mass (kg) and speed (m/s) at first contact.
+    plastic_depth : float or DataArray
+        Plastic depth (m) of the imprint before the impact.
+    impedance, stiffness : float or DataArray
+        Impedance (N·s/m) of the plate or rod, or stiffness (N/m) of the support, that carries the medium,
+        as in `Structure`; infinite, the default, is rigid.
+    quantities : sequence of str
+        Names of quantities of `Impact`: "restitution", "max_depth", "damaged_area", "contact_time", …
+    invalid : {"raise", "nan"}
+        Particles with parameters outside the range of `impact` raise an error with their index, or have
+        NaN for results. The attributes then have the number of these particles,
+        ``invalid_count``, and the first ones with index, value and reason, ``invalid``. Results of dask
+        arrays have no such attributes: count the NaN. A number that is out of range, and a solver that
+        does not converge, raise an error in any case.
+    **shape_parameters : float or DataArray
+        Parameters of the class, such as ``radius=`` of a `Sphere`.
+
+    Returns
+    -------
+    xarray.Dataset
+        The quantities over all dimensions of the parameters; lazy if a parameter is a dask array.
+
+    Raises
+    ------
+    ValueError
+        If a parameter or a quantity is unknown or missing, an array has no names of dimensions, sizes or
+        coordinates differ, or a value is outside the range of `impact`; for lazy arrays when they are
+        computed.
+
+    Examples
+    --------
+    >>> from mdr_core.sweep import impacts
+    >>> import xarray as xr
+    >>> from mdr_core import Sphere
+    >>> speed = xr.DataArray([0.1, 1.0, 10.0], dims="speed")
+    >>> radius = xr.DataArray([1e-6, 1e-5], dims="radius")
+    >>> table = impacts(Sphere, radius=radius, E_star=1e9, q_c=10.0, mass=1e-12, speed=speed)
+    >>> dict(table.sizes), table.restitution.round(4).values.tolist()[1]
+    ({'radius': 2, 'speed': 3}, [1.0, 0.5426, 0.1184])
+    """
+    parameters = {"E_star": E_star, "eta": eta, "work_of_adhesion": work_of_adhesion}
+    constants, law = hardness_parameters(q_c, hardness, f_c)
+    parameters |= constants | {"mass": mass, "speed": speed, "plastic_depth": plastic_depth}
+    parameters |= {"impedance": impedance, "stiffness": stiffness}
+    return _sweep(Impact, _hit, law, shape, parameters, shape_parameters, quantities, invalid)
+
+
+def oblique_impacts(
+    shape: "Shape",
+    *,
+    E_star: "Given",
+    q_c: "Given | None" = None,
+    hardness: "Given | HardnessLaw | None" = None,
+    f_c: "Given | None" = None,
+    eta: "Given" = 0.0,
+    poisson: "Given" = 0.5,
+    mass: "Given",
+    speed: "Given",
+    tangential_speed: "Given",
+    friction: "Given",
+    tangential_mass: "Given | None" = None,
+    quantities: str | Iterable[str] = ("friction_work", "plastic_work"),
+    invalid: str = "raise",
+    tolerance: float = 5e-4,
+    **shape_parameters: "Given",
+) -> "xarray.Dataset":
+    """Oblique impacts (`mdr_core.oblique_impact`) over named dimensions.
+
+    Parameters, result and errors are those of `impacts`. In addition there are Poisson's ratio of the
+    `Medium`, and of `oblique_impact` the tangential speed (m/s), the coefficient of friction, the
+    tangential mass (kg), `tolerance`, and the quantities of `ObliqueImpact`. Viscous impacts are solved one
+    by one.
+
+    Examples
+    --------
+    >>> from mdr_core.sweep import oblique_impacts
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> from mdr_core import Paraboloid
+    >>> attack = xr.DataArray(np.radians([30.0, 60.0, 90.0]), dims="attack")
+    >>> normal, along = 10.0 * np.sin(attack), (10.0 * np.cos(attack)).round(9)
+    >>> given = {"E_star": 1e9, "mass": 1e-9, "speed": normal, "tangential_speed": along}
+    >>> table = oblique_impacts(Paraboloid, radius=1e-4, friction=0.1, **given)
+    >>> (table.friction_work * 1e9).round(3).values  # nJ; in full slip 2µmv(v_t − µv)
+    array([8.16, 7.16, 0.  ])
+    """
+    parameters = {"E_star": E_star, "eta": eta, "poisson": poisson, "mass": mass}
+    constants, law = hardness_parameters(q_c, hardness, f_c)
+    parameters |= constants | {"speed": speed, "tangential_speed": tangential_speed, "friction": friction}
+    parameters["tangential_mass"] = mass if tangential_mass is None else tangential_mass
+    hit = partial(_hit_at_angle, tolerance=tolerance)
+    return _sweep(ObliqueImpact, hit, law, shape, parameters, shape_parameters, quantities, invalid)
+
+
+def indentations(
+    shape: "Shape",
+    *,
+    E_star: "Given",
+    q_c: "Given | None" = None,
+    hardness: "Given | HardnessLaw | None" = None,
+    f_c: "Given | None" = None,
+    work_of_adhesion: "Given" = 0.0,
+    depth: "Given",
+    quantities: str | Iterable[str] = ("force",),
+    invalid: str = "raise",
+    **shape_parameters: "Given",
+) -> "xarray.Dataset":
+    """First loadings (`mdr_core.indent`) over named dimensions: each depth on a virgin medium.
+
+    Parameters, result and errors are those of `impacts`, with depths (m), negative above the surface,
+    instead of mass and speed, and with quantities of `Indentation`: "force", "contact_radius",
+    "mean_pressure", …
+
+    Examples
+    --------
+    >>> from mdr_core.sweep import indentations
+    >>> import xarray as xr
+    >>> from mdr_core import Cone
+    >>> slope = xr.DataArray([0.1, 0.2], dims="cone")
+    >>> print(indentations(Cone, slope=slope, E_star=1e9, depth=1e-6).force.round(6).values)  # N
+    [0.006366 0.003183]
+    """
+    parameters = {"E_star": E_star, "work_of_adhesion": work_of_adhesion, "depth": depth}
+    constants, law = hardness_parameters(q_c, hardness, f_c)
+    parameters |= constants
+    return _sweep(Indentation, _press, law, shape, parameters, shape_parameters, quantities, invalid)
+
+
+def _sweep(kind, solve, law, shape, parameters, shape_parameters, quantities, invalid):
+    """Dataset of quantities of a class of results, which `solve` returns for arrays of parameters.
+
+    `law` is {"hardness": law}, which is the same for all, or empty.
+    """
+    xarray = imported("xarray", "mdr_core.sweep")
+    names = [quantities] if isinstance(quantities, str) else list(quantities)
+    # The plastic depth is one before the impact as a parameter, one after it as a quantity.
+    known = [name for name in quantities_of(kind) if name not in parameters or name == "plastic_depth"]
+    for name in names or [""]:
+        check.one_of("quantity", name, known)
+    check.one_of("invalid", invalid, ("raise", "nan"))
+    check_shape_parameters(shape, shape_parameters)
+    parameters = shape_parameters | parameters
+    given = {name: labelled(xarray, name, value) for name, value in parameters.items()}
+    check_alignment(xarray, given)
+    refused = InvalidParticles(given, invalid)
+
+    def block(*values):
+        values, places = dict(zip(given, values, strict=False)), values[len(given) :]
+        return _in_blocks(
+            partial(solve, **law), shape, values, shape_parameters, names, partial(refused.add, places)
+        )
+
+    lazily = {"dask": "parallelized", "output_dtypes": [float] * len(names)}
+    dims, arrays = [[] for _ in names], (*given.values(), *indices(xarray, given))
+    results = xarray.apply_ufunc(block, *arrays, output_core_dims=dims, keep_attrs=False, **lazily)
+    results = results if len(names) > 1 else [results]
+    attributes = _attributes(kind, shape, given) | {name: described(each) for name, each in law.items()}
+    dataset = xarray.Dataset(dict(zip(names, results, strict=True)), attrs=attributes)
+    if invalid == "nan" and not dataset.chunks:
+        dataset.attrs |= {"invalid_count": refused.count, "invalid": refused.listed}
+    for name in names:
+        dataset[name].attrs = QUANTITIES[name].attributes
+    return dataset
+
+
+def _in_blocks(solve, shape, values, own, names, refused):
+    """Arrays of the named quantities for arrays of parameters, `own` ones of the shape, in blocks.
+
+    Entries that a check refuses are given to `refused`, and are NaN if that returns.
+    """
+    size = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
+    # Scalars are not repeated.
+    varied = {k: np.broadcast_to(v, size).flat for k, v in values.items() if np.size(v) > 1}
+    results = np.full((len(names), *size), np.nan)
+    flat = results.reshape(len(names), -1)
+    for rows in tracked_chunks(flat.shape[1], _BLOCK, "entries"):
+        entries = np.arange(flat.shape[1])[rows]
+        block = {k: varied[k][rows] if k in varied else np.ravel(v)[0] for k, v in values.items()}
+        # Adhesion has a way of its own to be solved.
+        sticks = np.broadcast_to(np.asarray(block.get("work_of_adhesion", 0.0)) > 0, entries.shape)
+        for chosen in (sticks, ~sticks):
+            valid, part = entries[chosen], _some(block, chosen)
+            while valid.size:
+                others = {name: value for name, value in part.items() if name not in own}
+                try:
+                    profile = shape(**{name: part[name] for name in own}) if isclass(shape) else shape
+                    result = solve(profile, **others)
+                    for row, name in zip(flat, names, strict=True):
+                        row[valid] = getattr(result, name)
+                    break
+                except check.InvalidEntries as error:
+                    bad = np.broadcast_to(error.bad, valid.shape)
+                    refused(error, np.unravel_index(valid[bad], size))
+                # Some of the quantities may have been written.
+                flat[:, valid[bad]] = np.nan
+                valid, part = valid[~bad], _some(part, ~bad)
+    return tuple(results) if len(names) > 1 else results[0]
+
+
+def _some(block, chosen):
+    """Some entries of the arrays among the parameters of a block."""
+    return {name: value[chosen] if np.ndim(value) else value for name, value in block.items()}
+
+
+def _hit(
+    profile, E_star, eta, work_of_adhesion, mass, speed, plastic_depth, impedance, stiffness, **hardness
+):
+    medium = Medium(E_star, eta=eta, work_of_adhesion=work_of_adhesion, **hardness)
+    structure = Structure(impedance, stiffness)
+    return impact(profile, medium, mass, speed, plastic_depth=plastic_depth, structure=structure)
+
+
+def _hit_at_angle(profile, E_star, eta, poisson, q_c=None, hardness=None, f_c=None, **given):
+    medium = Medium(E_star, q_c=q_c, eta=eta, poisson=poisson, hardness=hardness, f_c=f_c)
+    return oblique_impact(profile, medium, **given)
+
+
+def _press(profile, E_star, work_of_adhesion, depth, **hardness):
+    medium = Medium(E_star, work_of_adhesion=work_of_adhesion, **hardness)
+    depth = check.finite_array("depth", depth, unit="m", most=check.LONGEST)
+    shape = np.broadcast_shapes(profile.shape, medium.shape, depth.shape)
+    depth = check_known(profile, np.broadcast_to(depth, shape))
+    check_reached(profile, medium, depth)
+    if np.any(np.asarray(work_of_adhesion) > 0):
+        return Indentation(profile, medium, depth, *first_contacts(profile, medium, depth))
+    interval, _ = yield_rule(profile, medium).loading(np.maximum(depth, 0.0))
+    return Indentation(profile, medium, depth, interval)
+
+
+def _attributes(kind, shape, given):
+    """Attributes of the dataset: the parameters, for arrays their dimensions."""
+    profile = shape.__name__ if isclass(shape) else described(shape)
+    varied = {name: "over " + " × ".join(value.dims) for name, value in given.items() if np.ndim(value)}
+    fixed = {name: float(value) for name, value in given.items() if name not in varied}
+    about = {"result": kind.__name__, "model": "MDR, V. L. Popov 2015", "indenter": profile}
+    # The package stands above its modules, so that none of these imports it.
+    about["version"] = f"mdr_core {import_module('mdr_core').__version__}"
+    return about | fixed | varied
