@@ -86,7 +86,7 @@ def test_bad_bodies_are_refused(arguments, says):
 )
 def test_what_could_be_taken_for_something_else_is_given_by_name(make):
     """0.3 after E* was q_c in N/m, and no Poisson ratio."""
-    with pytest.raises(TypeError, match=r"positional|by name: q_c, eta, poisson|by name: edge, thickness"):
+    with pytest.raises(TypeError, match=r"positional|by name: q_c, eta, poisson|by name: modes"):
         make()
 
 

@@ -1,7 +1,7 @@
-"""The structure behind the medium, which gives way under the contact: a plate, a rod or a support.
+"""The structure behind the medium, which gives way under the contact: a plate, a rod, a support, or modes.
 
 A body presses the medium by d = y − w, where y is its way and w the deflection of the structure under the
-contact. With the contact force F there are two models, one at a time.
+contact. With the contact force F there are three models, one at a time.
 
 A plate without edges, and the end of a long rod, carry waves away that do not come back:
 
@@ -9,10 +9,11 @@ A plate without edges, and the end of a long rod, carry waves away that do not c
 
 with the impedance Z (N·s/m). A thin plate of bending stiffness D (N·m) and mass ρh per area (kg/m²) has
 Z = 8√(D ρh) (Boussinesq; Zener 1941), a rod of cross-section A has Z = A√(Eρ). A support whose mass does
-not matter has a stiffness K (N/m): w = F/K.
+not matter has a stiffness K (N/m): w = F/K. A structure with edges has modes (`modes`), whose waves come
+back.
 """
 
-from dataclasses import KW_ONLY, dataclass
+from dataclasses import KW_ONLY, dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,16 +21,17 @@ import scipy
 
 from ...base import check
 from ...base.check import ArrayLike, Parameter
+from .modes import Modes, compliance_of_plate, modes_of_beam, modes_of_plate
 
 
 @dataclass(frozen=True, eq=False)
 class Structure(check.Parameters):
-    """What carries the medium: a plate or a rod, by its impedance, or a support, by its stiffness.
+    """What carries the medium: a plate without edges, a support without mass, or a structure by its modes.
 
-    Give one of the two. In series they are not a plate on its support: under a constant force an endless
-    plate would go on for ever. Take the plate for a light and fast body, whose contact is over before the
-    waves are back from the edges, and the support for a body at least as heavy as the plate. Between a
-    tenth of the mass of the plate and all of it neither model holds.
+    Two of them are limits. A plate without edges (or a rod) is right for a light and fast body, whose
+    contact is over before the waves are back from the edges; a support without mass is right where the
+    contact is slow or yields. The general case is a structure by its modes: `modal`, `supported_plate`,
+    `supported_isotropic_plate`, `beam`. `hit.limits` says where a limit does not hold.
 
     Parameters
     ----------
@@ -39,7 +41,11 @@ class Structure(check.Parameters):
     stiffness : float, optional
         Static stiffness K (N/m) of a support under the contact, positive; infinite, the default, is rigid.
         A clamped disc of radius R in its middle has 16π D/R², a simply supported square D/(0.0116 L²), a
-        simply supported beam 48 E I/L³.
+        simply supported beam 48 E I/L³. Beside modes it is that of the whole structure.
+    modes : Modes, optional
+        Modes of a structure with edges, as `modal` makes them.
+    mass : float, optional
+        Mass (kg) that moves with a support: a quarter of that of a plate, half of that of a beam.
     edge : float, optional
         Distance (m) from the point of contact to the nearest edge of the plate.
     thickness : float, optional
@@ -49,15 +55,15 @@ class Structure(check.Parameters):
     shear_speed : float, optional
         Speed (m/s) of shear waves in the plate.
 
-    The last four change no number of an impact. `hit.limits` compares with them what the model neglects:
-    the edges, and the thickness. None means that a value is not known. Parameters may be arrays that
-    broadcast.
+    The last five change no number of an impact. `hit.limits` compares with them what the model neglects:
+    the mass of a support, the edges, and the thickness. None means that a value is not known. Parameters
+    may be arrays that broadcast; modes are those of one structure.
 
     Raises
     ------
     ValueError
-        If a parameter is not a positive number, both `impedance` and `stiffness` are finite, or arrays do
-        not broadcast.
+        If a parameter is not a positive number, `impedance` is finite beside `stiffness` or `modes`, the
+        stiffness is above that of the modes alone, or arrays do not broadcast.
 
     Examples
     --------
@@ -73,6 +79,8 @@ class Structure(check.Parameters):
     impedance: Parameter = np.inf
     stiffness: Parameter = np.inf
     _: KW_ONLY
+    modes: Modes | None = None
+    mass: Parameter | None = None
     edge: Parameter | None = None
     thickness: Parameter | None = None
     wave_spread: Parameter | None = None
@@ -85,6 +93,8 @@ class Structure(check.Parameters):
             impedance: ArrayLike = np.inf,
             stiffness: ArrayLike = np.inf,
             *,
+            modes: Modes | None = None,
+            mass: ArrayLike | None = None,
             edge: ArrayLike | None = None,
             thickness: ArrayLike | None = None,
             wave_spread: ArrayLike | None = None,
@@ -93,7 +103,7 @@ class Structure(check.Parameters):
 
     def __post_init__(self):
         units = {"impedance": "N·s/m", "stiffness": "N/m"}
-        told = {"edge": "m", "thickness": "m", "wave_spread": "m²/s", "shear_speed": "m/s"}
+        told = {"mass": "kg", "edge": "m", "thickness": "m", "wave_spread": "m²/s", "shear_speed": "m/s"}
         units |= {name: unit for name, unit in told.items() if getattr(self, name) is not None}
         for name, unit in units.items():
             infinite = name not in told
@@ -106,11 +116,35 @@ class Structure(check.Parameters):
             "is finite beside a finite impedance: in series they are not a plate on its support, because "
             "an endless plate goes on for ever under a constant force"
         )
-        advice = (
-            "take the impedance for a light and fast body, whose contact is over before waves are back "
-            "from the edges, or the stiffness for a body at least as heavy as the plate"
-        )
+        advice = "take the structure by its modes, as Structure.supported_plate or Structure.modal"
         check.refuse("stiffness", stiffness, both, bound, unit="N/m", advice=advice)
+        if self.modes is not None:
+            self._check_modes(shape)
+
+    def _check_modes(self, shape):
+        """Refuses modes with arrays, beside an impedance, or that alone are softer than the stiffness."""
+        if not isinstance(self.modes, Modes):
+            raise TypeError(f"modes must be made by Structure.modal, got {check.shown(self.modes)}")
+        if shape:
+            raise ValueError(
+                f"a structure with modes is one: its parameters have shape {shape}; give numbers"
+            )
+        impedance = np.asarray(self.impedance)
+        bound, advice = "is finite beside modes, which carry the waves", "leave it out"
+        check.refuse("impedance", impedance, np.isfinite(impedance), bound, unit="N·s/m", advice=advice)
+        if self.stiffness < np.inf and self.residual_compliance < -1e-9 / self.stiffness:
+            soft = 1 / self.modes.compliance
+            bound = (
+                f"is above the stiffness of the given modes alone, {soft:g} N/m: one mode more is softer"
+            )
+            advice = "check modal masses and frequencies, or leave the stiffness out"
+            if not soft:
+                bound, advice = (
+                    "belongs to no structure with a rigid motion, of frequency 0",
+                    "leave it out",
+                )
+            stiffness = np.asarray(self.stiffness)
+            check.refuse("stiffness", stiffness, True, bound, unit="N/m", advice=advice)
 
     @classmethod
     @check.keywords_explained
@@ -146,8 +180,7 @@ class Structure(check.Parameters):
         """
         thickness = check.positive("thickness", thickness, unit="m")
         modulus = check.positive("Young's modulus E", E, unit="Pa")
-        nu = check.finite_array("Poisson ratio nu", nu)
-        check.refuse("Poisson ratio nu", nu, (nu <= -1) | (nu >= 0.5), "must lie in −1 < ν < 0.5")
+        nu = _poisson(nu)
         density = check.positive("density", density, unit="kg/m³")
         check.common_shape("plate", thickness=thickness, E=modulus, nu=nu, density=density)
         # √(D/ρh) over h, and √(D ρh) over h².
@@ -199,18 +232,9 @@ class Structure(check.Parameters):
         >>> print(round(Structure.laminate(135.0, 2.7, 9.0, 5.0, mass_per_area=3.2).impedance, 3))
         76.962
         """
-        D11 = check.positive("bending stiffness D11", D11, unit="N·m")
-        D22 = check.positive("bending stiffness D22", D22, unit="N·m")
-        D66 = check.positive("bending stiffness D66", D66, unit="N·m")
-        D12 = check.finite_array("bending stiffness D12", D12, unit="N·m")
         mass = check.positive("mass_per_area", mass_per_area, unit="kg/m²")
-        shape = check.common_shape("laminate", D11=D11, D12=D12, D22=D22, D66=D66, mass_per_area=mass)
+        D11, D12, D22, D66 = _of_laminate(D11, D12, D22, D66, mass_per_area=mass)
         root = np.sqrt(D11) * np.sqrt(D22)
-        bound = "is not below √(D11 D22): no laminate has such stiffnesses"
-        D12 = np.broadcast_to(D12, shape)
-        check.refuse(
-            "bending stiffness D12", D12, np.abs(D12) >= root, bound, unit="N·m", advice="check it"
-        )
         mean = np.sqrt(root) * (np.pi / 2) / scipy.special.ellipk((1 - (D12 + 2 * D66) / root) / 2)
         return cls(
             8 * np.sqrt(mass) * mean,
@@ -246,6 +270,196 @@ class Structure(check.Parameters):
         check.common_shape("rod", area=area, E=modulus, density=density)
         return cls(area * np.sqrt(modulus) * np.sqrt(density))
 
+    @classmethod
+    @check.keywords_explained
+    def modal(
+        cls,
+        frequency: ArrayLike,
+        mass: ArrayLike,
+        *,
+        damping: ArrayLike = 0.0,
+        stiffness: float | None = None,
+        thickness: float | None = None,
+    ) -> "Structure":
+        """A structure by its modes, computed or measured, as a finite-element program lists them.
+
+        Parameters
+        ----------
+        frequency : array_like
+            Natural frequencies (Hz); 0 is a rigid motion, as of a plate that hangs on threads.
+        mass : array_like
+            Modal masses (kg) at the contact: M/φ² of a mode of modal mass M with the displacement φ there,
+            so 1/φ² of a mode that is normalized by mass.
+        damping : array_like, optional
+            Damping ratios, 0 ≤ ζ < 1.
+        stiffness : float, optional
+            Static stiffness K (N/m) at the contact. The compliance that the given modes lack of 1/K acts
+            without delay: nine modes are then as good as a thousand without it.
+        thickness : float, optional
+            Thickness (m), for `hit.limits`.
+
+        Examples
+        --------
+        A body of 0.1 kg on a light mass of 0.1 g on a spring:
+
+        >>> import numpy as np
+        >>> from mdr_core import Medium, Paraboloid, Structure, impact
+        >>> spring = Structure.modal(np.sqrt(1e5 / 1e-4) / (2 * np.pi), 1e-4)
+        >>> hit = impact(Paraboloid(radius=8e-3), Medium(10e9), 0.1, 1.0, structure=spring)
+        >>> print(round(hit.restitution, 6), hit.contacts)
+        0.999592 14
+        """
+        modes = Modes(frequency, mass, damping)
+        return cls(stiffness=np.inf if stiffness is None else stiffness, modes=modes, thickness=thickness)
+
+    @classmethod
+    @check.keywords_explained
+    def supported_plate(
+        cls,
+        width: float,
+        length: float,
+        D11: float,
+        D12: float,
+        D22: float,
+        D66: float,
+        mass_per_area: float,
+        *,
+        at: tuple[float, float] = (0.5, 0.5),
+        damping: float = 0.0,
+        modes: int = 100,
+        thickness: float | None = None,
+    ) -> "Structure":
+        """A rectangular orthotropic plate, simply supported at its edges: Navier's modes, Lévy's stiffness.
+
+        Parameters
+        ----------
+        width, length : float
+            Sides a and b (m), along the first and the second axis of the laminate.
+        D11, D12, D22, D66 : float
+            Bending stiffnesses (N·m) as of `laminate`.
+        mass_per_area : float
+            Mass per area (kg/m²).
+        at : tuple of float, optional
+            Point of contact as shares of the sides, each between 0 and 1; by default the middle.
+        damping : float, optional
+            Damping ratio of all modes.
+        modes : int, optional
+            Number of modes that move, the lowest ones without a node at the contact. The others act
+            without delay.
+        thickness : float, optional
+            Thickness (m), for `hit.limits`.
+
+        Examples
+        --------
+        >>> from mdr_core import Structure
+        >>> plate = Structure.supported_plate(0.2, 0.2, 131.4, 3.867, 77.28, 8.92, 4.25)
+        >>> print(f"{plate.stiffness:.5g} N/m, {plate.modes.frequency[0]:.4g} Hz")
+        1.393e+05 N/m, 302.4 Hz
+        """
+        sides = [check.positive_number(*each, unit="m") for each in (("width", width), ("length", length))]
+        mass = check.positive_number("mass_per_area", mass_per_area, unit="kg/m²")
+        D11, D12, D22, D66 = _of_laminate(D11, D12, D22, D66)
+        if np.shape(D12):
+            raise ValueError("a structure with modes is one: give numbers for its bending stiffnesses")
+        if np.shape(at) != (2,):
+            raise ValueError(f"at must be two shares of the sides, as (0.5, 0.5), got {check.shown(at)}")
+        at = [_inside("at", share) for share in at]
+        stiffness = float(D11), float(D12 + 2 * D66), float(D22)
+        frequency, modal = modes_of_plate(np.array(sides), stiffness, mass, at, _count(modes))
+        K = 1 / compliance_of_plate(sides, stiffness, at)
+        return cls.modal(frequency, modal, damping=damping, stiffness=K, thickness=thickness)
+
+    @classmethod
+    @check.keywords_explained
+    def supported_isotropic_plate(
+        cls,
+        width: float,
+        length: float,
+        thickness: float,
+        E: float,
+        nu: float,
+        density: float,
+        *,
+        at: tuple[float, float] = (0.5, 0.5),
+        damping: float = 0.0,
+        modes: int = 100,
+    ) -> "Structure":
+        """A rectangular isotropic plate, simply supported at its edges: `supported_plate` of one material.
+
+        Parameters
+        ----------
+        width, length, thickness : float
+            Sides and thickness h (m).
+        E, nu, density : float
+            Young's modulus (Pa), Poisson ratio, density (kg/m³).
+        at, damping, modes : optional
+            As those of `supported_plate`.
+
+        Examples
+        --------
+        >>> from mdr_core import Structure
+        >>> plate = Structure.supported_isotropic_plate(0.12, 0.12, 4e-3, E=50e9, nu=0.3, density=1600.0)
+        >>> print(f"{plate.stiffness:.6g} N/m")  # D/(0.0116008 L²)
+        1.75419e+06 N/m
+        """
+        h = check.positive_number("thickness", thickness, unit="m")
+        modulus = check.positive_number("Young's modulus E", E, unit="Pa")
+        nu = float(_poisson(nu))
+        density = check.positive_number("density", density, unit="kg/m³")
+        D = modulus * h**3 / 12 / (1 - nu) / (1 + nu)
+        given = {"at": at, "damping": damping, "modes": modes, "thickness": h}
+        plate = cls.supported_plate(width, length, D, nu * D, D, (1 - nu) / 2 * D, density * h, **given)
+        return replace(plate, shear_speed=np.sqrt(modulus / density / 2 / (1 + nu)))
+
+    @classmethod
+    @check.keywords_explained
+    def beam(
+        cls,
+        length: float,
+        bending_stiffness: float,
+        mass_per_length: float,
+        *,
+        at: float = 0.5,
+        damping: float = 0.0,
+        modes: int = 50,
+        thickness: float | None = None,
+    ) -> "Structure":
+        """A simply supported beam, with the static stiffness K = 3 E I L/(x (L − x))².
+
+        Parameters
+        ----------
+        length : float
+            Length L (m).
+        bending_stiffness : float
+            Bending stiffness E I (N·m²).
+        mass_per_length : float
+            Mass per length (kg/m).
+        at : float, optional
+            Point of contact x/L, between 0 and 1.
+        damping, modes, thickness : optional
+            As those of `supported_plate`.
+
+        Examples
+        --------
+        >>> from mdr_core import Structure
+        >>> print(round(Structure.beam(1.0, 100.0, 1.0).stiffness))  # 48 E I/L³
+        4800
+        """
+        L = check.positive_number("length", length, unit="m")
+        EI = check.positive_number("bending_stiffness", bending_stiffness, unit="N·m²")
+        mass, share = (
+            check.positive_number("mass_per_length", mass_per_length, unit="kg/m"),
+            _inside("at", at),
+        )
+        frequency, modal = modes_of_beam(L, EI, mass, share, _count(modes))
+        K = 3 * EI / L**3 / (share * (1 - share)) ** 2
+        return cls.modal(frequency, modal, damping=damping, stiffness=K, thickness=thickness)
+
+    @property
+    def residual_compliance(self) -> float:
+        """Compliance r (m/N) of the modes that are not given: 1/K less that of the given ones."""
+        return 1 / float(self.stiffness) - self.modes.compliance if self.stiffness < np.inf else 0.0
+
     @property
     def is_plate(self) -> Any:
         """Whether it carries waves away, as a plate or a rod does; an array for an ensemble."""
@@ -253,13 +467,47 @@ class Structure(check.Parameters):
 
     @property
     def is_support(self) -> Any:
-        """Whether it is a support that gives way; an array for an ensemble."""
-        return np.isfinite(self.stiffness)
+        """Whether it is a support without mass that gives way; an array for an ensemble."""
+        return np.isfinite(self.stiffness) & (self.modes is None)
 
     @property
     def rigid(self) -> bool:
         """Whether nothing gives way, in no row of an ensemble: it is as if there were no structure."""
-        return not (np.any(self.is_plate) or np.any(self.is_support))
+        return self.modes is None and not (np.any(self.is_plate) or np.any(self.is_support))
+
+
+def _poisson(nu):
+    """A Poisson ratio that a material may have."""
+    nu = check.finite_array("Poisson ratio nu", nu)
+    check.refuse("Poisson ratio nu", nu, (nu <= -1) | (nu >= 0.5), "must lie in −1 < ν < 0.5")
+    return nu
+
+
+def _of_laminate(D11, D12, D22, D66, **beside):
+    """Bending stiffnesses (N·m) that a laminate may have, and that broadcast with what is beside them."""
+    D11 = check.positive("bending stiffness D11", D11, unit="N·m")
+    D22 = check.positive("bending stiffness D22", D22, unit="N·m")
+    D66 = check.positive("bending stiffness D66", D66, unit="N·m")
+    D12 = check.finite_array("bending stiffness D12", D12, unit="N·m")
+    shape = check.common_shape("laminate", D11=D11, D12=D12, D22=D22, D66=D66, **beside)
+    bound = "is not below √(D11 D22): no laminate has such stiffnesses"
+    bad, D12 = np.abs(D12) >= np.sqrt(D11) * np.sqrt(D22), np.broadcast_to(D12, shape)
+    check.refuse("bending stiffness D12", D12, bad, bound, unit="N·m", advice="check it")
+    return D11, D12, D22, D66
+
+
+def _inside(name, share):
+    """A share of a side that is inside."""
+    share = check.positive_number(name, share)
+    check.refuse(name, np.asarray(share), share >= 1, "must lie between 0 and 1, as 0.5 in the middle")
+    return share
+
+
+def _count(modes):
+    """A number of modes."""
+    if isinstance(modes, bool) or not isinstance(modes, int | np.integer) or not 1 <= modes <= 10_000:
+        raise ValueError(f"modes = {check.shown(modes)} must be a whole number from 1 to 10,000")
+    return int(modes)
 
 
 #: No structure: the body behind the medium is at rest.
