@@ -70,6 +70,7 @@ BEHIND = {
         "solver.foundation.refinement": "the limit for vanishing elements",
         "solver.foundation.row": "the row of elements in one state",
         "base.motions": "the motion over time, and names of the impact",
+        "solver.medium.modes": "modes of a structure, which the chain refuses",
         "solver.medium.structure": "Structure",
     },
 }  # fmt: skip

@@ -471,3 +471,20 @@ def test_sweeps_over_a_hardness():
         # The same steps, among others.
         for name in names:
             assert oblique[name].values[i] == approx(getattr(hit, name), rel=1e-8)
+
+
+def test_one_structure_with_modes_for_all():
+    """Against a loop; a finite impedance beside it is refused."""
+    structure = mdr.Structure.modal([800.0, 5000.0], [0.05, 0.1], stiffness=1e6)
+    speed, q_c = xr.DataArray([0.3, 1.0], dims="speed"), xr.DataArray([1e5, np.inf], dims="medium")
+    given = {"radius": 8e-3, "E_star": 10e9, "q_c": q_c, "mass": 0.02, "speed": speed}
+    names = ["restitution", "max_force"]
+    table = sweep.impacts(mdr.Paraboloid, **given, structure=structure, quantities=names)
+    for i, v in enumerate(speed.values):
+        for j, constant in enumerate(q_c.values):
+            medium = mdr.Medium(10e9, q_c=constant)
+            hit = mdr.impact(mdr.Paraboloid(8e-3), medium, 0.02, v, structure=structure)
+            for each in names:
+                assert table[each].isel(speed=i, medium=j) == approx(float(getattr(hit, each)), rel=1e-12)
+    with pytest.raises(ValueError, match="impedance"):
+        sweep.impacts(mdr.Paraboloid, **given, structure=structure, impedance=1.0)

@@ -10,6 +10,26 @@ from .check import Array, shown
 from .results import Limit, Result
 
 
+@dataclass(frozen=True)
+class Hit:
+    """One contact of an impact.
+
+    Attributes
+    ----------
+    start, end : float
+        Times (s) of first touch and of the loss of contact, from the first touch of the impact on.
+    max_force : float
+        Largest force (N).
+    impulse : float
+        Impulse (N·s).
+    """
+
+    start: float
+    end: float
+    max_force: float
+    impulse: float
+
+
 class ImpactResult(Result):
     """Base class of impacts along the normal, by `impact` and by `chain_impact`."""
 
@@ -63,6 +83,24 @@ class ImpactResult(Result):
         """
         momentum = self.mass * self.speed * (1 + self.restitution)
         return momentum / self.structure.impedance + self.max_force / self.structure.stiffness
+
+    @property
+    def hits(self) -> Any:
+        """Contacts, without modes one: a tuple of `Hit` for one impact, an array of tuples for many."""
+        columns = self.contact_time, self.max_force, self.mass * self.speed * (1 + self.restitution)
+        columns = np.broadcast_arrays(*columns)
+        found = np.empty(columns[0].shape, object)
+        for index in np.ndindex(*found.shape):
+            found[index] = (Hit(0.0, *(float(column[index]) for column in columns)),)
+        return found[()]
+
+    @property
+    def contacts(self) -> Any:
+        """Number of contacts, 1 without modes.
+
+        Contacts of less than 1 % of the momentum come and go with the number of modes.
+        """
+        return np.ones(np.shape(self.speed), int)[()]
 
     @property
     def adhesive_work(self) -> Array:

@@ -55,6 +55,11 @@ CREEP_LAW = Model(
     "while an indenter goes deeper, and while it recedes afterwards, its depth under a force obeys one "
     "scalar equation, because no element that was released comes into contact again",
 )
+MODES = Model(
+    "modes",
+    "on a structure with modes waves come back, and the body may hit several times: body and modes are "
+    "linear oscillators under the contact force",
+)
 CHAIN = Model(
     "chain",
     "on a viscous path released elements may come into contact again while they relax, so that each "
@@ -82,9 +87,11 @@ class Limit:
         "coupling" and "slip direction", and where elements stick "tolerance", "depth" over the elastic
         compression at the turning point (d_c of a hardness q_c/a) and "mass" over the tangential one; with
         a constant hardness "flow", the area of a contact that flows over that of the model; the length (m)
-        of a "jump" of a path given by force; and on a plate "edges", the contact time over that in which
-        waves are back from the nearest edge, and "thin", the contact radius over half of the thickness, or
-        6 thicknesses over the speed of shear waves and the contact time.
+        of a "jump" of a path given by force; and on a structure "edges", the contact time over that in
+        which waves are back from the nearest edge, "second contact", its bound on the restitution over that
+        of the impact, "support", the force that the mass of a support adds, "thin", the contact radius over
+        half of the thickness, or 6 thicknesses over the speed of shear waves and the contact time,
+        "deflection" and "dent" over half of the thickness, and "weight", the speed that gravity adds.
     value, bound : float
         Its largest value over all states, and the largest one for which the assumption is good.
     exceeded : bool

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..base import check
 from ..base.check import ArrayLike
-from ..base.results import CHAIN, CLOSED_FORM, CREEP_LAW, SCALAR_ODE, Model
+from ..base.results import CHAIN, CLOSED_FORM, CREEP_LAW, MODES, SCALAR_ODE, Model
 from ..solver.contact.creep import creep
 from ..solver.contact.loading import indent, indent_to_force
 from ..solver.foundation.chain_impact import chain_impact
@@ -189,6 +189,8 @@ class FreeImpact:
         if medium.work_of_adhesion > 0:
             return (CLOSED_FORM,)
         structure = structure_of(self.structure)
+        if structure.modes is not None:
+            return (MODES,)
         if medium.eta > 0 and not structure.rigid and self.plastic_depth == 0:
             return (CHAIN,)
         # The state of a chain with an imprint is more than the plastic depth: `chain_impact(start=…)`.

@@ -15,6 +15,7 @@ from ..solver.foundation.chain_impact import ChainImpact
 from ..solver.foundation.depth_path import TimedIndentation
 from ..solver.impacts.result import Impact
 from ..solver.medium.medium import Medium
+from ..solver.medium.modes import Modes
 from ..solver.medium.structure import Structure
 from ..solver.oblique.oblique_impact import ObliqueImpact
 from ..solver.profiles import power, rounded, sampled, truncated
@@ -29,7 +30,9 @@ _PROFILES = (
 _DRIVES = (DepthPath, ForcePath, FreeImpact, FreeObliqueImpact)
 #: Values of entries that are optional in a file.
 _OPTIONAL = {"time": None, "poisson": 0.5, "work_of_adhesion": 0.0, "plastic_depth": 0.0}
-_OPTIONAL |= {"hardness": None, "f_c": None, "structure": None}
+_OPTIONAL |= {"hardness": None, "f_c": None, "structure": None, "modes": None}
+#: Those of one class, whose name has another meaning in others.
+_OPTIONAL_OF = {Structure: {"mass": None}}
 #: Parameters that are null where they are infinite.
 _INFINITE = {Medium: ("q_c",), Structure: ("impedance", "stiffness")}
 #: Remedy for a law of hardness, whose class is not in a file.
@@ -182,8 +185,10 @@ class Scene:
                 f"expected {_FORMAT!r} version {_VERSION}"
             )
         drive = data["drive"]
-        if isinstance(drive, dict) and drive.get("structure") is not None:
-            drive = drive | {"structure": _build("structure", drive["structure"], Structure)}
+        if isinstance(drive, dict) and (structure := drive.get("structure")) is not None:
+            if isinstance(structure, dict) and structure.get("modes") is not None:
+                structure = structure | {"modes": _build("modes", structure["modes"], Modes)}
+            drive = drive | {"structure": _build("structure", structure, Structure)}
         return cls(
             _untagged("profile", data["profile"], _PROFILES),
             _build("medium", data["medium"], Medium),
@@ -195,6 +200,10 @@ def _constructed(value):
     """A value as a call of its class."""
     if not is_dataclass(value):
         return repr(np.asarray(value).tolist())
+    if isinstance(value, Structure) and value.modes is not None:
+        own = asdict(value.modes) | {"stiffness": value.stiffness, "thickness": value.thickness}
+        given = [f"{k}={_constructed(v)}" for k, v in own.items() if v is not None and v != np.inf]
+        return f"mdr.Structure.modal({', '.join(given)})"
     own = [(each, getattr(value, each.name)) for each in fields(value) if each.init]
     given = [f"{each.name}={_constructed(part)}" for each, part in own if not at_default(each, part)]
     return f"mdr.{type(value).__name__}({', '.join(given)})"
@@ -210,7 +219,7 @@ def _tagged(value):
 
 def _with_null(value):
     """The parameters of a medium or a structure, with null for infinite ones."""
-    return {k: None if v is not None and np.isinf(v) else v for k, v in asdict(value).items()}
+    return {k: None if isinstance(v, float) and np.isinf(v) else v for k, v in asdict(value).items()}
 
 
 def _untagged(what, data, kinds):
@@ -223,7 +232,8 @@ def _untagged(what, data, kinds):
 def _build(what, data, kind):
     names = {field.name for field in fields(kind)}
     if isinstance(data, dict):
-        data = {name: _OPTIONAL[name] for name in names & _OPTIONAL.keys()} | data
+        optional = _OPTIONAL | _OPTIONAL_OF.get(kind, {})
+        data = {name: optional[name] for name in names & optional.keys()} | data
         data |= {name: np.inf for name in _INFINITE.get(kind, ()) if name in data and data[name] is None}
     _keys(f"scene {what}", data, names)
     try:

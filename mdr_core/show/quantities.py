@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base import check
+from ..solver.medium.modes import Modes
 from ..solver.medium.structure import Structure
 from .units import KINDS, Unit, fitting, with_unit
 
@@ -159,6 +160,10 @@ def described(thing):
             continue
         if value is None:
             parts.append(f"no {known.long_name}")
+            continue
+        if isinstance(value, Modes):
+            low, high = (engineering(end(value.frequency), "Hz") for end in (min, max))
+            parts.append(f"{len(value.frequency)} modes from {low} to {high}")
             continue
         if isinstance(value, check.Parameters):
             kind, *given = described(value).split(", ")

@@ -61,7 +61,7 @@ from ..solver.impacts.impact import impact
 from ..solver.impacts.result import Impact
 from ..solver.medium.hardness import HardnessLaw
 from ..solver.medium.medium import Medium
-from ..solver.medium.structure import Structure
+from ..solver.medium.structure import Structure, structure_of
 from ..solver.oblique.oblique_impact import ObliqueImpact, oblique_impact
 from ..solver.profiles.profile import Profile, check_known
 from .arguments import (
@@ -104,6 +104,7 @@ def impacts(
     plastic_depth: "Given" = 0.0,
     impedance: "Given" = np.inf,
     stiffness: "Given" = np.inf,
+    structure: Structure | None = None,
     quantities: str | Iterable[str] = ("restitution",),
     invalid: str = "raise",
     **shape_parameters: "Given",
@@ -124,6 +125,8 @@ def impacts(
     impedance, stiffness : float or DataArray
         Impedance (N·s/m) of the plate or rod, or stiffness (N/m) of the support, that carries the medium,
         as in `Structure`; infinite, the default, is rigid.
+    structure : Structure, optional
+        One structure for all impacts, in the place of both: one with modes, which are solved one by one.
     quantities : sequence of str
         Names of quantities of `Impact`: "restitution", "max_depth", "damaged_area", "contact_time", …
     invalid : {"raise", "nan"}
@@ -161,8 +164,12 @@ def impacts(
     parameters = {"E_star": E_star, "eta": eta, "work_of_adhesion": work_of_adhesion}
     constants, law = hardness_parameters(q_c, hardness, f_c)
     parameters |= constants | {"mass": mass, "speed": speed, "plastic_depth": plastic_depth}
-    parameters |= {"impedance": impedance, "stiffness": stiffness}
-    return _sweep(Impact, _hit, law, shape, parameters, shape_parameters, quantities, invalid)
+    if structure_of(structure).rigid:
+        parameters |= {"impedance": impedance, "stiffness": stiffness}
+    elif not (np.all(np.isinf(impedance)) and np.all(np.isinf(stiffness))):
+        raise ValueError("impedance and stiffness are parameters of a structure: give them, or a structure")
+    hit = partial(_hit, structure=structure)
+    return _sweep(Impact, hit, law, shape, parameters, shape_parameters, quantities, invalid)
 
 
 def oblique_impacts(
@@ -323,10 +330,11 @@ def _some(block, chosen):
 
 
 def _hit(
-    profile, E_star, eta, work_of_adhesion, mass, speed, plastic_depth, impedance, stiffness, **hardness
-):
+    profile, E_star, eta, work_of_adhesion, mass, speed, plastic_depth, impedance=np.inf, stiffness=np.inf,
+    *, structure, **hardness,
+):  # fmt: skip
     medium = Medium(E_star, eta=eta, work_of_adhesion=work_of_adhesion, **hardness)
-    structure = Structure(impedance, stiffness)
+    structure = Structure(impedance, stiffness) if structure_of(structure).rigid else structure
     return impact(profile, medium, mass, speed, plastic_depth=plastic_depth, structure=structure)
 
 

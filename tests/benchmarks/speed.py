@@ -3,7 +3,7 @@
 python -m tests.benchmarks.speed
 """
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 
@@ -60,6 +60,7 @@ def rows(count=10**6, shapes=SHAPES):
         viscous = seconds(lambda h=hits: h().restitution, runs=1) / many.size
         yield f"one of {many.size} viscous impacts, {name(shape)}", time(viscous), ""
         yield from _on_plate(shape, many, viscous, runs)
+    yield from _on_modes(runs)
 
 
 def _on_plate(shape, speeds, viscous, runs):
@@ -75,6 +76,29 @@ def _on_plate(shape, speeds, viscous, runs):
         time(taken),
         f"{taken / viscous:.2g} × a viscous one",
     )
+
+
+def _on_modes(runs):
+    """Impacts on plates by 100 modes, beside one of the same body on a viscous half-space."""
+    laminate = 131.4233, 3.867273, 77.27888, 8.921508, 1580 * 2.69e-3
+    for what, structure, ball, medium, mass, speed in (
+        (
+            "Sun and Chen's laminate", mdr.Structure.supported_plate(0.2, 0.2, *laminate),
+            mdr.Paraboloid(6.35e-3), mdr.Medium(7.639e9), 8.537e-3, 3.0,
+        ),
+        (
+            "a drop weight of ASTM D7136",
+            mdr.Structure.supported_isotropic_plate(0.075, 0.125, 4.5e-3, 25e9, 0.3, 1600.0),
+            mdr.Paraboloid(8e-3), mdr.Medium(10e9, q_c=4e5), 5.5, 1.0,
+        ),
+    ):  # fmt: skip
+        wet = replace(medium, eta=1e3)
+        viscous = seconds(
+            lambda b=ball, w=wet, m=mass, v=speed: mdr.impact(b, w, m, v).restitution, runs=runs
+        )
+        given = ball, medium, mass, speed
+        taken = seconds(lambda g=given, s=structure: mdr.impact(*g, structure=s).restitution, runs=runs)
+        yield f"one impact by 100 modes, {what}", time(taken), f"{taken / viscous:.2g} × a viscous one"
 
 
 def _ensembles(count):

@@ -92,6 +92,8 @@ def chain_impact(
             "an impact on the chain needs a single structure, but its parameters are arrays of shape "
             f"{structure.shape}; take one at a time, as in structure.entries(i)"
         )
+    if structure.modes is not None:
+        raise ValueError("an impact on the chain is not computed with modes of a structure; take impact(…)")
     refuse_adhesion(medium, "an impact on the chain")
     mass = check.positive_number("mass", mass, unit="kg")
     speed = check.positive_number("speed", speed, unit="m/s")

@@ -14,6 +14,7 @@ from ..medium.structure import Structure, structure_of
 from ..profiles.profile import Profile
 from .adhesive import adhesive_impact
 from .energy_balance import dry_impact
+from .modal import modal_impact
 from .result import Impact
 from .viscous import viscous_impact
 
@@ -113,7 +114,9 @@ def _too_deep(profile, where):
 
 def _refuse_losses(medium, structure, shape):
     """Refuses adhesion and viscosity of an entry on a structure, and adhesion of others in the ensemble."""
-    on_structure = np.broadcast_to(structure.is_plate | structure.is_support, shape)
+    on_structure = np.broadcast_to(
+        structure.is_plate | structure.is_support | (structure.modes is not None), shape
+    )
     work, quantity = np.broadcast_to(medium.work_of_adhesion, shape), "work of adhesion work_of_adhesion"
     bound, advice = "is not computed together with a structure", "set work_of_adhesion = 0"
     check.refuse(quantity, work, (work > 0) & on_structure, bound, unit="J/m²", advice=advice)
@@ -122,11 +125,15 @@ def _refuse_losses(medium, structure, shape):
     eta = np.broadcast_to(medium.eta, shape)
     bound = "is not computed together with a structure by `impact`"
     advice = "take chain_impact(…, structure=…), or set eta = 0"
+    if structure.modes is not None:
+        bound, advice = "is not computed together with a structure by its modes", "set eta = 0"
     check.refuse("viscosity eta", eta, (eta > 0) & on_structure, bound, unit="Pa·s", advice=advice)
 
 
 def _solved(profile, medium, mass, speed, imprint_depth, structure, in_time):
     """The `Impact` by the solver for its medium, with an infinite depth below the known depth."""
+    if structure.modes is not None:
+        return modal_impact(profile, medium, mass, speed, imprint_depth, structure)
     if np.any(np.asarray(medium.work_of_adhesion) > 0):
         if in_time:
             refuse_adhesion(medium, "an equation of motion")

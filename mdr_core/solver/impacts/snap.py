@@ -30,14 +30,7 @@ def depth_before_snap(rule, imprint, interval, increase, energy, give, structure
     stiffness = np.broadcast_to(structure.stiffness, shape)
     end = (interval.length + increase).reshape(-1, 1)
     end = np.minimum(end, rule.profile.known_depth - imprint)
-    start = np.minimum(rule.penetration(imprint, imprint), end)
-
-    def way(y):
-        """S at penetrations (m)."""
-        return 1 + give * rule.loading_width(*rule.loading(y, imprint))
-
-    # Just before it: at the very place the work has no slope.
-    y = (1 - 1e-9) * _first_snap(way, start, end)
+    y, way, start = snap(rule, imprint, end, give)
     snaps = np.reshape((y < np.inf) & (rule.work(np.minimum(y, end), imprint, give)[0] <= energy), shape)
     if np.any(snaps):
         # The steepest fall on the way to the depth that the impact has without a support.
@@ -50,6 +43,18 @@ def depth_before_snap(rule, imprint, interval, increase, energy, give, structure
         advice = "give a stiffer support, less speed, or a hardness without f_c"
         check.refuse("stiffness", stiffness, snaps, bound, unit="N/m", advice=advice)
     return np.reshape(y, shape)
+
+
+def snap(rule, imprint, end, give):
+    """Penetrations (m) just before a contact snaps, infinite if not up to `end`; S, and the onsets (m)."""
+    start = np.minimum(rule.penetration(imprint, imprint), end)
+
+    def way(y):
+        """S at penetrations (m)."""
+        return 1 + give * rule.loading_width(*rule.loading(y, imprint))
+
+    # Just before it: at the very place the work has no slope.
+    return (1 - 1e-9) * _first_snap(way, start, end), way, start
 
 
 def _first_snap(way, start, end):

@@ -139,3 +139,25 @@ def root_in_bracket(function, x, low, high, close):
         if not low < x < high or (count > 5 and count % 2 and high - low < np.inf):
             x = (low + high) / 2
     return result
+
+
+def sign_change(function, low, high):
+    """Place between `low` and `high` at which a number becomes positive, by secants and halving."""
+    at_low, at_high = function(low), function(high)
+    if at_low * at_high >= 0:
+        # Rounding hides the change.
+        return float(high)
+    for count in range(200):
+        # Illinois' rule: an end that stays counts half, so that both move.
+        place = high - at_high * (high - low) / (at_high - at_low)
+        place = place if low < place < high and count % 8 < 6 else (low + high) / 2
+        value = function(place)
+        if value == 0 or not low < place < high:
+            break
+        if value > 0:
+            high, at_high, at_low = place, value, at_low / 2
+        else:
+            low, at_low, at_high = place, value, at_high / 2
+        if high - low <= 4e-16 * abs(high):
+            break
+    return float(place)
