@@ -10,6 +10,7 @@ from ...base.results import SCALAR_ODE
 from ..applicability import check_reached, check_slopes
 from ..contact.indentation import Indentation
 from ..contact.yielding import yield_rule
+from ..medium.medium import Medium
 from ..medium.structure import RIGID
 from ..numerics.blocks import chunks
 from .energy_balance import dry_impact, largest_force
@@ -23,6 +24,8 @@ _TOLERANCE = {ON_MEDIUM: 1e-5, ON_STRUCTURE: 1e-7}
 #: Impacts that are solved at once. On a plate they take steps of more kinds, so that fewer are left in
 #: each: 1000 elastic impacts of a paraboloid are 1.3 times as fast as by 256.
 _TOGETHER = {ON_MEDIUM: 256, ON_STRUCTURE: 1024}
+#: Λ = F₀/(Z v) from which on a plate only follows the body.
+_SOFT = 1e4
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -78,7 +81,9 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID,
             except Unsolved as error:
                 # A shape or a law that is at fault is known at the depths without losses, which are larger.
                 check_reached(profile, medium, interval.upper)
-                _refuse_unsolved(error, rows[error.rows], speed, profile, interval.upper)
+                first = np.unravel_index(int(rows[error.rows][0]), mass.shape)
+                soft = _soft(profile, medium, mass, speed, structure, first)
+                _refuse_unsolved(error, rows[error.rows], speed, profile, interval.upper, soft)
     restitution, end_time, work, deceleration = motions
     rule = yield_rule(profile, medium)
     interval, increase = rule.turning(penetrations.reshape(mass.shape), imprint_depth)
@@ -103,16 +108,42 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID,
     )
 
 
-def _refuse_unsolved(error, rows, speed, profile, depth):
+def _soft(profile, medium, mass, speed, structure, index):
+    """Words on a plate that only follows the body at an index; empty if it does not.
+
+    Λ = F₀/(Z v) compares the elastic force on a rigid body with that of a plate under the body's speed.
+    """
+    shape = mass.shape
+    profile, medium, structure = (each.entries(index, shape) for each in (profile, medium, structure))
+    if not structure.is_plate:
+        return ""
+    m, v, impedance = (
+        float(np.broadcast_to(each, shape)[index]) for each in (mass, speed, structure.impedance)
+    )
+    elastic = dry_impact(profile, Medium(medium.E_star), *(np.asarray(each) for each in (m, v, 0.0)))
+    softness, deflection = float(elastic.max_force) / (impedance * v), m * v / impedance
+    if softness < _SOFT:
+        return ""
+    thick = structure.thickness
+    many = f"{deflection / thick:.3g} thicknesses" if thick else f"{deflection:.3g} m"
+    return f"the plate follows the body, Λ = F₀/(Z v) = {softness:.3g}, and would be deflected by {many}"
+
+
+def _refuse_unsolved(error, rows, speed, profile, depth, soft):
     """Refuses the impacts at some rows of the flattened ensemble, which have not been solved.
 
-    `depth` (m) is that without viscosity.
+    `depth` (m) is that without viscosity, `soft` has words on a plate that only follows the first body.
     """
     bad = np.zeros(speed.size, bool)
     bad[rows] = True
     one = profile.flat_entries(int(rows[0]), speed.shape)
     if not depth.flat[rows[0]] <= one.known_depth:
         bound, advice = f"presses {one.too_deep()}", "reduce speed or mass"
+    elif soft:
+        bound, advice = (
+            f"has no solution: {soft}",
+            "take the structure by its modes, or check its impedance",
+        )
     else:
         bound = f"has no solution: {error}"
         advice = "check mass, eta and the structure, and the functions of a shape or a law of your own"

@@ -393,7 +393,7 @@ class TestStructures:
     @pytest.mark.parametrize(
         ("make", "message"),
         [
-            (lambda: mdr.Structure(346.0, 1e7), "stiffness = .* a light and fast body"),
+            (lambda: mdr.Structure(346.0, 1e7), "stiffness = .* by its modes"),
             (lambda: mdr.Structure(0.0), "impedance = 0 N·s/m must be positive"),
             (lambda: mdr.Structure(stiffness=np.nan), "stiffness = nan"),
             (lambda: mdr.Structure("346"), "impedance must be one real number"),
@@ -477,8 +477,62 @@ class TestLimits:
         assert limits["thin"].value == approx(6 * 0.1 / thick.shear_speed / hit.contact_time, rel=1e-12)
         assert "shear wave" in limits["thin"].sentence
 
-    def test_a_support_has_no_number(self):
+    def test_a_support_has_no_edges(self):
         assert not {"edges", "thin"} & self.limits(mdr.Structure(stiffness=1e7))[1].keys()
+
+    @pytest.mark.parametrize("side", [0.08, 0.2, 0.4])
+    def test_a_second_contact_is_told_where_there_is_one(self, side):
+        """By the modes of the same plate: two contacts of more than 1 % of the momentum."""
+        plate = 4e-3, 50e9, 0.3, 1600.0
+        _, limits = self.limits(mdr.Structure.plate(*plate, edge=side / 2))
+        modes = mdr.Structure.supported_isotropic_plate(side, side, *plate)
+        hits = mdr.impact(BALL, ELASTIC, MASS, SPEED, structure=modes).hits
+        several = sum(hit.impulse > 0.01 * MASS * SPEED for hit in hits) > 1
+        assert several == limits["second contact"].exceeded
+
+    def test_the_mass_of_a_support(self):
+        """A ball on a steel beam: 5.0 kN without its mass, 39.3 kN by 50 modes. D7136, which yields."""
+        radius, length, line_mass = 0.07, 0.78, 7850 * 0.06 * 0.0278
+        beam = mdr.Structure.beam(length, 206e9 * 0.06 * 0.0278**3 / 12, line_mass)
+        ball = mdr.Paraboloid(radius), mdr.Medium(206e9 / 0.91 / 2), 4 / 3 * np.pi * radius**3 * 7850, 1.0
+        support = mdr.Structure(stiffness=beam.stiffness, mass=line_mass * length / 2)
+        hit = mdr.impact(*ball, structure=support)
+        (limit,) = (limit for limit in hit.limits if limit.what == "support")
+        by_modes = mdr.impact(*ball, structure=beam)
+        assert by_modes.max_force > 7 * hit.max_force
+        assert limit.exceeded
+        # One mode is an estimate of fifty.
+        assert 0.5 < limit.value / (by_modes.max_force / hit.max_force - 1) < 2
+        drop = mdr.Paraboloid(8e-3), mdr.Medium(10e9, q_c=4e5), 5.5, 1.0
+        support = mdr.Structure(stiffness=2.332e6, mass=0.075 * 0.125 * 4.5e-3 * 1600 / 4)
+        (limit,) = (each for each in mdr.impact(*drop, structure=support).limits if each.what == "support")
+        assert not limit.exceeded
+        assert limit.value < 0.01
+
+    def test_without_a_mass_a_support_says_how_to_give_one(self):
+        _, limits = self.limits(mdr.Structure(stiffness=1e7))
+        assert not limits["support"].exceeded
+        assert "mass=" in limits["support"].sentence
+
+    def test_deflection_dent_and_weight(self):
+        plate = mdr.Structure.laminate(293.0, 88.0, 293.0, 103.0, 6.4, thickness=1e-3)
+        hit, limits = self.limits(plate, 50.0)
+        assert limits["deflection"].value == approx(hit.max_deflection / 0.5e-3, rel=1e-12)
+        assert limits["dent"].value == 0
+        assert "weight" not in limits
+        dented = mdr.impact(BALL, mdr.Medium(E, hardness=1e8), MASS, SPEED, structure=plate)
+        (dent,) = (each for each in dented.limits if each.what == "dent")
+        assert dent.value == approx(dented.plastic_depth / 0.5e-3, rel=1e-12)
+        slow, limits = self.limits(mdr.Structure(stiffness=100.0), 0.1)
+        assert limits["weight"].value == approx(9.81 * slow.contact_time / 0.1, rel=1e-12)
+        assert limits["weight"].level == "note"
+
+    def test_a_plate_that_only_follows_the_body_is_named(self):
+        force = mdr.impact(BALL, ELASTIC, MASS, SPEED).max_force
+        with pytest.raises(ValueError, match="Λ") as refused:
+            mdr.impact(BALL, ELASTIC, MASS, SPEED, structure=mdr.Structure(0.01, thickness=1e-3))
+        assert f"{force / (0.01 * SPEED):.3g}" in str(refused.value)
+        assert f"{MASS * SPEED / 0.01 / 1e-3:.3g} thicknesses" in str(refused.value)
 
 
 class TestHardCases:
