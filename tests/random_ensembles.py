@@ -43,9 +43,12 @@ class Ensemble:
     law: type | None
     values: dict
     shape: tuple
+    #: A structure by its modes, of which there is one for all entries.
+    modal: mdr.Structure | None = None
 
     def __str__(self):
         kind = self.law.__name__ if self.law else "constants"
+        kind += " on modes" if self.modal else ""
         values = ", ".join(f"{name} {np.shape(value) or ''}" for name, value in self.values.items())
         return f"seed {self.seed}: {self.solver}, {type(self.profile).__name__}, {kind}, {values}"
 
@@ -57,6 +60,10 @@ class Ensemble:
     def given(self, owner):
         """Parameters of the profile, the medium, the law or the structure."""
         return {k.partition(".")[2]: v for k, v in self.values.items() if k.startswith(f"{owner}.")}
+
+    @property
+    def structure(self):
+        return self.modal or mdr.Structure(**self.given("structure"))
 
     @property
     def others(self):
@@ -83,16 +90,19 @@ def random_ensemble(seed):
         values |= {f"profile.{name}": x for name, x in profile.__getstate__().items() if np.ndim(x) == 0}
     law, hardness = _hardness(rng, largest, float(state.contact_radius))
     values |= hardness
+    modal = None
     if solver in ("indent", "sweep.indentations"):
         values["depth"] = largest
     else:
         values |= _impact(rng, solver, largest, float(state.force), float(state.stored_energy))
+        if solver in MODAL and rng.random() < 0.25:
+            modal = _modes(rng, values, float(state.force) / largest)
     # Under facets the rim jumps, which is computed for one medium at a time.
     facets = isinstance(profile, mdr.Sampled)
-    if law is None and not facets and solver in ADHESIVE and rng.random() < 0.3:
+    if law is None and not (facets or modal) and solver in ADHESIVE and rng.random() < 0.3:
         values["medium.work_of_adhesion"] = 10 ** rng.uniform(-4, -2) * E * largest
     shape = list(SIZES)[rng.integers(len(SIZES))]
-    return Ensemble(seed, solver, profile, law, _with_arrays(rng, solver, values, shape), shape)
+    return Ensemble(seed, solver, profile, law, _with_arrays(rng, solver, values, shape), shape, modal)
 
 
 def _hardness(rng, largest, a):
@@ -129,6 +139,17 @@ def _impact(rng, solver, largest, force, energy):
     if rng.random() < 0.5:
         values["structure.stiffness"] = 10 ** rng.uniform(-1.5, 2) * stiffness
     return values
+
+
+def _modes(rng, values, stiffness):
+    """A structure by one to three modes, about as stiff as the contact (N/m), instead of another one."""
+    # Viscous media are refused, which is tried, too.
+    viscous = ("medium.eta",) if rng.random() < 0.9 else ()
+    for name in ("structure.impedance", "structure.stiffness", *viscous):
+        values.pop(name, None)
+    mass = values["mass"] * 10 ** rng.uniform(-1, 1, rng.integers(1, 4))
+    frequency = np.sqrt(stiffness / values["mass"]) * 10 ** rng.uniform(-0.7, 0.7, mass.size) / 2 / np.pi
+    return mdr.Structure.modal(frequency, mass, damping=rng.choice([0.0, 0.05]))
 
 
 def _with_arrays(rng, solver, values, shape):
@@ -207,7 +228,7 @@ def _bound(ensemble):
         return 2 * STATE
     if ensemble.solver == "sweep.oblique_impacts":
         return 2 * IN_TIME
-    dry = not ensemble.values.keys() & {"medium.eta", "structure.impedance"}
+    dry = not (ensemble.modal or ensemble.values.keys() & {"medium.eta", "structure.impedance"})
     return 2 * (DRY if dry and ensemble.solver != "motion" else IN_TIME)
 
 
@@ -267,8 +288,7 @@ def _first_loading(case):
 
 
 def _hit(case):
-    structure = mdr.Structure(**case.given("structure"))
-    return mdr.impact(*case.pair(), **case.others, structure=structure)
+    return mdr.impact(*case.pair(), **case.others, structure=case.structure)
 
 
 def _impacts(case):
@@ -302,6 +322,8 @@ def _sweep(kind, **other):
                 given[name.partition(".")[2] or name] = xr.DataArray(np.squeeze(value), dims=dims)
         if case.law:
             given["hardness"] = case.law(**case.given("law"))
+        if case.modal:
+            given["structure"] = case.modal
         shape = type(case.profile) if case.given("profile") else case.profile
         table = getattr(mdr.sweep, kind)(shape, **given, quantities=QUANTITIES[kind], **other)
         grid = xr.DataArray(np.zeros(case.shape), dims=DIMENSIONS[-len(case.shape) :])
@@ -320,6 +342,7 @@ QUANTITIES = {
     "oblique_impacts": ("restitution", "tangential_velocity", "friction_work", "max_tangential_force"),
 }  # fmt: skip
 #: The solver of an ensemble, and that of an entry: each returns quantities by an index.
+MODAL = ("impact", "motion", "sweep.impacts")
 SOLVERS = {
     "impact": (_impacts, _impacts),
     "indent": (_indent, _indent),

@@ -51,6 +51,10 @@ class ModalImpact(Impact):
 
     model = MODES
 
+    def __post_init__(self):
+        # A motion alone has no index.
+        check.store(self, _motions=np.asarray(self._motions, object))
+
     @property
     def captured(self):
         """Whether the body has not left within 100 periods of the lowest oscillation."""
@@ -75,7 +79,7 @@ class ModalImpact(Impact):
         """An array of values of the motions, or one value."""
         found = np.empty(self.shape, kind)
         for index in np.ndindex(*self.shape):
-            found[index] = value(np.asarray(self._motions, object)[index])
+            found[index] = value(self._motions[index])
         return found[()]
 
     @cached_property
@@ -110,7 +114,7 @@ class ModalImpact(Impact):
         `structure_work` is what damping has dissipated, `support_energy` the energy of the structure.
         """
         check_single(self, "motion")
-        return _motion(self, self._motions, n)
+        return _motion(self, self._motions[()], n)
 
 
 def modal_impact(profile, medium, mass, speed, imprint_depth, structure, tolerance=TOLERANCE):
@@ -136,7 +140,7 @@ def modal_impact(profile, medium, mass, speed, imprint_depth, structure, toleran
         contact_time=each(lambda motion: motion.contact_time),
         max_force=each(lambda motion: max((hit.max_force for hit in motion.hits), default=np.nan)),
         structure_work=each(lambda motion: motion.structure_work),
-        _motions=motions[()], structure=structure,
+        _motions=motions, structure=structure,
     )  # fmt: skip
 
 
@@ -149,6 +153,11 @@ def _motion(hit, motion, n):
     increase = np.where(yields, increase, 0.0)
     # In a flight, and where contact ends, nothing is compressed.
     live = np.where(yields, interval.length, np.maximum(y, 0.0))
+    stiffness = law.modulus * np.where(
+        yields, law.rule.loading_width(interval, increase), law.rule.profile.radius_at(p + live)
+    )
+    # d′ (1 + r F′) is the rate without the residual compliance r.
+    softer = 1 + motion.system.residual * np.where(live > 0, stiffness, 0.0)
     plastic = p + increase
     interval = LiveInterval(plastic, plastic + live, live)
     states = Indentation(hit.profile, hit.medium, p + y, interval, in_time=True)
@@ -157,7 +166,7 @@ def _motion(hit, motion, n):
     work = law.modulus * law.rule.plastic_integral(np.full_like(plastic, first), plastic - first)
     stored = law.modulus * integrals(law.rule.profile).energy_integral(interval)
     return Motion(
-        time=time, depth=p + y, velocity=found["velocity"], force=found["force"],
+        time=time, depth=p + y, velocity=found["free_velocity"] / softer, force=found["force"],
         contact_radius=states.contact_radius * (live > 0), plastic_radius=states.plastic_radius,
         plastic_depth=plastic, live_depth=live, kinetic_energy=kinetic, stored_energy=stored,
         plastic_work=work, viscous_work=np.zeros(n), deflection=found["way"] - p - y,
@@ -182,13 +191,11 @@ def _at(motion, part, t):
     if part.force is None:
         z, v, x, force, work = np.exp(s.root * t) * part.z, part.v, part.x + part.v * t, 0.0, 0.0
         penetration = -np.sum(x) - np.sum(s.ways(z)) - imprint
-        velocity = -np.sum(v) - np.sum(s.rates(z))
     else:
         # Of the part up to there, in its own nodes.
         there = at(t / h * NODES)
         forces, penetrations = there @ part.force, there @ part.penetration
         force, penetration = forces[-1], penetrations[-1]
-        velocity = (SLOPE[-1] @ penetrations) / t if t else (SLOPE[0] @ part.penetration) / h
         z, v = s.after(part.z, t, forces), part.v + t * (WHOLE @ forces) / s.free_mass
         x = part.x[0] + part.v[0] * t * NODES + t * t / motion.mass * (WAYS @ forces)
         work = WHOLE @ (forces * (SLOPE @ (-x - penetrations)))
@@ -197,6 +204,6 @@ def _at(motion, part, t):
     damped += work + begun - energy if motion.damped else 0.0
     return {
         "force": force, "penetration": penetration, "imprint": imprint, "yields": part.yields,
-        "velocity": velocity, "way": -x[0], "body_velocity": -v[0], "structure_energy": energy,
-        "damping_work": damped,
+        "free_velocity": -np.sum(v) - np.sum(s.rates(z)), "way": -x[0], "body_velocity": -v[0],
+        "structure_energy": energy, "damping_work": damped,
     }  # fmt: skip

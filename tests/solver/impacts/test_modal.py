@@ -247,6 +247,8 @@ def test_energies_add_up_at_every_instant(seed):
     flying = motion.force == 0
     assert np.all((motion.depth - motion.plastic_depth)[flying] <= 1e-9 * hit.max_depth)
     assert motion.force.max() <= hit.max_force * (1 + 1e-9)
+    # The structure begins at rest.
+    assert motion.velocity[0] == approx(1.0, rel=1e-12)
     assert motion.deflection.max() <= hit.max_deflection * (1 + 1e-3)
     assert sum(each.impulse for each in hit.hits) == approx(mass * (1 + hit.restitution), rel=1e-9)
 
