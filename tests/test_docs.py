@@ -267,6 +267,8 @@ SEARCHED = [
     "notebook",
     "export",
     "torsion",
+    *("drop tower", "drop weight", "impactor", "striker", "CFRP", "GFRP", "laminate", "dent"),
+    *("absorbed energy", "BVID", "peak force"),
 ]
 
 

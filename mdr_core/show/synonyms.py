@@ -39,7 +39,11 @@ SYNONYMS = (
         "force; max_force",
         "It is positive in compression.",
     ),
-    _synonyms("peak force, maximum force, max load, peak load, F max", "max_force; force"),
+    _synonyms(
+        "peak force, maximum force, max load, peak load, F max",
+        "max_force; force",
+        "Of a drop weight on a laminate: :doc:`composites`.",
+    ),
     _synonyms(
         "depth, penetration, penetration depth, indentation, indentation depth, displacement, approach, "
         "deformation, overlap",
@@ -52,9 +56,9 @@ SYNONYMS = (
     ),
     _synonyms(
         "residual depth, final depth, permanent depth, imprint depth, crater depth, dent depth, residual "
-        "imprint, crater, dent, h f",
+        "imprint, crater, dent, permanent indentation, h f",
         "plastic_depth",
-        "`Indentation.imprint` is the depth of the imprint at any radius.",
+        "`Indentation.imprint` is the depth of the imprint at any radius. See :doc:`composites`.",
     ),
     _synonyms(
         "maximum pressure, max pressure, peak pressure, p max, p 0",
@@ -93,7 +97,8 @@ SYNONYMS = (
     _synonyms(
         "absorbed energy, dissipated energy, dissipation, energy loss, lost energy",
         "plastic_work and structure_work; plastic_work and friction_work; plastic_work",
-        "Also `Impact.viscous_work`, `Impact.adhesive_work`, and `ObliqueImpact.friction_work`.",
+        "Also `Impact.viscous_work`, `Impact.adhesive_work`, and `ObliqueImpact.friction_work`; see "
+        ":doc:`composites`.",
     ),
     _synonyms("elastic energy, elastic work, strain energy, potential energy", "stored_energy"),
     _synonyms(

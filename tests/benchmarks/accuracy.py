@@ -114,6 +114,60 @@ def chain_impacts(shares=(0.0, 1e-2, 1.0, 1e2, 1e3), tolerance=1e-6):
         yield f"τ/T = {share:g}", f"{said:.0e}", f"{missed:.0e}"
 
 
+def structures():
+    """Impacts on plates and beams, with the restitution and the force of an independent solution of each.
+
+    Zener's equation is s″ + (1 + λ d/dτ) s^1.5 = 0. Fixed steps hold the mean force, with modes that move
+    exactly under it, and are extrapolated to steps of no duration.
+    """
+    zener, steps, ode = "Zener's equation, DOP853", "fixed steps, 1/4000 of the contact", "DOP853"
+    plate = mdr.Structure.plate(8e-3, 206e9, 0.3, 7850.0)
+    for lam, e in ((0.1, 0.8433394109), (0.5, 0.4368953009), (1.0, 0.1841228742)):
+        mass, ball, E_star = 4e-3, mdr.Paraboloid(5e-3), 1e10
+        speed = (lam * plate.impedance / mass**0.6) ** 5 / (16 / 9 * E_star**2 * ball.radius)
+        hit = mdr.impact(ball, mdr.Medium(E_star), mass, speed, structure=plate)
+        yield _solution(f"plate without edges, λ = {lam:g}", hit, zener, e)
+    steel = 2.16e11, 7960.0, 0.3
+    for length, radius, count, e, force in (
+        (0.1535, 0.01, 8, 0.302322901, 4.980), (0.307, 0.02, 6, 0.97312489, 10.28),
+    ):  # fmt: skip
+        k = np.arange(1, 2 * count, 2)
+        omega = (k * np.pi / length) ** 2 * np.sqrt(steel[0] * 1e-8 / 12 / (steel[1] * 1e-4))
+        beam = mdr.Structure.modal(omega / (2 * np.pi), np.full(count, steel[1] * 1e-4 * length / 2))
+        hit = _ball(radius, steel, mdr.Medium(steel[0] / (1 - steel[2] ** 2) / 2), 0.01, beam)
+        title = f"Timoshenko's beam of {length * 1e3:g} mm, its first {count} odd modes"
+        yield _solution(title, hit, ode if count == 8 else steps, e, force)
+    i, j = (n.ravel() * np.pi / 0.2 for n in np.meshgrid(*2 * (np.arange(1, 16, 2),)))
+    square = 131.4233 * i**4 + 2 * (3.867273 + 2 * 8.921508) * (i * j) ** 2 + 77.27888 * j**4
+    area_mass = 1580 * 2.69e-3
+    modes = np.sqrt(square / area_mass) / (2 * np.pi), np.full(64, area_mass * 0.2**2 / 4)
+    laminate = mdr.Medium(1 / ((1 - 0.09) / 210e9 + 1 / 7.9e9))
+    hit = _ball(6.35e-3, steel, laminate, 3.0, mdr.Structure.modal(*modes))
+    yield _solution("laminate of Sun and Chen, 8 × 8 modes", hit, steps, 0.1846356)
+    steel = 206e9, 7833.0, 0.28
+    plate = mdr.Structure.supported_isotropic_plate(0.2, 0.2, 8e-3, steel[0], steel[2], steel[1])
+    hit = _ball(10e-3, steel, mdr.Medium(steel[0] / (1 - steel[2] ** 2) / 2), 1.0, plate)
+    yield _solution("steel plate of Karas, 200 mm × 200 mm × 8 mm", hit, steps, 0.6637, 1375.69)
+    steel = 206e9, 7850.0, 0.3
+    beam = mdr.Structure.beam(0.78, steel[0] * 60e-3 * 27.8e-3**3 / 12, steel[1] * 60e-3 * 27.8e-3)
+    hit = _ball(70e-3, steel, mdr.Medium(steel[0] / (1 - steel[2] ** 2) / 2), 1.0, beam)
+    yield _solution("ball of 140 mm on a steel beam of 780 mm", hit, steps, 0.868668, 39301.0)
+
+
+def _ball(radius, material, medium, speed, structure):
+    """The impact of a ball of a material (Young's modulus, density, Poisson ratio)."""
+    mass = 4 / 3 * np.pi * radius**3 * material[1]
+    return mdr.impact(mdr.Paraboloid(radius), medium, mass, speed, structure=structure)
+
+
+def _solution(title, hit, by, e, force=None):
+    """A row: restitution and largest force of another solution, with its digits, and of the library."""
+    places = len(f"{e}".partition(".")[2])
+    row = title, by, f"{e}", f"{hit.restitution:.{places}f}"
+    forces = ("", "") if force is None else (f"{force:,g} N", f"{float(f'{hit.max_force:.6g}'):,g} N")
+    return *row, *forces, f"{hit.contacts}"
+
+
 def _digits(values):
     return (f"{value:.0e}" for value in values)
 
@@ -145,6 +199,12 @@ def main():
         "The chain at its tolerance of 10⁻⁶, worst of cone, paraboloid and flat punch:",
         "",
         *_table(("relaxation over contact time", "its estimate", "its error"), chain_impacts()),
+        "Impacts on structures, next to other solutions of the same equations:",
+        "",
+        *_table(
+            ("scene", "other solution", "its e", "e", "its largest force", "largest force", "contacts"),
+            structures(),
+        ),
         "Oblique impacts without viscosity, against a chain of 2000 cells: 60 random ones of each class of "
         "hardness and of sums, of all the tests' shapes that it is for, depth over that of the onset from "
         "0.1 to 10³, over the elastic compression u_c at it up to 10³, μ from 0.01 to 3, m_t/m from 0.1 to "
