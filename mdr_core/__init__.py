@@ -13,6 +13,7 @@ from .base.check import no_attribute
 
 if TYPE_CHECKING:
     from . import abel, sweep
+    from .base.errors import MDRError
     from .base.motions import Motion
     from .base.remark import Remark, Remedy
     from .measurements.fit.hardness import fit_hardness
@@ -57,6 +58,7 @@ __all__ = [
     "Hyperboloid",
     "Impact",
     "Indentation",
+    "MDRError",
     "Medium",
     "Motion",
     "ObliqueImpact",
@@ -139,6 +141,7 @@ _MODULES = {
         "hardness_class",
     ),
     "solver.medium.medium": ("Medium",),
+    "base.errors": ("MDRError",),
     "base.motions": ("Motion",),
     "base.remark": (
         "Remark",

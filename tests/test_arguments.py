@@ -87,8 +87,8 @@ CALLS = {
 }  # fmt: skip
 #: Public names that take no arrays, or only through those above.
 WITHOUT = {
-    "FreeImpact", "FreeObliqueImpact", "Foundation", "Impact", "Indentation", "Motion", "ObliqueImpact",
-    "Profile", "Remark", "Remedy", "ScalingLaw", "Scene", "Smooth", "TimedIndentation",
+    "FreeImpact", "FreeObliqueImpact", "Foundation", "Impact", "Indentation", "MDRError", "Motion",
+    "ObliqueImpact", "Profile", "Remark", "Remedy", "ScalingLaw", "Scene", "Smooth", "TimedIndentation",
     "UnknownColumns", "abel", "chain_impact", "read_curve", "read_curves", "sweep",
 }  # fmt: skip
 

@@ -93,7 +93,7 @@ def _preview(path: str, options: dict[str, Any], error: UnknownColumns) -> Any:
 
 def with_text(remark: Remark, text: str) -> Remark:
     """Return a remark with another text."""
-    return Remark(text, remark.kind, text, remark.remedy)
+    return Remark(text, remark.kind, *remark.remedy, together=remark.together)
 
 
 def samples(curve: Any, drift: float | None = None, frame: float | None = None) -> SimpleNamespace:
@@ -253,7 +253,7 @@ def _plausible(
             "loading and unloading differ by a factor of ten or more in E*, and an elastic sample has one"
         )
         text += ": choose the kind of a sample that yields"
-        return _none(quoted, Remark(text, "unloading", remedy=(Remedy("class", "a"),))), (), ()
+        return _none(quoted, Remark(text, "unloading", Remedy("class", "a"))), (), ()
     if other and ratio >= _DIFFERS:
         rest = {"loading": "unloading", "unloading": "loading"}[part]
         text = f"of the {part}; the {rest} alone gives {written(other, 'pressure', 2)}, {ratio:.2g} times"
@@ -262,13 +262,13 @@ def _plausible(
         text, remedy = _unit_to_look_at(asked.profile, curve, taken, used, E, (_SOFT, 2e12), 1e-3)
         if E < _NONE:
             text = f"E* comes out below 1 MPa, which no glass, metal or ceramic has: {text}"
-            doubt = Remark(f"{text}, or choose another kind of sample", "units", remedy=remedy)
+            doubt = Remark(f"{text}, or choose another kind of sample", "units", *remedy)
             return _none(quoted, doubt), (), ()
-        doubt = Remark(f"few samples of constant hardness are so soft: {text}", "units", remedy=remedy)
+        doubt = Remark(f"few samples of constant hardness are so soft: {text}", "units", *remedy)
         return quoted, (doubt,), below
     if asked.medium == "gel" and E > _STIFF and ratio >= _DIFFERS:
         text, remedy = _unit_to_look_at(asked.profile, curve, taken, used, E, (0.0, _STIFF), 1e3)
-        doubt = Remark(f"few gels, cells and rubbers are so stiff: {text}", "units", remedy=remedy)
+        doubt = Remark(f"few gels, cells and rubbers are so stiff: {text}", "units", *remedy)
         return quoted, (doubt,), below
     return quoted, (), below
 

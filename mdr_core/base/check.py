@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ParamSpec, Protocol, Self, TypeVar
 import numpy as np
 
 from . import lazy
-from .errors import InvalidArgument, InvalidEntries, shown
+from .errors import InvalidArgument, InvalidEntries, MDRError, shown
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -243,7 +243,7 @@ def common_shape(what, **values):
         return np.broadcast_shapes(*map(np.shape, values.values()))
     except ValueError:
         shapes = ", ".join(f"{name} {np.shape(value)}" for name, value in values.items() if np.ndim(value))
-        raise ValueError(f"{what}: arrays of shapes {shapes} do not broadcast") from None
+        raise MDRError(f"{what}: arrays of shapes {shapes} do not broadcast") from None
 
 
 def frozen(values):

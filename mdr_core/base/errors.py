@@ -1,6 +1,7 @@
-"""Errors of refused arguments and measurements, with what is wrong and what to do as attributes."""
+"""Errors of the package, with what is wrong and what to do as attributes."""
 
 import reprlib
+from typing import Any
 
 import numpy as np
 
@@ -24,29 +25,38 @@ _ARGUMENTS = {
 }
 
 
-class Refusal(ValueError):
-    """A measurement is refused. The message is a `Remark`, and `str(error)` its sentence.
-
-    A page that shows refusals takes `text` and `remedy` of those that have them, and `str` of others:
-    ``getattr(error, "text", str(error))``, ``getattr(error, "remedy", ())``. `InvalidArgument` has both.
+class MDRError(ValueError):
+    """Base class of the errors of this package. It is a ValueError.
 
     Attributes
     ----------
-    kind : str
-        What is wrong, one of the kinds of remarks.
     text : str
-        The message without names of Python.
+        The message without names of Python, as a page shows it.
     remedy : tuple of Remedy
-        What one can do; empty for nothing.
+        What one can do, as of a `Remark`; mostly empty.
+    kind : str
+        What is wrong with a measurement, one of the kinds of remarks; else empty.
+
+    Examples
+    --------
+    >>> import mdr_core as mdr
+    >>> try:
+    ...     mdr.Cone(slope=-0.3)
+    ... except mdr.MDRError as error:
+    ...     print(error.text)
+    Cone slope = -0.3 must be finite and positive; check it
     """
 
-    def __init__(self, remark):
-        super().__init__(remark)
-        self.kind, self.text, self.remedy = remark.kind, remark.text, remark.remedy
+    remedy: tuple[Any, ...] = ()
+    kind = ""
+
+    @property
+    def text(self) -> str:
+        return str(self)
 
 
-class InvalidArgument(ValueError):
-    """An argument is refused.
+class InvalidArgument(MDRError):
+    """An argument is not valid.
 
     Attributes
     ----------
@@ -60,10 +70,6 @@ class InvalidArgument(ValueError):
         The requirement, or what is wrong with the value: "must be finite and positive", "is negative".
     unit, advice : str
         SI unit, and what to do; empty where there is none.
-    text : str
-        The message without the index of the entry.
-    remedy : tuple of Remedy
-        What one can do on the page for measurements, as of a `Remark`; mostly empty.
 
     Examples
     --------
@@ -85,10 +91,6 @@ class InvalidArgument(ValueError):
         self.unit = unit
         self.advice = advice
         self.remedy = remedy
-
-    @property
-    def text(self):
-        return str(self)
 
     def __str__(self):
         return self.args[0]

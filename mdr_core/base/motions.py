@@ -7,6 +7,7 @@ import numpy as np
 
 from . import lazy
 from .check import Array, shown
+from .errors import MDRError
 from .results import Limit, Result
 
 
@@ -218,7 +219,7 @@ def instants(n, turn, end, start=0.0):
     A fifth of them at least are up to the turning point: a body on a plate may take long to leave.
     """
     if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 2 <= n <= 10**7:
-        raise ValueError(f"number of instants n = {shown(n)} must be a whole number from 2 to 10⁷")
+        raise MDRError(f"number of instants n = {shown(n)} must be a whole number from 2 to 10⁷")
     if n == 2:
         return np.array([start, end])
     count = min(max(round((n - 1) * (turn - start) / (end - start)), n // 5, 1), n - 2)

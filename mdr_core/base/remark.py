@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any, Self
 
-from .errors import Refusal
+from .errors import MDRError
 
 #: Kinds of a `Remark`, the most important first, and what each says.
 KINDS = {
@@ -63,6 +63,8 @@ _IN_PYTHON = {
     ("class", "c"): "give f_c=None",
     ("class", "elastic"): "give q_c=np.inf",
     ("part", "all"): "give the whole record",
+    ("give", "spring_constant"): "give spring_constant= (N/m)",
+    ("give", "sensitivity"): "give sensitivity= (m/V)",
     ("give", "profile"): "give its area function by Sampled.from_area_function",
     ("unit", "depth"): "give depth in m",
     ("unit", "radius"): "give radius in m",
@@ -100,7 +102,7 @@ class Remedy:
 
     def __post_init__(self):
         if self.action not in ACTIONS:
-            raise ValueError(f"action is {self.action!r}, but a remedy is one of {', '.join(ACTIONS)}")
+            raise MDRError(f"action is {self.action!r}, but a remedy is one of {', '.join(ACTIONS)}")
 
     @property
     def in_python(self) -> str:
@@ -117,55 +119,61 @@ class Remedy:
 
 
 class Remark(str):
-    """A doubt about a number of a fit, an unloading or a file, as a sentence.
+    """A doubt about a number of a fit, an unloading or a file: a text, and what one can do in Python.
+
+    Parameters
+    ----------
+    text : str
+        The doubt, without names of Python.
+    kind : str
+        What is doubted, one of `KINDS`.
+    *remedy : Remedy
+        What one can do: one of them, or all `together`.
 
     Attributes
     ----------
-    kind : str
-        What is doubted, one of `KINDS`.
-    text : str
-        The same without names of Python.
+    text, kind : str
+        As given.
     remedy : tuple of Remedy
         What one can do; empty for nothing.
 
     Examples
     --------
     >>> from mdr_core import Remark, Remedy
-    >>> hold = Remedy("hold", "q_c")
-    >>> remark = Remark("q_c is at its bound: hold q_c", "bound", "q_c is at its bound", (hold,))
-    >>> remark.startswith("q_c"), remark.kind, remark.remedy[0].action
-    (True, 'bound', 'hold')
+    >>> remark = Remark("q_c is at its bound", "bound", Remedy("hold", "q_c"))
+    >>> print(remark, remark.kind, remark.remedy[0].action, sep=" | ")
+    q_c is at its bound; hold q_c | bound | hold
     """
 
-    __slots__ = ("kind", "remedy", "text")
+    __slots__ = ("kind", "remedy", "text", "together")
 
     kind: str
     text: str
     remedy: tuple[Remedy, ...]
+    together: bool
 
-    def __new__(
-        cls, sentence: str, kind: str, text: str | None = None, remedy: tuple[Remedy, ...] = ()
-    ) -> Self:
+    def __new__(cls, text: str, kind: str, *remedy: Remedy, together: bool = False) -> Self:
         if kind not in KINDS:
-            raise ValueError(f"kind is {kind!r}, but a remark is one of {', '.join(KINDS)}")
-        remark = super().__new__(cls, sentence)
-        remark.kind = kind
-        remark.text = str(sentence) if text is None else text
-        remark.remedy = tuple(remedy)
+            raise MDRError(f"kind is {kind!r}, but a remark is one of {', '.join(KINDS)}")
+        cures = (" and " if together else " or ").join(each.in_python for each in remedy)
+        if cures:
+            ended = text.endswith((".", "?"))
+            cures = f" {cures[0].upper()}{cures[1:]}" if ended else f"; {cures}"
+        remark = super().__new__(cls, f"{text}{cures}")
+        remark.text, remark.kind, remark.remedy, remark.together = str(text), kind, remedy, together
         return remark
 
-    def __getnewargs__(self):
-        return str(self), self.kind, self.text, self.remedy
+    def __getnewargs_ex__(self):
+        return (self.text, self.kind, *self.remedy), {"together": self.together}
 
     @classmethod
     def of(cls, error: ValueError, kind: str, prefix: str = "") -> Self:
-        """A refusal as a remark, with its text and remedies where it has them, as a `Refusal` has."""
-        text = getattr(error, "text", str(error))
-        return cls(f"{prefix}{error}", kind, f"{prefix}{text}", getattr(error, "remedy", ()))
+        """An error as a remark, with its text and remedies if it has them."""
+        return cls(f"{prefix}{getattr(error, 'text', error)}", kind, *getattr(error, "remedy", ()))
 
     def after(self, prefix: str) -> Self:
         """The same behind a prefix."""
-        return type(self)(f"{prefix}{self}", self.kind, f"{prefix}{self.text}", self.remedy)
+        return type(self)(f"{prefix}{self.text}", self.kind, *self.remedy, together=self.together)
 
     def to_dict(self) -> dict[str, Any]:
         """Kind, text and remedies, as in files of JSON."""
@@ -173,12 +181,17 @@ class Remark(str):
         return {"kind": self.kind, "text": self.text, "remedy": remedy}
 
 
-def doubt(text: str, kind: str, *remedy: Remedy, together: bool = False) -> Remark:
-    """A remark whose sentence is its text and, in Python, its remedies: one of them, or all `together`."""
-    cures = (" and " if together else " or ").join(each.in_python for each in remedy)
-    return Remark(f"{text}{'; ' * bool(cures)}{cures}", kind, text, remedy)
+class MeasurementError(MDRError):
+    """The error of a measurement that cannot be read, fitted or evaluated.
 
+    The message is a `Remark`: that is given, or one of kind "refused" with a text and remedies.
+    """
 
-def refused(sentence: str, text: str, *remedy: Remedy) -> Refusal:
-    """The refusal of what is given, as a sentence for users of the library, and without names of Python."""
-    return Refusal(Remark(sentence, "refused", text, remedy))
+    def __init__(self, text: str, *remedy: Remedy):
+        remark = text if isinstance(text, Remark) else Remark(text, "refused", *remedy)
+        super().__init__(remark)
+        self.kind, self.remedy = remark.kind, remark.remedy
+
+    @property
+    def text(self) -> str:
+        return self.args[0].text

@@ -12,6 +12,7 @@ import numpy as np
 
 from . import lazy
 from .check import no_attribute
+from .errors import MDRError
 
 if TYPE_CHECKING:
     import pandas
@@ -228,7 +229,7 @@ def quantities_of(kind: type[Record] | Record) -> tuple[str, ...]:
 def check_single(result: Record, what: str) -> None:
     """Refuses a result of several entries for something, `what`, that needs a single one."""
     if result.shape:
-        raise ValueError(
+        raise MDRError(
             f"{what} needs a single {Presentation(result).noun}, but this result has shape {result.shape}; "
             f"select one first, as in result[-1].{what}(…)"
         )

@@ -10,6 +10,7 @@ import scipy
 from numpy.typing import NDArray
 
 from ..base.check import Array, frozen, number, positive_number
+from ..base.errors import MDRError
 from ..base.remark import Remark
 from ..base.results import Record
 from ..show.quantities import engineering
@@ -124,7 +125,7 @@ class MeasuredCurve(Record):
         rows = self.segment == name
         if not rows.any():
             known = ", ".join(sorted(set(self.segment.tolist())))
-            raise ValueError(f"{self.name} has no {name}: the segments of its samples are {known}")
+            raise MDRError(f"{self.name} has no {name}: the segments of its samples are {known}")
         arrays = {each: frozen(getattr(self, each)[rows]) for each in (*self._quantities, "segment")}
         return replace(self, **arrays)
 
@@ -155,16 +156,16 @@ class MeasuredCurve(Record):
                 part for part in holds if part.start > peak and np.mean(force[part]) < _LOW * force[peak]
             ]
             if not low:
-                raise ValueError(
+                raise MDRError(
                     f"{self.name} has no hold after the largest force and below a fifth of it: give the "
                     "samples of one, as in curve.drift(slice(800, 900)), or the rate itself"
                 )
             hold = low[-1]
         if not isinstance(hold, slice):
-            raise ValueError(f"hold = {hold!r:.60} must be a slice of samples, as in slice(800, 900)")
+            raise MDRError(f"hold = {hold!r:.60} must be a slice of samples, as in slice(800, 900)")
         time, depth = time[hold], self.depth[hold]
         if time.size < 3:
-            raise ValueError(f"{hold} has {time.size} samples of {self.name}: a hold needs three or more")
+            raise MDRError(f"{hold} has {time.size} samples of {self.name}: a hold needs three or more")
         thin = max(1, time.size // _SLOPES)
         steps, rises = (np.subtract.outer(each[::thin], each[::thin]) for each in (time, depth))
         return float(np.median(rises[steps > 0] / steps[steps > 0]))
@@ -184,7 +185,7 @@ class MeasuredCurve(Record):
         """
         time, rate = self._times(), number("rate", rate, "m/s")
         if not np.isfinite(rate):
-            raise ValueError(f"rate = {rate:g} m/s must be finite")
+            raise MDRError(f"rate = {rate:g} m/s must be finite")
         text = f"a drift of {engineering(rate, 'm/s')}"
         return self._minus(rate * (time - time[0]), text)
 
@@ -202,7 +203,7 @@ class MeasuredCurve(Record):
 
     def _times(self):
         if self.time is None:
-            raise ValueError(f"{self.name} has no times, which a drift needs")
+            raise MDRError(f"{self.name} has no times, which a drift needs")
         return self.time
 
     def _minus(self, depth, text):

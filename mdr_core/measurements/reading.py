@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..base import check
-from ..base.remark import Remark, Remedy, refused
+from ..base.remark import MeasurementError, Remark, Remedy
 from .files.afm import SUFFIXES, from_afm, is_afm_text, refuse_binary
 from .files.columns import SIZES
 from .files.question import UnknownColumns
@@ -61,17 +61,13 @@ def read_curve(path: str | PathLike[str], index: int | None = None, **given: Any
     if index is None:
         index = _first_told(curves) if given.get("columns") and len(curves) > 1 else 0
     if not 0 <= index < len(curves):
-        raise ValueError(f"index = {index} must be from 0 to less than {len(curves)}, the curves of {path}")
+        raise check.MDRError(
+            f"index = {index} must be from 0 to less than {len(curves)}, the curves of {path}"
+        )
     curve = curves[index]
     if len(curves) == 1:
         return curve
-    text = f"curve {index} of {len(curves)}"
-    other = Remark(
-        f"{text}: index= picks another one",
-        "several",
-        f"{text}, counted from 0",
-        (Remedy("give", "index"),),
-    )
+    other = Remark(f"curve {index} of {len(curves)}, counted from 0", "several", Remedy("give", "index"))
     return replace(curve, remarks=(other, *curve.remarks))
 
 
@@ -179,8 +175,9 @@ def read_curves(
         return MeasuredCurves(path.name, None, from_workbook(path, options))
     if suffix.startswith(SUFFIXES):
         if columns or by is not None:
-            text = f"{path.name} is no table: leave out "
-            raise refused(f"{text}columns and by", f"{text}the choice of columns and curves")
+            raise MeasurementError(
+                f"{path.name} is no table: leave out the choice of columns and of curves"
+            )
         return from_afm(path, given)
     data = path.read_bytes()
     refuse_binary(path, data)

@@ -118,7 +118,7 @@ def _path(quantity, values, unit):
     """Depths (m) or forces (N) as an array, if they are a number or a path."""
     path = check.finite_array(quantity, values, unit=unit, most=check.LONGEST)
     if path.ndim > 1 or not path.size:
-        raise ValueError(f"{quantity} must be a number or a path, got shape {path.shape}")
+        raise check.MDRError(f"{quantity} must be a number or a path, got shape {path.shape}")
     return path
 
 
@@ -179,7 +179,7 @@ class FreeImpact:
             ),
         )
         if structure_of(self.structure).shape:
-            raise ValueError(
+            raise check.MDRError(
                 "FreeImpact needs a single structure, but its parameters are arrays of shape "
                 f"{self.structure.shape}; take one at a time, as in structure.entries(i)"
             )

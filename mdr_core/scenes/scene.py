@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, fields, is_dataclass
 import numpy as np
 
 from ..base.check import one_of, shown
+from ..base.errors import MDRError
 from ..base.results import Model
 from ..show.quantities import at_default
 from ..solver.applicability import check_pair, refuse_own_law
@@ -167,20 +168,20 @@ class Scene:
         """
         if isinstance(text, os.PathLike) or (isinstance(text, str) and text.strip().endswith(".json")):
             name, remedy = shown(str(text)), "Scene.from_json(pathlib.Path(name).read_text())"
-            raise ValueError(
+            raise MDRError(
                 f"scene: {name} is the name of a file, not JSON text; read it first, as in {remedy}"
             )
         try:
             data = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_duplicates)
         except RecursionError:
-            raise ValueError("scene: JSON is nested too deeply") from None
+            raise MDRError("scene: JSON is nested too deeply") from None
         except UnicodeDecodeError as error:
-            raise ValueError(f"scene: not UTF-8 text ({error.reason})") from None
+            raise MDRError(f"scene: not UTF-8 text ({error.reason})") from None
         except ValueError as error:
-            raise ValueError(f"scene: no JSON text ({error})") from None
+            raise MDRError(f"scene: no JSON text ({error})") from None
         _keys("scene", data, {"format", "version", "profile", "medium", "drive"})
         if data["format"] != _FORMAT or data["version"] != _VERSION:
-            raise ValueError(
+            raise MDRError(
                 f"scene: format {shown(data['format'])} version {shown(data['version'])} cannot be read; "
                 f"expected {_FORMAT!r} version {_VERSION}"
             )
@@ -211,7 +212,7 @@ def _constructed(value):
 
 def _tagged(value):
     if type(value) not in _PROFILES + _DRIVES:
-        raise ValueError(f"a {type(value).__name__} cannot be written as JSON")
+        raise MDRError(f"a {type(value).__name__} cannot be written as JSON")
     parts = {field.name: getattr(value, field.name) for field in fields(value)}
     nested = {name: _with_null(part) for name, part in parts.items() if isinstance(part, Structure)}
     return {"type": type(value).__name__} | asdict(value) | nested
@@ -225,7 +226,7 @@ def _with_null(value):
 def _untagged(what, data, kinds):
     kinds = {kind.__name__: kind for kind in kinds}
     if not isinstance(data, dict) or not isinstance(data.get("type"), str) or data["type"] not in kinds:
-        raise ValueError(f"scene: {what} needs a type, one of {', '.join(kinds)}")
+        raise MDRError(f"scene: {what} needs a type, one of {', '.join(kinds)}")
     return _build(what, {k: v for k, v in data.items() if k != "type"}, kinds[data["type"]])
 
 
@@ -239,21 +240,21 @@ def _build(what, data, kind):
     try:
         return kind(**data)
     except (TypeError, ValueError, OverflowError) as error:
-        raise ValueError(f"scene {what}: {error}") from None
+        raise MDRError(f"scene {what}: {error}") from None
 
 
 def _keys(what, data, expected):
     if not isinstance(data, dict) or set(data) != expected:
         names = ", ".join(sorted(map(str, data)))[:200] if isinstance(data, dict) else type(data).__name__
-        raise ValueError(f"{what} must have exactly {', '.join(sorted(expected))}; got {names}")
+        raise MDRError(f"{what} must have exactly {', '.join(sorted(expected))}; got {names}")
 
 
 def _no_constant(name):
-    raise ValueError(f"{name} is not a finite number")
+    raise MDRError(f"{name} is not a finite number")
 
 
 def _no_duplicates(pairs):
     data = dict(pairs)
     if len(data) < len(pairs):
-        raise ValueError("a key is repeated")
+        raise MDRError("a key is repeated")
     return data

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..base.errors import MDRError
 from ..base.results import check_single, quantities_of
 from ..solver.contact.indentation import Indentation
 from . import figures
@@ -45,11 +46,9 @@ def plot_curve(result, quantity, over):
     quantities = quantities_of(result)
     for name in {quantity, over} - set(quantities):
         known = ", ".join(quantities)
-        raise ValueError(f"{type(result).__name__} has no {name!r} to plot; it has {known}")
+        raise MDRError(f"{type(result).__name__} has no {name!r} to plot; it has {known}")
     if len(result.shape) != 1:
-        raise ValueError(
-            f"plot() needs a single path, but this result has shape {result.shape}: select one"
-        )
+        raise MDRError(f"plot() needs a single path, but this result has shape {result.shape}: select one")
     x, y = (np.asarray(getattr(result, name)) for name in (over, quantity))
     axes = [_axis_of(name, values) for name, values in ((over, x), (quantity, y))]
     if {"depth", "plastic_depth"} <= set(quantities):
@@ -102,5 +101,5 @@ def _drawn_radius(state, what):
     largest = max(float(state.contact_radius), float(state.plastic_radius))
     if not largest:
         depth = engineering(state.depth, "m")
-        raise ValueError(f"{what} needs a contact or an imprint, and there is none at d = {depth}")
+        raise MDRError(f"{what} needs a contact or an imprint, and there is none at d = {depth}")
     return 1.25 * largest

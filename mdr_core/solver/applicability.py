@@ -20,7 +20,7 @@ def check_pair(profile, medium, what=None):
     if not isinstance(medium, Medium):
         raise TypeError(f"medium must be a Medium, got {shown(medium)}")
     if what and (profile.shape or medium.shape):
-        raise ValueError(
+        raise check.MDRError(
             f"{what} needs a single indenter and a single medium, but their parameters are arrays of shape "
             f"{profile.shape or medium.shape}; take one at a time, as in profile.entries(i)"
         )
@@ -29,14 +29,14 @@ def check_pair(profile, medium, what=None):
 def refuse_adhesion(medium, what):
     """Refuses a medium with adhesion for a calculation `what` that has none."""
     if np.any(np.asarray(medium.work_of_adhesion) > 0):
-        raise ValueError(f"{what} is not computed with adhesion; set work_of_adhesion = 0")
+        raise check.MDRError(f"{what} is not computed with adhesion; set work_of_adhesion = 0")
 
 
 def refuse_own_law(medium, what, instead):
     """Refuses a medium with a `HardnessLaw` for something, `what`, that cannot have one."""
     if medium.has_own_law:
         law = shown(medium.hardness)
-        raise ValueError(f"{what} does not support {law}; {instead}")
+        raise check.MDRError(f"{what} does not support {law}; {instead}")
 
 
 def check_reached(profile, medium, depth):
@@ -67,7 +67,7 @@ def paths_on(profile, medium, depth):
     """Depths of paths along the last axis, broadcast to arrays of media or profiles."""
     for thing in (profile, medium):
         if thing.shape and thing.shape[-1] != 1:
-            raise ValueError(
+            raise check.MDRError(
                 "a path needs a single indenter and a single medium, but the parameters of "
                 f"{type(thing).__name__} are arrays of shape {thing.shape}: give them a last axis of "
                 "length 1, one path each, as in Medium(E_star[:, None]), or take medium.entries(i)"

@@ -167,7 +167,9 @@ def impacts(
     if structure_of(structure).rigid:
         parameters |= {"impedance": impedance, "stiffness": stiffness}
     elif not (np.all(np.isinf(impedance)) and np.all(np.isinf(stiffness))):
-        raise ValueError("impedance and stiffness are parameters of a structure: give them, or a structure")
+        raise check.MDRError(
+            "impedance and stiffness are parameters of a structure: give them, or a structure"
+        )
     hit = partial(_hit, structure=structure)
     return _sweep(Impact, hit, law, shape, parameters, shape_parameters, quantities, invalid)
 

@@ -24,14 +24,16 @@ def labelled(xarray, name, value):
     if not isinstance(value, xarray.DataArray):
         value = check.in_unit(name, value, unit)
         if np.ndim(value):
-            raise ValueError(f"{name} is an array without names of dimensions: give an xarray.DataArray")
+            raise check.MDRError(
+                f"{name} is an array without names of dimensions: give an xarray.DataArray"
+            )
         return xarray.DataArray(check.number(name, value))
     # The attribute may be inherited from another array in a computation: only prefixed units are refused.
     stated = getattr(value.data, "units", value.attrs.get("units", unit))
     factors, own = (re.split("[/·* ]", text.replace("kg", "g")) for text in (str(stated), unit))
     multiple = str(stated) != unit and len(factors) == len(own) and all(map(str.endswith, factors, own))
     if hasattr(value.data, "units") or (unit and multiple):
-        raise ValueError(
+        raise check.MDRError(
             f"{name} is given in {stated}: give numbers in {unit or 'no unit'}, with these units in .attrs"
         )
     return value
@@ -46,7 +48,7 @@ def check_alignment(xarray, given):
             try:
                 xarray.align(given[one], given[other], join="exact")
             except ValueError as error:
-                raise ValueError(f"{one} and {other} are not aligned: {error}") from None
+                raise check.MDRError(f"{one} and {other} are not aligned: {error}") from None
         raise
 
 
@@ -69,17 +71,21 @@ def check_shape_parameters(shape, given):
     if not (isinstance(shape, Profile) or (isclass(shape) and issubclass(shape, Profile))):
         raise TypeError(f"shape must be a class of indenters or an indenter, got {check.shown(shape)}")
     if not isclass(shape) and shape.shape:
-        raise ValueError("parameters of the shape are arrays without names of dimensions: give its class")
+        raise check.MDRError(
+            "parameters of the shape are arrays without names of dimensions: give its class"
+        )
     if isclass(shape) and issubclass(shape, Sampled | Smooth):
-        raise ValueError(f"parameters of {shape.__name__} cannot be swept: give an indenter, not the class")
+        raise check.MDRError(
+            f"parameters of {shape.__name__} cannot be swept: give an indenter, not the class"
+        )
     own = {field.name: field for field in fields(shape)} if isclass(shape) else {}
     name = shape.__name__ if isclass(shape) else f"the {type(shape).__name__} given"
     for unknown in given.keys() - own.keys():
         names = ", ".join(own) or "no free parameters"
-        raise ValueError(f"{unknown} is not a parameter of the sweep or of {name}, which has {names}")
+        raise check.MDRError(f"{unknown} is not a parameter of the sweep or of {name}, which has {names}")
     for missing in own.keys() - given.keys():
         if own[missing].default is MISSING:
-            raise ValueError(f"{name} needs its {missing}")
+            raise check.MDRError(f"{name} needs its {missing}")
 
 
 def hardness_parameters(q_c, hardness, f_c):
@@ -87,7 +93,7 @@ def hardness_parameters(q_c, hardness, f_c):
     if isinstance(hardness, HardnessLaw):
         if hardness.shape:
             name, size = check.shown(hardness), hardness.shape
-            raise ValueError(
+            raise check.MDRError(
                 f"hardness {name} has arrays of shape {size}, without names of dimensions: a sweep has "
                 "one law for all entries; give a law of single numbers"
             )
@@ -122,7 +128,7 @@ class InvalidParticles:
             text = error.message(entry, own, (len(entries) - 1) * raises)
             text += f" (at {remark})" if len(place) > 1 else ""
             if raises:
-                raise ValueError(text) from None
+                raise check.MDRError(text) from None
             if len(self.listed) == _LISTED:
                 break
             self.listed.append(text)

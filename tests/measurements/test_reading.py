@@ -222,7 +222,7 @@ def test_a_missing_file_is_one_whatever_would_read_it(suffix, tmp_path):
 def test_a_sensitivity_is_for_files_of_instruments(read, tmp_path):
     """A table has forces: what would be ignored is refused."""
     read(text((DEPTH, FORCE), ["h (nm), F (mN)"]))
-    with pytest.raises(ValueError, match=r"run\.csv are already in units of force: leave out sensitivity"):
+    with pytest.raises(ValueError, match=r"run\.csv are already in units of force"):
         mdr.read_curve(tmp_path / "run.csv", sensitivity=6e-8)
 
 

@@ -8,8 +8,7 @@ import numpy as np
 
 from ...base import check
 from ...base.check import ArrayLike
-from ...base.errors import Refusal
-from ...base.remark import Remark
+from ...base.remark import MeasurementError, Remark
 from ..measured_curve import MeasuredCurve, MeasuredCurves
 
 #: What is given as times: ... is those of the curve.
@@ -42,9 +41,13 @@ def columns_of(depth, force, time, *, skip=False):
         _refuse_force(force)
         return _of_many(depth, time, skip)
     if force is None:
-        raise ValueError("force is missing: give depth and force, or a MeasuredCurve in the place of depth")
+        raise check.MDRError(
+            "force is missing: give depth and force, or a MeasuredCurve in the place of depth"
+        )
     if depth is None:
-        raise ValueError("depth is missing: give depth and force, or a MeasuredCurve in the place of depth")
+        raise check.MDRError(
+            "depth is missing: give depth and force, or a MeasuredCurve in the place of depth"
+        )
     return Columns(depth, force, None if time is ... else time)
 
 
@@ -56,7 +59,7 @@ def _are_curves(depth):
 
 def _refuse_force(force):
     if force is not None:
-        raise ValueError(
+        raise check.MDRError(
             "a MeasuredCurve has its own force: leave out force, or give curve.depth and force"
         )
 
@@ -89,7 +92,7 @@ def _of_many(curves, time, skip):
 def remarks_of_one(remarks):
     """The remarks of one curve that was read from a file."""
     if len(remarks) > 1:
-        raise ValueError(
+        raise check.MDRError(
             f"oliver_pharr takes one curve, got {len(remarks)}: give one of them, as in curves[0]"
         )
     return remarks[0] if remarks else ()
@@ -100,7 +103,7 @@ def measured_stiffness(given, stiffness):
     if stiffness is not True:
         return None if stiffness is False else stiffness
     if given.stiffness is None:
-        raise ValueError(
+        raise check.MDRError(
             "stiffness = True takes that of a MeasuredCurve, and there is none: give its values, or leave "
             "it out to evaluate the unloading"
         )
@@ -123,21 +126,21 @@ def finite_columns(depth, force, time, stiffness):
     shapes = {array.shape for array in arrays.values()}
     if len(shapes) > 1 or arrays["depth"].ndim != 1:
         shown = " and ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise ValueError(f"{shown} must have the same shape, (N,) for one curve")
+        raise check.MDRError(f"{shown} must have the same shape, (N,) for one curve")
     used = np.logical_and.reduce(
         [np.isfinite(array) for name, array in arrays.items() if name != "stiffness"]
     )
     arrays = {name: array[used] for name, array in arrays.items()}
     if not arrays["depth"].size:
         text = "depth and force have no samples: an unloading needs five or more"
-        raise Refusal(Remark(text, "no unloading"))
+        raise MeasurementError(Remark(text, "no unloading"))
     if arrays["depth"].size > 1 and not np.ptp(arrays["depth"]):
         text = f"range of depth = 0 m: the depth is {arrays['depth'][0]:g} m throughout; check its column"
-        raise Refusal(Remark(text, "no unloading"))
+        raise MeasurementError(Remark(text, "no unloading"))
     if "time" in arrays:
         if arrays["time"].size > 1 and not np.ptp(arrays["time"]):
             time = arrays["time"][0]
-            raise ValueError(
+            raise check.MDRError(
                 f"range of time = 0 s: the time is {time:g} s throughout; check its column, or leave it out"
             )
         # Segments of a file may share the time at which one ends and the next begins.

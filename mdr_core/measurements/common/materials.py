@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...base.remark import Remedy, doubt
+from ...base.remark import Remark, Remedy
 from ...show.quantities import engineering
 
 #: Moduli E* (Pa) of materials, from the softest gels to diamond (1.15 TPa), with a margin.
@@ -44,7 +44,7 @@ def doubts(E_star, hardness, remaining=0.0):
     if is_modulus(soft) and soft < (SOFTEST_THAT_YIELDS if yields else SOFTEST_OF_UNLOADINGS):
         which = " that keep an imprint" if yields else ""
         found.append(f"E* = {_short(soft)} is less than that of nearly all materials{which}")
-    return [doubt(text, "units", *UNITS, together=True) for text in found]
+    return [Remark(text, "units", *UNITS, together=True) for text in found]
 
 
 def doubts_of_measured(E_star, mean_pressure, radius):
@@ -52,10 +52,12 @@ def doubts_of_measured(E_star, mean_pressure, radius):
     if not SOFTEST_OVER_MODULUS * E_star <= np.median(mean_pressure) <= HARDEST:
         given = _short(np.median(mean_pressure))
         text = f"no material with E* = {_short(E_star)} has a mean pressure of {given}"
-        yield doubt(text, "units", Remedy("unit", "mean_pressure"), Remedy("unit", "E_star"), together=True)
+        yield Remark(
+            text, "units", Remedy("unit", "mean_pressure"), Remedy("unit", "E_star"), together=True
+        )
     if np.median(radius) > WIDEST:
         text = f"a contact radius of {engineering(float(f'{np.median(radius):.3g}'), 'm')} is very large"
-        yield doubt(text, "units", Remedy("unit", "radius"))
+        yield Remark(text, "units", Remedy("unit", "radius"))
 
 
 def _short(value):

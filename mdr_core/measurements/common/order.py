@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...base.remark import Remark, doubt
+from ...base.remark import Remark
 
 #: Excess of the force after the largest depth over that before it, as a share of its range, that no medium
 #: has; least share of samples at which depths turn, and least median step, as a share of their range, of a
@@ -53,7 +53,7 @@ def apart(depth, force):
         text = (
             f"{found} are more than half of its range away from both neighbours, as numbers that stand for "
         )
-        yield doubt(f"{text}missing ones: leave them out", "outliers")
+        yield Remark(f"{text}missing ones: leave them out", "outliers")
 
 
 def _count_apart(values):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...base.remark import Remedy, doubt
+from ...base.remark import Remark, Remedy
 from ...show.quantities import engineering
 from ...solver.profiles.power import Cone
 
@@ -31,4 +31,4 @@ def of_ideal_tip(profile, contact_depth, held=False):
         f"an ideal tip at {where}: real ones are rounded, so that the hardness is too large by up to a "
         "fifth at 200 nm, E* by half as much, and more at less depth"
     )
-    yield doubt(text, "tip", Remedy("give", "profile"), *[Remedy("free", "contact_point")] * held)
+    yield Remark(text, "tip", Remedy("give", "profile"), *[Remedy("free", "contact_point")] * held)

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from ...base import check
-from ...base.remark import Remark, Remedy, refused
+from ...base.remark import MeasurementError, Remark, Remedy
 from ...show.report import imported
 from ..measured_curve import MODALITIES, MeasuredCurves
 from .cantilever import Cantilever
@@ -25,19 +25,14 @@ SUFFIXES = ".jpk", ".h5", ".hdf5", ".ibw", ".zip"
 #: Text that only files of AFM instruments have.
 _OF_AFM = re.compile(r"# afmformats |Force-Distance Curve|Device:\tChiaro")
 _GIVE = Remedy("give", "spring_constant"), Remedy("give", "sensitivity")
-#: What to do about errors of `afmformats`, in Python and in words.
+#: What to do about errors of `afmformats`.
 _CURES = {
-    "MissingMetaDataError": (
-        " Give spring_constant= (N/m) and sensitivity= (m/V)",
-        " Give the spring constant (N/m) and the sensitivity (m/V) of the cantilever",
-        _GIVE,
-    ),
+    "MissingMetaDataError": ("", _GIVE),
     "NotImplementedError": (
-        " Its forces are in N: give neither. minus_frame(1 / k) subtracts a deflection",
-        " Its forces are in N: give neither. A deflection is subtracted as a frame compliance of 1/k",
+        " Its forces are in N: leave out both. Subtract a deflection as a frame compliance of 1/k",
         (),
     ),
-    "UnicodeDecodeError": ("; if it is packed, unpack it and read its files",) * 2 + ((),),
+    "UnicodeDecodeError": ("; if it is packed, unpack it and read its files", ()),
 }
 #: What to export instead of files that are not read, by their suffixes.
 _EXPORTS = {
@@ -70,7 +65,7 @@ def refuse_binary(path, data):
     # Some programs give their text the suffix of their files.
     if known is not None and not is_binary(data) and data.strip():
         return
-    raise ValueError(
+    raise check.MDRError(
         f"{path.name} is a binary file in a format that cannot be read. Use {known or _EXPORT}"
     )
 
@@ -105,9 +100,9 @@ def _refused(errors, path):
     # Most errors of this package are none that `except Exception` would handle.
     except (Exception, errors.AFMFileFormatError, errors.MissingMetaDataError) as error:
         export = export_of(path.suffix.lower())
-        sentence, words, remedy = _CURES.get(type(error).__name__, (export, export, ()))
-        text = f"{path.name} cannot be read by afmformats: {error}"
-        raise refused(text + sentence, text + words, *remedy) from None
+        cure, remedy = _CURES.get(type(error).__name__, (export, ()))
+        text = f"{path.name} cannot be read by afmformats: {error}{cure}"
+        raise MeasurementError(Remark(text, "refused", *remedy, together=True)) from None
 
 
 def from_afm(path, given):
@@ -144,13 +139,8 @@ def _loaded(afmformats, path, given):
 
 def _deflection(head):
     """A remark on a height of which the deflection is not subtracted."""
-    text = f"{head!r} includes the deflection force/stiffness: give "
-    return Remark(
-        f"{text}spring_constant= (N/m)",
-        "deflection",
-        f"{text}the spring constant of the cantilever (N/m)",
-        (Remedy("give", "spring_constant"),),
-    )
+    text = f"{head!r} includes the deflection of the cantilever, whose stiffness is not known"
+    return Remark(text, "deflection", Remedy("give", "spring_constant"))
 
 
 def _afm_curve(errors, data, stiffness):

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from math import inf
 
-from ...base.remark import Remark, Remedy, refused
+from ...base.remark import MeasurementError, Remark, Remedy
 from .names import normal, parted
 from .question import CONSTANTS, UnknownColumns, constants_needed
 from .table import LONGEST_HEADER
@@ -58,13 +58,11 @@ def constants(table, name, layout, given, asked):
         if known.get(each) is None:
             known[each] = own
             if needed[each]:
-                sentence = f"{each} = {text} is taken from the file"
-                remarks.append(Remark(sentence, "cantilever", f"{words}, {text}, is taken from the file"))
+                remarks.append(Remark(f"{words}, {text}, is taken from the file", "cantilever"))
         elif known[each] != own:
-            value = f"{known[each]:.6g}"
-            sentence = f"{each} = {value} is taken as it is given; the file has {each} = {text}"
-            words = f"{words}, {value} {CONSTANTS[each]}, is taken as it is given; the file has {text}"
-            remarks.append(Remark(sentence, "cantilever", words))
+            value = f"{known[each]:.6g} {CONSTANTS[each]}"
+            words = f"{words}, {value}, is taken as given; the file has {text}"
+            remarks.append(Remark(words, "cantilever"))
     lacking = [each for each in needed if needed[each] and known.get(each) is None]
     if lacking:
         _ask(table, name, layout, lacking, deflection, asked)
@@ -73,14 +71,9 @@ def constants(table, name, layout, given, asked):
 
 def _refuse_unused(name, given, needed, deflection, unit):
     if given.get("spring_constant") is not None and not needed["spring_constant"]:
-        text = (
-            "and nothing uses it: the depth of the tip stays as it is, and the force is in units of force"
-        )
-        raise refused(
-            f"{name}: spring_constant is given, {text}. Leave it out, or give the column as "
-            'columns={"piezo": …} if it is the position of a piezo',
-            f"{name}: a spring constant is given, {text}. Leave it out, or choose the column as the "
-            "position of a piezo if it is one",
+        raise MeasurementError(
+            f"{name}: nothing uses the spring constant that is given. The depth is that of the tip, and "
+            "the force is in units of force: leave it out, or choose the column as the position of a piezo",
             Remedy("give", "columns"),
         )
     if given.get("sensitivity") is not None and not needed["sensitivity"]:
@@ -89,7 +82,7 @@ def _refuse_unused(name, given, needed, deflection, unit):
             if deflection
             else f"the forces of {name} are already in units of force"
         )
-        raise refused(f"{what}: leave out sensitivity", f"{what}: leave out the sensitivity")
+        raise MeasurementError(f"{what}: leave out the sensitivity")
 
 
 def _ask(table, name, layout, lacking, deflection, asked):

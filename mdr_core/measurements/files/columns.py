@@ -60,16 +60,16 @@ def taken(table, file, given, stiffness=None):
 def told(table, file, columns):
     """Numbers and units of columns that are told by their names or numbers, None for those left out."""
     if not isinstance(columns, dict):
-        raise ValueError(
+        raise check.MDRError(
             f'columns = {columns!r:.80} must be like {{"depth": (0, "nm"), "force": (1, "mN")}}'
         )
     if {"depth", "piezo"} <= columns.keys():
-        raise ValueError('columns: give "depth", or "piezo" for the position of a piezo, not both')
+        raise check.MDRError('columns: give "depth", or "piezo" for the position of a piezo, not both')
     found = {each: _one(table, each, column) for each, column in columns.items()}
     used = [column[0] for column in found.values() if column]
     twice = next((k for k in used if used.count(k) > 1), None)
     if twice is not None:
-        raise ValueError(f"columns = {columns!r:.200} of {file}: column {twice} is given twice")
+        raise check.MDRError(f"columns = {columns!r:.200} of {file}: column {twice} is given twice")
     return found
 
 
@@ -94,8 +94,7 @@ def time_left_out(table, columns):
     if not heads:
         return ()
     text = f"the curve has no time: the header does not say plainly that {' or '.join(heads)} is it"
-    sentence = f'{text}; give columns={{"time": …}}'
-    return (Remark(sentence, "time", text, (Remedy("give", "columns"),)),)
+    return (Remark(text, "time", Remedy("give", "columns")),)
 
 
 def ask_for_parts(table, file, columns):
@@ -234,7 +233,7 @@ def _one(table, each, column):
     allowed = [name for kind in _KINDS[each] for name in COLUMN_UNITS[kind]]
     if len(numbers) != 1 or not unit or unit.lstrip("−") not in allowed:
         first = next(iter(table.heads)) if isinstance(which, list | tuple) else which
-        raise ValueError(
+        raise check.MDRError(
             f"columns: {each} = {column!r:.80} must be the number or the name of one column of "
             f"{table.heads}, and its unit, as in ({first!r}, {_USUAL[each]!r}), out of {', '.join(allowed)}"
         )

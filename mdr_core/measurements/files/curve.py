@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from ...base import check
-from ...base.remark import Remark, Remedy, refused
+from ...base.remark import MeasurementError, Remark, Remedy
 from ..measured_curve import MeasuredCurve, named_segments, segments_of
 from .cantilever import constants
 from .columns import ask_for_parts, ask_for_results, plain_beside, taken, time_left_out, told
@@ -23,8 +23,7 @@ def curves_of(table, file, columns=None, by=None, given=None):
     if isinstance(columns, list | tuple):
         return _side_by_side(table, file, [told(table, name, each) for each in columns], by, given)
     if by == "segments":
-        raise refused(
-            f"by = 'segments' finds no parts in {name}: give a list of columns, one dict for each part",
+        raise MeasurementError(
             f"{name} has no second columns or tables that are parts of a curve",
             Remedy("give", "by"),
         )
@@ -60,11 +59,10 @@ def _side_by_side(table, file, layouts, by, given):
     name = ", ".join(filter(None, (file, table.name)))
     layouts = [{each: column for each, column in layout.items() if column} for layout in layouts]
     if not layouts or not all("force" in each and {"depth", "piezo"} & each.keys() for each in layouts):
-        raise ValueError(f"columns of {name}: each of the list needs a depth (or piezo) and a force")
+        raise check.MDRError(f"columns of {name}: each of the list needs a depth (or piezo) and a force")
     if by == "segments":
         if len(layouts) < 2:
-            raise refused(
-                f"by = 'segments' of {name}: give two or more columns of depth and of force",
+            raise MeasurementError(
                 f"a curve of parts has two or more columns of depth and of force, {name} has one",
                 Remedy("give", "by"),
             )
@@ -72,7 +70,7 @@ def _side_by_side(table, file, layouts, by, given):
         table, layout = joined(table, layouts, file)
         return [curve_maker(table, name, layout, given, "as told", asked=asked)]
     if by is not None:
-        raise ValueError(
+        raise check.MDRError(
             f"by = {by!r:.80}: a list of columns is a curve each; leave it out, or give by='segments' for "
             "parts of one curve"
         )
@@ -118,7 +116,7 @@ def curve_of(table, name, layout, cantilever, source, *, turn=True, segment=None
     labels, segment = named_segments(table.words) if segment is None else ("", segment)
     remarks += [*cantilever.remarks, *_omissions(table, rows, name, labels)]
     if rows.size < 2:
-        raise ValueError(f"{name} has one row of numbers: give a curve, with one sample per line")
+        raise check.MDRError(f"{name} has one row of numbers: give a curve, with one sample per line")
     rows = _in_time(values, rows, columns, remarks)
     values = {each: value[rows] for each, value in values.items()}
     if is_deflection(columns["force"][1]):
@@ -166,7 +164,7 @@ def _omissions(table, rows, name, labels):
     listed = ", ".join(map(str, lines[:3])) + f" and {len(lines) - 3} more" * (len(lines) > 3)
     what = f"line{'s' * (len(lines) > 1)} {listed}: a cell is missing or not a number"
     if len(lines) > len(rows):
-        raise ValueError(f"most lines of {name} are not rows of numbers, for example {what}")
+        raise check.MDRError(f"most lines of {name} are not rows of numbers, for example {what}")
     named = [column for column in table.words if column != labels and " " in column.strip()]
     left = [Remark(f"column {each}, which has no numbers, is left out", "left out") for each in named]
     return left + [Remark(f"left out {what}", "missing")] * bool(lines)

@@ -1,5 +1,6 @@
 """Check that an HDF5 file has all of its data in itself."""
 
+from ...base.errors import MDRError
 from ...show.report import imported
 
 #: Most members of a file, and levels of its groups.
@@ -31,6 +32,6 @@ def refuse_outside(path):
         with h5py.File(path, "r") as file:
             found = file.visititems_links(fault)
     except (OSError, RuntimeError, KeyError, SystemError) as error:
-        raise ValueError(f"{path.name} is a damaged HDF5 file: {error}") from None
+        raise MDRError(f"{path.name} is a damaged HDF5 file: {error}") from None
     if found:
-        raise ValueError(f"{path.name} has {found}")
+        raise MDRError(f"{path.name} has {found}")

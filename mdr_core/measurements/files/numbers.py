@@ -5,6 +5,8 @@ from contextlib import suppress
 from itertools import zip_longest
 from math import nan
 
+from ...base.errors import MDRError
+
 _GROUPS = r"[-+]?\d{1,3}(?:%s\d{3})+"
 _EXPONENT = r"(?:[eE][-+]?\d+)?"
 _DECIMAL_COMMA = re.compile(rf"[-+]?\d*,\d+{_EXPONENT}")
@@ -55,7 +57,7 @@ def number_reader(rows, count, name):
         cells = {cell for row in rows(step) if _is_row(row) for cell in row}
         with suppress(_Ambiguous):
             return _reader(cells, name)
-    raise ValueError(
+    raise MDRError(
         f"{name}: the comma of {min(filter(with_comma, cells))!r} may be a decimal sign, or separate "
         "thousands: write numbers without separators of thousands, and with decimal points"
     )
@@ -68,7 +70,7 @@ def _refuse_doubtful_points(rows, name):
         points = {cell for cell in cells if "." in cell and numeric(cell)}
         whole = any(cell.strip("+-0").isdecimal() for cell in cells if cell not in points)
         if points and whole and all(_POINTS.fullmatch(c) and c.lstrip("+-")[0] != "0" for c in points):
-            raise ValueError(
+            raise MDRError(
                 f"{name}: the point of {min(points)!r} may be a decimal sign, or separate thousands, as no "
                 "other number of its column has one with another number of digits behind it: write numbers "
                 "without separators of thousands"
@@ -92,7 +94,7 @@ def _reader(cells, name):
     }
     points = {cell for cell in cells if "." in cell and _DECIMAL_POINT.fullmatch(cell)}
     if decimal and thousands:
-        raise ValueError(
+        raise MDRError(
             f"{name}: in {min(decimal)!r} a comma is the decimal sign, in {min(thousands)!r} it separates "
             "thousands: write all numbers in one notation"
         )
@@ -101,7 +103,7 @@ def _reader(cells, name):
             return lambda cell: _plain(cell.replace(".", "").replace(",", "."))
         doubtful = [cell for cell in points if _POINTS.fullmatch(cell)]
         if doubtful and len(doubtful) == len(points):
-            raise ValueError(
+            raise MDRError(
                 f"{name}: beside {min(decimal)!r} with a decimal comma, {min(doubtful)!r} may be a "
                 "thousand times larger: write numbers without separators of thousands"
             )

@@ -2,6 +2,8 @@
 
 import zipfile
 
+from ...base.errors import MDRError
+
 #: Most bytes of a file, and of what is packed in one; and by how much what is larger may be packed.
 _BYTES, _UNPACKED, _RATIO = 2_000_000_000, 500_000_000, 20
 
@@ -13,14 +15,14 @@ def refuse_large(path, sheets=None):
     """
     size = path.stat().st_size
     if size > _BYTES:
-        raise ValueError(f"{path.name} has {size / 1e9:.3g} GB: at most {_BYTES / 1e9:g} GB are read")
+        raise MDRError(f"{path.name} has {size / 1e9:.3g} GB: at most {_BYTES / 1e9:g} GB are read")
     if not zipfile.is_zipfile(path):
         return
     try:
         with zipfile.ZipFile(path) as file:
             inside = file.infolist()
     except NotImplementedError as error:
-        raise ValueError(
+        raise MDRError(
             f"{path.name} is packed in a way that cannot be read, {error}: unpack it and read its files"
         ) from None
     except (zipfile.BadZipFile, OSError, ValueError):
@@ -28,10 +30,10 @@ def refuse_large(path, sheets=None):
         return
     unpacked = sum(each.file_size for each in inside)
     if unpacked > _UNPACKED and (sheets is not None or unpacked > _RATIO * size):
-        raise ValueError(
+        raise MDRError(
             f"{path.name} unpacks to {unpacked / 1e9:.3g} GB, and at most {_UNPACKED / 1e9:g} GB are read: "
             "save the curve as a CSV table"
         )
     count = sum(each.filename.startswith("xl/worksheets/") for each in inside)
     if sheets is not None and count > sheets:
-        raise ValueError(f"{path.name} has {count} sheets: at most {sheets} are read")
+        raise MDRError(f"{path.name} has {count} sheets: at most {sheets} are read")

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from ...base.errors import MDRError
 from ...base.remark import Remedy
 from .units import is_deflection, is_voltage
 
@@ -11,11 +12,11 @@ _SHOWN, _WORDS = 14, 3
 CONSTANTS = {"spring_constant": "N/m", "sensitivity": "m/V"}
 
 
-class NoCurve(ValueError):
+class NoCurve(MDRError):
     """A table that is none of a curve, but of results or settings."""
 
 
-class UnknownColumns(ValueError):
+class UnknownColumns(MDRError):
     """Raised for a table that does not say what its columns are, with a suggestion to confirm.
 
     ``read_curves(path, **error.suggestion)`` reads the file as suggested, where that is right and complete.
@@ -25,10 +26,6 @@ class UnknownColumns(ValueError):
     ----------
     why : str
         What is asked, in words. The message has the columns and a line to paste besides.
-    text : str
-        The same, and what to do, without names of Python.
-    remedy : tuple of Remedy
-        To give the columns, or the constants of a cantilever.
     suggestion : dict
         Arguments of `read_curves`, "columns" and perhaps "by", as far as they are known; empty if nothing
         is. "?" stands for a unit that is open.
@@ -61,7 +58,7 @@ class UnknownColumns(ValueError):
         remedy: tuple[Remedy, ...] = (Remedy("give", "columns"),),
     ):  # fmt: skip
         self.why, self.table, self.file, self._hint = why, table, file, hint
-        self.text, self.remedy = text or why, remedy
+        self._text, self.remedy = text or why, remedy
         self.suggestion: dict[str, Any] = suggestion or {}
         #: Whether the rows are rather those of tests, one each, than samples of a curve.
         self.results = results
@@ -76,6 +73,10 @@ class UnknownColumns(ValueError):
         paste = "" if known else f"\n{_paste(self.suggestion)}"
         super().__init__(f"{place}: {sentence}\n{_shown(table)}{paste}")
 
+    @property
+    def text(self):
+        return self._text
+
     def __reduce__(self):
         return _again, self._with(self.suggestion)
 
@@ -84,7 +85,7 @@ class UnknownColumns(ValueError):
         return _again(*self._with(suggestion))
 
     def _with(self, suggestion):
-        given = {"hint": self._hint, "results": self.results, "text": self.text, "remedy": self.remedy}
+        given = {"hint": self._hint, "results": self.results, "text": self._text, "remedy": self.remedy}
         return self.why, self.table, self.file, suggestion, given
 
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...base.remark import Remark, Remedy, refused
+from ...base.remark import MeasurementError, Remark, Remedy
 from .columns import taken, told
 from .curve import curve_maker, curves_of
 from .formats import format_of
@@ -153,9 +153,8 @@ def _of_parts(tables, file, columns, given):
         elif same:
             groups.append([table])
     if all(len(group) == 1 for group in groups):
-        text = f"in {file}: no table goes on where one ends"
-        sentence = f"by = 'segments' joins nothing {text}"
-        raise refused(sentence, f"no parts of a curve are {text}", Remedy("give", "by"))
+        text = f"no parts of a curve are in {file}: no table goes on where one ends"
+        raise MeasurementError(text, Remedy("give", "by"))
     layout = {each: column for each, column in layout.items() if column}
     label = f"{file}, curve {{}}" if len(groups) > 1 else file
     options = {

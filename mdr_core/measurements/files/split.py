@@ -5,7 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...base.remark import Remedy, refused
+from ...base.errors import MDRError
+from ...base.remark import MeasurementError, Remedy
 from .question import UnknownColumns
 
 #: Jump of the depth back to its beginning, and the rise after it, as shares of the range; in median steps.
@@ -174,9 +175,8 @@ def parts(table, by, columns):
         rows = falls if _begin_again(depth, falls) else []
     if not rows:
         what = "the depth does not start anew" if by == "restart" else "there are no gaps between the rows"
-        raise refused(
-            f"by = {by!r} separates nothing: {what}; leave it out, or give by='whole'",
-            f"nothing separates curves: {what}; take the rows as one curve",
+        raise MeasurementError(
+            f"nothing separates curves: {what}",
             Remedy("give", "by", "whole"),
         )
     edges = [0, *rows, len(table.lines)]
@@ -187,13 +187,12 @@ def _grouped(table, by):
     """Names and tables of the rows that have the same values in one or more columns."""
     chosen = [_column(table, each) for each in (by if isinstance(by, list | tuple) else [by])]
     if not chosen:
-        raise ValueError("by = [] must name columns")
+        raise MDRError("by = [] must name columns")
     codes = np.stack([np.unique(cells, return_inverse=True)[1].ravel() for _, cells in chosen])
     _, first, group = np.unique(codes, axis=1, return_index=True, return_inverse=True)
     group, heads = group.ravel(), " and ".join(repr(head) for head, _ in chosen)
     if first.size < 2:
-        raise refused(
-            f"by = {by!r} separates nothing: {heads} has one value; leave it out",
+        raise MeasurementError(
             f"{heads} has one value in all rows and separates no curves",
             Remedy("give", "by", "whole"),
         )
@@ -203,8 +202,7 @@ def _grouped(table, by):
             f"curves of fewer than {FEWEST} rows: {heads} has {first.size} values in {group.size} rows, "
             "perhaps with noise in their last digits"
         )
-        raise refused(
-            f"by = {by!r} gives {text}; give by='restart', or 'gaps'",
+        raise MeasurementError(
             f"that gives {text}",
             Remedy("give", "by", "restart"),
             Remedy("give", "by", "gaps"),
@@ -229,7 +227,7 @@ def _column(table, which):
     names = {int(key.split()[0]) - 1: key.partition(" ")[2] for key in table.words} | table.heads
     found = [k for k, head in names.items() if which in (k, head)]
     if isinstance(which, bool) or len(found) != 1:
-        raise ValueError(
+        raise MDRError(
             f"by = {which!r:.80} must be the number or the name of one column of {names}, a list of these, "
             f"or one of {', '.join(map(repr, WORDS))}"
         )
@@ -273,7 +271,7 @@ def joined(table, layouts, file):
         used = [table.values[column[0]] for column in layout.values() if column]
         rows = np.flatnonzero(np.isfinite(used).all(axis=0))
         if rows.size < 2:
-            raise ValueError(f"{file}: a part has fewer than two rows of numbers, {layout}")
+            raise MDRError(f"{file}: a part has fewer than two rows of numbers, {layout}")
         place, force = table.values[place_of(layout)][rows], table.values[layout["force"][0]][rows]
         if end is None:
             back = np.argmax(np.abs(force - np.median(force))) < rows.size // 2

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from ...base.check import Array
+from ...base.errors import MDRError
 from .names import normal, parted, symbols_in
 from .numbers import number_reader, numeric, with_comma
 from .units import cleaned, unit_alone
@@ -192,11 +193,9 @@ def _lines(text, name, limit):
     """`_Lines` of a text."""
     number, begin, end = _places(text, name, limit)
     if not number.size:
-        raise ValueError(f"{name} is empty")
+        raise MDRError(f"{name} is empty")
     if np.max(end - begin) > _LONGEST_LINE:
-        raise ValueError(
-            f"{name}: a line is longer than {_LONGEST_LINE} characters; use one line per sample"
-        )
+        raise MDRError(f"{name}: a line is longer than {_LONGEST_LINE} characters; use one line per sample")
 
     def texts(step=1):
         return _parts(text, begin[::step], end[::step])
@@ -309,10 +308,10 @@ def _table(lines, name, limit):
 def _begin(lines, name):
     """Number of columns of the rows, and the place of the first row."""
     if not lines.width.any():
-        raise ValueError(f"{name}: no samples; expected rows of numbers")
+        raise MDRError(f"{name}: no samples; expected rows of numbers")
     width = _most_common(lines.width[lines.width > 0])
     if width > _MOST_COLUMNS:
-        raise ValueError(f"{name} has {width} columns: at most {_MOST_COLUMNS} are read")
+        raise MDRError(f"{name} has {width} columns: at most {_MOST_COLUMNS} are read")
     # Lines of a header, as "Depth limit, 200", have fewer numbers than rows.
     some = lines.width == width
     whole = some & (lines.finite >= _most_common(lines.finite[some]))
@@ -377,7 +376,7 @@ def _refuse_decimal_commas(header, width, place):
     count = sum(bool(parted(cell.strip())[2]) for cell in line[:LONGEST_HEADER].split(","))
     if count > 1 and width == 2 * count and count == line.count(",") + 1:
         names = "two" if count == 2 else count
-        raise ValueError(
+        raise MDRError(
             f"{place}: expected {names} numbers, as the header names {names} units, found {width}; "
             "where commas are decimal ones, separate columns by semicolons"
         )

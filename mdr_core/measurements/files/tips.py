@@ -27,17 +27,17 @@ def samples_of(text, name, unit, limit, remedy=""):
         number = min(table.odd, default=table.lines[0])
         expected = "two numbers r, z" if count <= 2 or unnamed else f"{count} numbers, r and z first"
         line = f", found {table.odd[number].strip()!r:.60}" if table.odd else ""
-        raise ValueError(f"{name}, line {number}: expected {expected}{line}")
+        raise check.MDRError(f"{name}, line {number}: expected {expected}{line}")
     columns = list(table.heads)[:2]
     named = [u if u in LENGTHS else None for u in map(table.unit, columns)]
     if unit is None and None in named:
-        raise ValueError(
+        raise check.MDRError(
             f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', out of "
             f"{', '.join(LENGTHS)}{remedy}"
         )
     units = named if unit is None else [unit_named(unit)] * 2
     if any(named) and named != units:
         given = ", ".join(filter(None, named))
-        raise ValueError(f"{name}: unit={unit!r} was given, but the header says {given}")
+        raise check.MDRError(f"{name}: unit={unit!r} was given, but the header says {given}")
     r, z = map(table.values.get, columns)
     return r * LENGTHS[units[0]], z * LENGTHS[units[1]]

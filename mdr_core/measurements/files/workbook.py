@@ -4,6 +4,7 @@ import warnings
 from contextlib import closing
 from dataclasses import replace
 
+from ...base.errors import MDRError
 from ...show.report import imported
 from .afm import is_binary
 from .packed import refuse_large
@@ -22,7 +23,7 @@ def is_workbook(path):
     with path.open("rb") as file:
         head = file.read(4096)
     if head.lstrip(b"\xef\xbb\xbf \r\n").startswith(b"<"):
-        raise ValueError(
+        raise MDRError(
             f"{path.name} is HTML or XML, and no Excel file: open it in a program for spreadsheets, and "
             "save it as .xlsx or as a CSV table"
         )
@@ -45,7 +46,7 @@ def from_workbook(path, options):
     if not tables:
         if len(refusals) == 1:
             raise refusals[0]
-        raise ValueError(f"{path.name} has no sheet with columns of depth and force and their units")
+        raise MDRError(f"{path.name} has no sheet with columns of depth and force and their units")
     return curves_of_tables(tables, path.name, options)
 
 
@@ -60,10 +61,10 @@ def _texts(path, reader, texts_of):
         raise
     except Exception as error:
         # Each package has errors of its own for what is no Excel file.
-        raise ValueError(f"{path.name} cannot be read as an Excel file: {error}") from error
+        raise MDRError(f"{path.name} cannot be read as an Excel file: {error}") from error
 
 
-class _TooLarge(ValueError):
+class _TooLarge(MDRError):
     """A sheet with more cells than are read."""
 
 

@@ -43,7 +43,7 @@ def dataset_of(fit, position=None):
     if position is not None:
         position = check.finite_array("position", position, unit="m", most=check.LONGEST)
         if position.shape != (*fit.shape, 2):
-            raise ValueError(f"position {position.shape} must have x and y of each curve, (R, 2)")
+            raise check.MDRError(f"position {position.shape} must have x and y of each curve, (R, 2)")
         for name, values in zip("xy", np.moveaxis(position, -1, 0), strict=True):
             coordinates[name] = dims, values, {"units": "m", "long_name": f"position {name}"}
     return xarray.Dataset(variables, coordinates, attributes)

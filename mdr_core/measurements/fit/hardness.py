@@ -7,7 +7,7 @@ import numpy as np
 
 from ...base import check
 from ...base.check import Array, ArrayLike
-from ...base.remark import Remark, Remedy, doubt
+from ...base.remark import Remark, Remedy
 from ...show.quantities import engineering
 from ...solver.applicability import check_pair
 from ...solver.contact.integrals import integrals
@@ -97,7 +97,7 @@ def fit_hardness(
     cap, yielded = _caps(profile, depth, area)
     if not yielded.any():
         largest = engineering(p_m.max(), "Pa")
-        raise ValueError(
+        raise check.MDRError(
             f"all mean pressures (up to {largest}) are as large as in an elastic contact with E* = "
             f"{engineering(E_star, 'Pa')}: nothing has yielded; check E_star, or press deeper"
         )
@@ -137,9 +137,9 @@ def _constants(a, hardness, weight, held):
     powers = {name: a**-power for power, name in enumerate(CLASSES.values())}
     free = [name for name in powers if name not in held]
     if not free:
-        raise ValueError("hardness, q_c and f_c are all held: give None for those to be fitted")
+        raise check.MDRError("hardness, q_c and f_c are all held: give None for those to be fitted")
     if len(free) > 1 and (a.size <= len(free) or np.unique(a).size < len(free)):
-        raise ValueError(
+        raise check.MDRError(
             f"{a.size} measurements that yield, at {np.unique(a).size} radii, do not determine "
             f"{' and '.join(free)}: give more, or fit one of them"
         )
@@ -166,7 +166,7 @@ def _measured(profile, mean_pressure, radius):
     p_m = np.atleast_1d(check.positive("mean_pressure", mean_pressure, unit="Pa")).ravel()
     a = np.atleast_1d(check.positive("radius", radius, unit="m")).ravel()
     if p_m.shape != a.shape or not p_m.size:
-        raise ValueError(
+        raise check.MDRError(
             f"mean_pressure {p_m.shape} and radius {a.shape} must have the same shape, one value for "
             "each radius"
         )
@@ -206,16 +206,16 @@ def _remarks(yielded, constants, errors, free, power_law):
     used = [letter for letter, constant in CLASSES.items() if constants[constant] or constant in free]
     if len(used) == 1 and (name not in (*used, None) or reason.startswith("none")):
         text = f"not of class ({used[0]}) alone: {reason}; two constants of the hardness may be fitted"
-        yield doubt(
+        yield Remark(
             text, "misfit", *(Remedy("free", each) for each in CLASSES.values() if each not in free)
         )
     for constant, error in zip(free, errors, strict=True):
         if len(free) > 1 and constants[constant] < 2 * error:
             text = f"the radii do not distinguish {symbols(free)}: {symbols([constant])} may be 0"
-            yield doubt(text, "constants", Remedy("hold", constant, 0.0))
+            yield Remark(text, "constants", Remedy("hold", constant, 0.0))
     if np.isinf(errors).any():
         text = f"the standard error of {symbols(free[:1])} cannot be determined from one measurement"
-        yield doubt(f"{text}: give three or more", "few")
+        yield Remark(f"{text}: give three or more", "few")
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -7,8 +7,7 @@ import numpy as np
 
 from ...base import check
 from ...base.check import ArrayLike
-from ...base.errors import Refusal
-from ...base.remark import Remark, Remedy, refused
+from ...base.remark import MeasurementError, Remark, Remedy
 from ...show.progress import progress
 from ...show.quantities import engineering
 from ...solver.applicability import check_pair, refuse_own_law
@@ -257,10 +256,8 @@ def _held(profile, given, count, noise, time):
     _refuse_with_other_classes(profile, held)
     in_time = _in_time(held)
     if in_time and time is None:
-        need = "the times (s) of the samples: give"
-        raise refused(
-            f"{' and '.join(in_time)} need time, {need} time=",
-            f"{symbols(in_time)} need {need} a column of times",
+        raise MeasurementError(
+            f"{symbols(in_time)} need the times (s) of the samples",
             Remedy("give", "time"),
             *(Remedy("hold", name, 0.0) for name in in_time),
         )
@@ -283,7 +280,7 @@ def _without_invalid(profile, depth, force, time, held, unread):
     columns = [depth, force] if time is None else [depth, force, time]
     sizes = [len(column) for column in columns]
     if len(set(sizes)) > 1:
-        raise ValueError(
+        raise check.MDRError(
             f"depth, force and time must have the same number of curves, got "
             f"{' and '.join(map(str, sizes))}"
         )
@@ -308,7 +305,7 @@ def _without_invalid(profile, depth, force, time, held, unread):
 
 def _refuse_all_invalid(reasons, count):
     if len(reasons) == count:
-        raise Refusal(reasons[0].after(f"none of {count} curves can be fitted; curve 0: "))
+        raise MeasurementError(reasons[0].after(f"none of {count} curves can be fitted; curve 0: "))
 
 
 def _refuse_with_adhesion(held, noise):
@@ -316,19 +313,16 @@ def _refuse_with_adhesion(held, noise):
     q_c = held.get("q_c", np.array([np.nan]))
     if not np.all(np.isinf(q_c)):
         given = "free" if np.isnan(q_c[0]) else engineering(q_c, "N/m")
-        only = "adhesion is fitted for an elastic medium only"
-        raise refused(
-            f"work_of_adhesion with q_c {given}: {only}, q_c = inf; give q_c=np.inf, or work_of_adhesion=0",
-            only,
+        raise MeasurementError(
+            f"adhesion is fitted for an elastic medium only, and q_c is {given}",
             Remedy("class", "elastic"),
             Remedy("hold", "work_of_adhesion", 0.0),
         )
     for name, given in (("eta", "eta" not in held or held["eta"].any()), ("depth_noise", noise > 0)):
         if given:
             what = "the viscosity" if name == "eta" else "a noise of the depth"
-            raise refused(
-                f"work_of_adhesion is not fitted together with {name}: hold one of them at 0",
-                f"the work of adhesion is not fitted together with {what}: leave out one of them",
+            raise MeasurementError(
+                f"the work of adhesion is not fitted together with {what}",
                 Remedy("hold", "work_of_adhesion", 0.0),
                 Remedy("hold" if name == "eta" else "give", name, 0.0),
             )
@@ -343,14 +337,12 @@ def _refuse_with_other_classes(profile, held):
     if used("hardness"):
         try:
             yield_rule(profile, Medium(1.0, hardness=1.0))
-        except ValueError as error:
-            words = "a constant hardness is not fitted under a tip that is not convex"
-            raise refused(str(error), words, Remedy("class", "b")) from None
+        except check.MDRError as error:
+            raise MeasurementError(error.text, Remedy("class", "b")) from None
     for name in ("eta", "work_of_adhesion"):
         if used(name) and (used("hardness") or used("f_c")):
-            raise refused(
-                f"{name} is not fitted together with hardness or f_c: hold it at 0, or hold these at 0",
-                f"{symbols([name])} is fitted with a hardness of class (b) only: hold it at 0, or take it",
+            raise MeasurementError(
+                f"{symbols([name])} is fitted with a hardness of class (b) only",
                 Remedy("hold", name, 0.0),
                 Remedy("class", "b"),
             )
@@ -363,9 +355,9 @@ def _refuse_empty(measured, held):
     i = int(counts.argmin())
     if counts[i] <= len(free):
         which = "" if measured.single else f"curve {i}: "
-        text, more = f"{which}{counts[i]} samples do not determine", "hold some of these, or give more"
-        names = ", ".join(free) or "a residual", symbols(free) or "a residual"
-        raise refused(*(f"{text} {each}: {more}" for each in names), Remedy("part", "all"))
+        names = symbols(free) or "a residual"
+        text = f"{which}{counts[i]} samples do not determine {names}: hold some of these, or give more"
+        raise MeasurementError(text, Remedy("part", "all"))
     lowest, highest = np.nanmin(force, axis=1), np.nanmax(force, axis=1)
     width = np.nanmax(depth, axis=1) - np.nanmin(depth, axis=1)
     check.refuse("range of depth", width, width == 0, "m: the indenter does not move", advice="check it")

@@ -64,11 +64,11 @@ def measurement(depth, force, time, force_noise):
         for i, counts in enumerate(zip(*lengths, strict=False) if ndim == 2 else ()):
             if len(set(counts)) > 1:
                 shown = ", ".join(f"{name}[{i}] {n}" for name, n in zip(given, counts, strict=True))
-                raise ValueError(f"curve {i}: {shown} samples must be the same number")
+                raise check.MDRError(f"curve {i}: {shown} samples must be the same number")
         shown = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-        raise ValueError(f"{shown} must have the same shape, (N,) for one curve or (R, N) for many")
+        raise check.MDRError(f"{shown} must have the same shape, (N,) for one curve or (R, N) for many")
     if not values["depth"].size:
-        raise ValueError("depth and force are empty: a curve needs more samples than free parameters")
+        raise check.MDRError("depth and force are empty: a curve needs more samples than free parameters")
     if force_noise is not None:
         force_noise = _padded("force_noise", force_noise, "N")
         check.common_shape("fit_indentation", depth=values["depth"], force_noise=force_noise)
@@ -78,19 +78,19 @@ def measurement(depth, force, time, force_noise):
     values = {name: values.get(name) for name in ("depth", "force", "time", "force_noise")}
     measured = Measurement(**values, lengths=np.array(lengths[0]), single=ndim == 1)
     if not measured.used.any():
-        raise ValueError("no sample of depth and force has finite values of both")
+        raise check.MDRError("no sample of depth and force has finite values of both")
     return measured
 
 
 def _padded(name, values, unit):
     """An array, or the arrays of a list with NaN up to the longest; NaN is a missing sample."""
     if np.ma.is_masked(values):
-        raise ValueError(f"{name} has masked samples: leave them out of depth and force")
+        raise check.MDRError(f"{name} has masked samples: leave them out of depth and force")
     if not isinstance(values, list | tuple) or not any(map(np.ndim, values)):
         return check.finite_array(name, values, unit=unit, most=check.LONGEST, missing=True)
     rows = [_padded(f"{name}[{i}]", row, unit) for i, row in enumerate(values)]
     if any(row.ndim != 1 for row in rows):
-        raise ValueError(f"{name} as a list must have one array (N,) for each curve")
+        raise check.MDRError(f"{name} as a list must have one array (N,) for each curve")
     padded = np.full((len(rows), max(row.size for row in rows)), np.nan)
     for target, row in zip(padded, rows, strict=True):
         target[: row.size] = row

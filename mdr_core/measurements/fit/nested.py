@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...base.remark import Remark, Remedy, doubt
+from ...base.remark import Remark, Remedy
 from ...show.quantities import engineering
 from ..common.errors import SIGNIFICANT, SINGULAR, block_length, roughness
 
@@ -152,7 +152,7 @@ class _Trial(NamedTuple):
         if self.factor > _LOWERED:
             what += f"lower the misfit in contact by a factor of {self.factor:.3g} and "
         remedy = (each for each in test.remedy if each.what not in free)
-        return doubt(
+        return Remark(
             f"{what}change E* by {self.change:+.1f} standard errors", test.kind, *remedy, together=True
         )
 

@@ -5,7 +5,7 @@ They may follow a curve, have outliers, be correlated over a large part of the c
 
 import numpy as np
 
-from ...base.remark import Remark, Remedy, doubt
+from ...base.remark import Remark, Remedy
 from ...show.quantities import engineering
 from ..common.errors import SIGNIFICANT, autocorrelation, roughness
 from .parameters import BACKGROUND, CLASSES, symbols
@@ -67,7 +67,7 @@ def _jitter(solved, i):
             f"the depth goes back and forth at {reversals} of {depth.size - 1} samples, and its noise of "
             f"some {engineering(noise, 'm')} is taken for new largest depths: E* is biased"
         )
-        yield doubt(text, "jitter", Remedy("give", "depth_noise", float(f"{noise:.2g}")))
+        yield Remark(text, "jitter", Remedy("give", "depth_noise", float(f"{noise:.2g}")))
 
 
 def _misfit(solved, i):
@@ -87,7 +87,7 @@ def _misfit(solved, i):
         )
         timeless = curves.time is None and not curves.adhesive
         remedy = *_other_class(solved, i, letters), *[Remedy("give", "time")] * timeless
-        yield doubt(f"{text}{', or there is a drag or a drift' * timeless}", "misfit", *remedy)
+        yield Remark(f"{text}{', or there is a drag or a drift' * timeless}", "misfit", *remedy)
     elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > _EXACT:
         text = (
             f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
@@ -119,7 +119,7 @@ def _outliers(solved, i):
             f"about {single} of {residual.size} samples are outliers, more than {_OUTLIER:g} standard "
             "deviations from their neighbours, and shift E* by more than its error: leave them out"
         )
-        yield doubt(text, "outliers")
+        yield Remark(text, "outliers")
 
 
 def _blocks(solved, i):
@@ -142,4 +142,4 @@ def _few(solved, i):
     names = [name for name in solved.curves.free if name not in BACKGROUND]
     if names and count < len(names) + _SPARE:
         text = f"only {count} samples are in contact for {symbols(names)}"
-        yield doubt(f"{text}: the standard errors are uncertain; record more", "few")
+        yield Remark(f"{text}: the standard errors are uncertain; record more", "few")

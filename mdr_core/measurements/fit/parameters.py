@@ -169,15 +169,17 @@ def held_values(count, **values):
     for name in (name for name, value in values.items() if value is not None):
         if isinstance(values[name], str):
             text = "must be a number, which holds it, or None, which makes it free"
-            raise ValueError(f"{name} = {values[name]!r} {text}")
+            raise check.MDRError(f"{name} = {values[name]!r} {text}")
         value = PARAMETERS[name].checked(name, values[name])
         if np.shape(value) not in ((), (1,), (count,)):
             shape = np.shape(value)
-            raise ValueError(f"{name} {shape} of {count} curves: give one number, or one for each curve")
+            raise check.MDRError(
+                f"{name} {shape} of {count} curves: give one number, or one for each curve"
+            )
         held[name] = np.broadcast_to(value, (count,)).astype(float)
     for name in CLASSES.values():
         if np.any(held.get(name, 0.0)) and not np.all(held[name]):
-            raise ValueError(f"{name} is 0 for some of the curves only: fit these apart")
+            raise check.MDRError(f"{name} is 0 for some of the curves only: fit these apart")
     # Refuses a hardness of 0, and an infinite q_c beside another constant.
     Medium(1.0, **{name: held.get(name, 1.0) for name in CLASSES.values()})
     return held

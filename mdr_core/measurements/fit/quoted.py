@@ -5,6 +5,7 @@ from typing import Literal
 
 import numpy as np
 
+from ...base.errors import MDRError
 from ...base.remark import Remark, Remedy
 from ...show.report import with_error
 from ..common.errors import SIGNIFICANT, roughness
@@ -87,12 +88,10 @@ def _of_the_fit(fit):
         model = next((name for _, name in _others(fit)), "elastic")
         return _none(doubt.after(f"the {model} model does not fit: "))
     if "E_star" not in fit.standard_errors:
-        return _none(Remark("E* is held", "held", remedy=(Remedy("free", "E_star"),)))
+        return _none(Remark("E* is held", "held", Remedy("free", "E_star")))
     value, error = float(fit.medium.E_star), float(fit.standard_errors["E_star"])
     if not error < np.inf:
-        return _none(
-            Remark("the data do not determine E*", "undetermined", remedy=(Remedy("hold", "E_star"),))
-        )
+        return _none(Remark("the data do not determine E*", "undetermined", Remedy("hold", "E_star")))
     return Quoted("E_star", value, error, "fit", "the medium is elastic")
 
 
@@ -116,7 +115,7 @@ def unloading(fit) -> tuple[OliverPharr | None, Remark]:
     """
     for name, text in _others(fit):
         text = f"the medium is {text}: its unloading does not follow a power law"
-        return None, Remark(text, "medium", remedy=(Remedy("hold", name, 0.0),))
+        return None, Remark(text, "medium", Remedy("hold", name, 0.0))
     # Beside a law of hardness that does not fit, these are of the law, not of the force.
     if not _doubt(fit, {"misfit"}) and (doubt := _doubt(fit, OF_THE_FORCE)):
         return None, doubt.after("the force of the contact is not known: ")
@@ -134,8 +133,8 @@ def unloading(fit) -> tuple[OliverPharr | None, Remark]:
             return None, doubt.after("the model does not fit, so that first contact is not known: ")
         shift = fit.standard_errors["contact_point"]
         shifted = _evaluated(fit, fit.path.depth + shift, force)
-    except ValueError as error:
-        return None, Remark.of(error, getattr(error, "kind", "no unloading"))
+    except MDRError as error:
+        return None, Remark.of(error, error.kind or "no unloading")
     errors = {
         name: np.hypot(error, getattr(shifted, name) - getattr(result, name))
         for name, error in result.standard_errors.items()

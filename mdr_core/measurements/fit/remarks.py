@@ -4,7 +4,7 @@ from itertools import chain
 
 import numpy as np
 
-from ...base.remark import KINDS, Remark, Remedy, doubt
+from ...base.remark import KINDS, Remark, Remedy
 from ...show.quantities import engineering
 from ..common.errors import SIGNIFICANT
 from ..common.materials import UNITS, is_modulus
@@ -121,10 +121,10 @@ def _units(solved, i):
 def _in_other_units(text, cause):
     """A remark on what no material has, because of columns or signs, or of units if no cause is known."""
     if not cause:
-        return doubt(text, "units", *UNITS, together=True)
+        return Remark(text, "units", *UNITS, together=True)
     columns = (Remedy("give", "columns"),)
     remedy = columns if cause == _SWAPPED else [each for each in UNITS if each.what in cause]
-    return Remark(f"{text}: {cause}", "units", remedy=remedy)
+    return Remark(f"{text}: {cause}", "units", *remedy)
 
 
 def _is_enormous(solved, i):
@@ -186,15 +186,15 @@ def _ambiguous(solved, i):
     curves, squares = solved.curves, np.sum(solved.minimum.residual[i] ** 2)
     for name, at_bound in zip(curves.free, solved.minimum.at_bound[i], strict=False):
         if at_bound and name == "eta":
-            yield doubt("the viscosity is 0 within the noise", "inviscid", Remedy("hold", name, 0.0))
+            yield Remark("the viscosity is 0 within the noise", "inviscid", Remedy("hold", name, 0.0))
         elif at_bound and name not in TOGETHER:
-            yield doubt(f"{symbols([name])} is at the bound of its range", "bound", Remedy("hold", name))
+            yield Remark(f"{symbols([name])} is at the bound of its range", "bound", Remedy("hold", name))
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
     if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
         rival = curves.rows([i]).values(solved.rival[[i]])
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
         remedy = Remedy("hold", "contact_point"), Remedy("hold", "E_star")
-        yield doubt(f"E* = {E} with contact at {point} fits about as well", "second minimum", *remedy)
+        yield Remark(f"E* = {E} with contact at {point} fits about as well", "second minimum", *remedy)
 
 
 def _adhesion(solved, i):
@@ -208,7 +208,7 @@ def _adhesion(solved, i):
     if error > _VAGUE:
         cause = "" if np.any(force < -SIGNIFICANT * noise) else "; there is no tension beyond the noise"
         text = f"the forces in contact hardly determine w ({_share(error)}{cause})"
-        yield doubt(text, "adhesion", Remedy("hold", "work_of_adhesion", 0.0 if cause else None))
+        yield Remark(text, "adhesion", Remedy("hold", "work_of_adhesion", 0.0 if cause else None))
     depth = curves.depth[i]
     lost = [_depth_of_loss(depth, held) for held in (curves.contact[i], state.live_interval.length[i] > 0)]
     if abs(lost[1] - lost[0]) > _PULL_OFF * np.ptp(depth):
@@ -239,7 +239,7 @@ def _undetermined(solved, i):
     constants = [name for name in solved.curves.constants if name in errors]
     if solved.elastic[i] and constants:
         text = f"no yield is seen beyond the noise: {_hardest(solved, i)}"
-        yield doubt(text, "elastic", Remedy("class", "elastic"))
+        yield Remark(text, "elastic", Remedy("class", "elastic"))
         return
     if len(constants) > 1:
         yield from _constants(solved, i, constants)
@@ -247,24 +247,24 @@ def _undetermined(solved, i):
     error, hold = errors.get("E_star", 0.0), Remedy("hold", "E_star")
     if solved.curves.held_elastic:
         if _VAGUE < error < np.inf:
-            yield doubt(f"the data hardly determine E* ({_share(error)})", "vague", hold)
+            yield Remark(f"the data hardly determine E* ({_share(error)})", "vague", hold)
     elif unloading < 2 and error > _VAGUE_LOADING:
         text = f"loading alone hardly determines E* ({_share(error)})"
-        yield doubt(text, "loading", Remedy("part", "all"), hold)
+        yield Remark(text, "loading", Remedy("part", "all"), hold)
     elif error > _VAGUE:
         recovered = "critical depth" if solved.curves.constants == ("q_c",) else "recovered depth"
         text = (
             f"the unloading hardly determines E* ({_share(error)}): only {unloading} samples are within "
             f"the {recovered} of {engineering(state.cap[i, -1], 'm')}"
         )
-        yield doubt(text, "vague", hold)
+        yield Remark(text, "vague", hold)
     for name, error in errors.items():
         if error == np.inf and name != "work_of_adhesion":
             text = (
                 f"the data do not determine {symbols([name])}, or a parameter correlated with it: the "
                 "residuals have no minimum, but a direction in which they do not change"
             )
-            yield doubt(text, "undetermined", Remedy("hold", name))
+            yield Remark(text, "undetermined", Remedy("hold", name))
 
 
 def _hardest(solved, i):
@@ -289,7 +289,7 @@ def _constants(solved, i, names):
             f"the data do not distinguish {symbols(names)}: {symbols([name])} is {shares[name]:.2g} times "
             "its standard error"
         )
-        yield doubt(text, "constants", Remedy("hold", name, 0.0))
+        yield Remark(text, "constants", Remedy("hold", name, 0.0))
 
 
 def _tip(solved, i):

@@ -115,8 +115,8 @@ class IndentationFit(Fit):
     def remarks(self) -> tuple[Remark, ...]:
         """Remarks, those of the file first, then of the fit, the most important first.
 
-        Of many curves one of each kind, with the number of the first one that has it, and how many have it;
-        `text` and `remedy` are those of that curve. Those of a single one are ``fit[i].remarks``.
+        Of many curves one of each kind, with the number of the first one that has it, and how many have it.
+        Those of a single one are ``fit[i].remarks``.
         """
         if not self.shape:
             return (*self._read[0], *self._remarks[0])
@@ -134,7 +134,7 @@ class IndentationFit(Fit):
 
     def _refuse_invalid(self, what):
         for i, reason in self.invalid.items():
-            raise ValueError(
+            raise check.MDRError(
                 f"{what}: curve {i} was {reason}; select the fitted curves, as in fit[numbers]"
             )
 
@@ -267,7 +267,7 @@ class IndentationFit(Fit):
 
 
 def _of_many(remarks):
-    """One remark of each kind, of the first curve that has it, with their number in its sentence."""
+    """One remark of each kind, of the first curve that has it, with their number."""
     same = {}
     for i, own in enumerate(remarks):
         for remark in own:
@@ -276,8 +276,7 @@ def _of_many(remarks):
             same.setdefault((remark.kind, named), {}).setdefault(i, remark)
     for found in same.values():
         i, first = next(iter(found.items()))
-        sentence = f"curve {i} ({len(found)} of {len(remarks)} curves): {first}"
-        yield Remark(sentence, first.kind, first.text, first.remedy)
+        yield first.after(f"curve {i} ({len(found)} of {len(remarks)} curves): ")
 
 
 class _MediumOrNone(Medium):

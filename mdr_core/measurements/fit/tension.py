@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ...base.remark import Remedy, doubt
+from ...base.remark import Remark, Remedy
 from ...show.quantities import engineering
 from ..common.errors import roughness
 
@@ -52,6 +52,6 @@ def of_tension(solved, i):
     )
     # That of a soft gel may be on the retract alone.
     retracts = bool(curves.depth.shape[1] - np.argmax(curves.depth[i]) > _BRANCH)
-    yield doubt(
+    yield Remark(
         text, "adhesion", Remedy("free", "work_of_adhesion"), *[Remedy("part", "loading")] * retracts
     )

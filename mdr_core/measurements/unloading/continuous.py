@@ -48,12 +48,8 @@ def _values_and_errors(profile, depth, force, stiffness, constants, contact):
     values = {"depth": depth, "stiffness": np.where(used, stiffness, np.nan), **values}
     values["contact_point"] = np.full(depth.size, contact.depth)
     without = np.count_nonzero(~used)
-    text = f"{without} of {used.size} samples have no contact or no stiffness: "
-    remarks = (
-        [Remark(f"{text}their results are NaN", "missing", f"{text}they have no results")]
-        if without
-        else []
-    )
+    text = f"{without} of {used.size} samples have no contact or no stiffness, and no results"
+    remarks = [Remark(text, "missing")] if without else []
     frozen = {name: check.frozen(value) for name, value in values.items()}
     errors = {"stiffness": noise} | errors
     if contact.depth_error:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...base.remark import Remark, Remedy, doubt
+from ...base.remark import Remark, Remedy
 from ...show.quantities import engineering
 from ..common.errors import roughness
 from .unloading import last_at_top
@@ -202,4 +202,4 @@ def of_rise(rise, in_time):
         f"the depth creeps: it grows by {engineering(rise, 'm')} while the force falls, so that the "
         "stiffness is too large; hold the force longer, or unload faster"
     )
-    return doubt(text, "creep", *[Remedy("give", "time")] * (not in_time))
+    return Remark(text, "creep", *[Remedy("give", "time")] * (not in_time))

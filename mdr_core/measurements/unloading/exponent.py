@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from ...base.remark import Remedy
-from ...base.remark import doubt as remark
+from ...base.remark import Remark, Remedy
 from ...solver.contact.integrals import integrals
 from ...solver.contact.live_interval import LiveInterval
 from .first_contact import elastic_exponents
@@ -50,7 +49,7 @@ def doubt(profile, depth, laws, in_time):
         )
     else:
         return None
-    return remark(text, "creep", *[Remedy("give", "time")] * (not in_time))
+    return Remark(text, "creep", *[Remedy("give", "time")] * (not in_time))
 
 
 def _of_elastic_unloading(profile, depth):

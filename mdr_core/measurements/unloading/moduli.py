@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from ...base.errors import Refusal
-from ...base.remark import Remark
+from ...base.remark import MeasurementError, Remark
 from ...solver.numerics.roots import increasing_root
 
 
@@ -29,7 +28,6 @@ def _radius_at_height(profile, height):
 
 
 def not_from_contact(text):
-    """A refusal of depths and forces that may count from elsewhere."""
-    sentence = f"{text}: give depth from first contact, and force from the baseline"
-    words = f"{text}: depths have to count from first contact, and forces from the baseline"
-    return Refusal(Remark(sentence, "no unloading", words))
+    """The error of depths and forces that may count from elsewhere."""
+    text = f"{text}: depths must count from first contact, and forces from the baseline"
+    return MeasurementError(Remark(text, "no unloading"))

@@ -6,8 +6,7 @@ import numpy as np
 
 from ...base import check
 from ...base.check import ArrayLike
-from ...base.errors import Refusal
-from ...base.remark import Remark, Remedy
+from ...base.remark import MeasurementError, Remark, Remedy
 from ...show.quantities import engineering
 from ...solver.applicability import check_pair
 from ...solver.medium.medium import Medium
@@ -150,7 +149,7 @@ def oliver_pharr(
     read = remarks_of_one(given.remarks)
     stiffness = measured_stiffness(given, stiffness)
     if stiffness is not None and (time is not None or cycles):
-        raise ValueError("stiffness is measured at each sample: give it without time and cycles")
+        raise check.MDRError("stiffness is measured at each sample: give it without time and cycles")
     columns = finite_columns(given.depth, given.force, time, stiffness)
     path = columns["depth"], columns["force"]
     read = (*read, *apart(*path))
@@ -198,11 +197,10 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
                 raise
             remarks.append(Remark.of(error, "left out", f"{which} is left out: "))
     if not results:
-        raise Refusal(remarks[0])
+        raise MeasurementError(remarks[0])
     if len(parts) > 1 and not cycles:
         text = f"unloading {taken} of {len(parts)}, which follows the largest depth, was evaluated"
-        remedy = (Remedy("give", "cycles", True),)
-        remarks.insert(0, Remark(f"{text}; give cycles=True for each of them", "several", text, remedy))
+        remarks.insert(0, Remark(text, "several", Remedy("give", "cycles", True)))
     return results, remarks
 
 
@@ -215,7 +213,7 @@ def _with_creep(profile, depth, force, time, constants, contact):
         uncorrected = _values_and_errors(profile, depth, laws, constants, contact)
     except ValueError as error:
         if rise and creep is None:
-            raise Refusal(creeping.of_rise(rise, time is not None)) from error
+            raise MeasurementError(creeping.of_rise(rise, time is not None)) from error
         if creep is None:
             raise
         uncorrected = np.full((2, 5), np.nan)

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...base.errors import Refusal
-from ...base.remark import Remark, Remedy
+from ...base.remark import MeasurementError, Remark, Remedy
 from ...show.quantities import engineering
 from ..common.errors import roughness
 from ..common.least_squares import least_squares
@@ -115,7 +114,7 @@ def _part(depth, force, upper, lower):
             f"the upper half of an unloading has {h.size} samples, 5 or more are needed: after the largest "
             f"depth, {largest} (sample {start + 1} of {depth.size}), depth and force must decrease"
         )
-        raise Refusal(Remark(text, "no unloading", remedy=(Remedy("part", "all"),)))
+        raise MeasurementError(Remark(text, "no unloading", Remedy("part", "all")))
     return h, F
 
 
@@ -138,7 +137,7 @@ def _power_law(h, force):
             "the upper half of the unloading does not follow a power law: the depth creeps, or the samples "
             "are not in the order of time"
         )
-        raise Refusal(Remark(text, "no unloading"))
+        raise MeasurementError(Remark(text, "no unloading"))
     _, s, vt = np.linalg.svd(minimum.jacobian[0], full_matrices=False)
     scatter = np.sqrt(minimum.squares[0] / (h.size - 3))
     return minimum.x[0] * size, size[:, None] * vt.T * scatter / s

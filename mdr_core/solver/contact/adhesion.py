@@ -74,7 +74,7 @@ def stable_ranges(profile, medium, share):
     if threshold.ndim == 0:
         return depth * ranges[0]
     if any(len(low) > 1 for low, _ in ranges):
-        raise ValueError(
+        raise check.MDRError(
             "with adhesion, the rim of the contact jumps between several ranges of radii, which is "
             "computed for one medium at a time: take medium.entries(i)"
         )
@@ -86,7 +86,7 @@ def single_range(profile, medium, share):
     """Start D (m) of the stable range, if there is only one."""
     low, _ = stable_ranges(profile, medium, share)
     if len(low) > 1:
-        raise ValueError(
+        raise check.MDRError(
             "with adhesion, the rim of this contact jumps between several ranges of radii, which only "
             "indent computes, along one path of depths; under a Sampled profile it jumps from facet to "
             "facet: take Smooth with the slope of a smooth curve through the samples"
@@ -124,7 +124,7 @@ def _ranges(profile, threshold):
     if stable[0]:
         low = np.append(0.0, low)
     if not low.size:
-        raise ValueError(
+        raise check.MDRError(
             "work_of_adhesion is too large for this profile: the rim of the contact would be outside the "
             f"radius up to which the profile is known, {x[-1]:g} m; give the profile to a larger radius"
         )

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
+from ...base.errors import MDRError
 from ..numerics.gauss import gauss_legendre
 from ..numerics.roots import increasing_root
 from .integrals import integrals
@@ -266,7 +267,7 @@ def _integrate(rates, span, start, places, event, precision):
             )  # fmt: skip
         if solution.status >= 0:
             return solution
-    raise ValueError(
+    raise MDRError(
         f"creep is not solved: {solution.message} (SciPy); check that times are in s and forces in N"
     )
 

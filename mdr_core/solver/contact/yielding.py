@@ -414,7 +414,7 @@ def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
     if medium.has_own_law:
         return lazy.cap.OwnCap.of(profile, medium)
     if np.any(medium.hardness) and not integrals(profile).convex:
-        raise ValueError(
+        raise check.MDRError(
             "a hardness above 0 is not computed under a shape that is not convex: where g(x)/x falls, a "
             "contact that has yielded becomes elastic again; set hardness = 0, or take a convex shape"
         )

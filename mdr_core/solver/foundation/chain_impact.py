@@ -88,12 +88,14 @@ def chain_impact(
     check_pair(profile, medium, "an impact on the chain")
     structure = structure_of(structure)
     if structure.shape:
-        raise ValueError(
+        raise check.MDRError(
             "an impact on the chain needs a single structure, but its parameters are arrays of shape "
             f"{structure.shape}; take one at a time, as in structure.entries(i)"
         )
     if structure.modes is not None:
-        raise ValueError("an impact on the chain is not computed with modes of a structure; take impact(…)")
+        raise check.MDRError(
+            "an impact on the chain is not computed with modes of a structure; take impact(…)"
+        )
     refuse_adhesion(medium, "an impact on the chain")
     mass = check.positive_number("mass", mass, unit="kg")
     speed = check.positive_number("speed", speed, unit="m/s")
@@ -149,7 +151,7 @@ def _history(profile, medium, start):
     if not isinstance(start, Foundation):
         raise TypeError(f"start must be a Foundation, as made by advance, got {type(start).__name__}")
     if start.profile != profile or start.medium != medium:
-        raise ValueError(
+        raise check.MDRError(
             f"start is a foundation under {start.profile!r} on {start.medium!r}, which differ from the "
             "profile and medium of this impact; give the same"
         )

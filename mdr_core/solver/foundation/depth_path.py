@@ -34,7 +34,7 @@ def check_times(time, path, quantity):
     """`time` as an array, if it increases and has the shape of the one-dimensional path of a quantity."""
     time = check.finite_array("time", time, unit="s")
     if path.ndim != 1 or not path.size or time.shape != path.shape:
-        raise ValueError(
+        raise check.MDRError(
             f"time of shape {time.shape} and {quantity} of shape {path.shape} must be one-dimensional and "
             f"of the same shape; give one time for each {quantity}"
         )

@@ -33,7 +33,7 @@ def check_creep(profile, medium, force, time, tolerance):
     refuse_adhesion(medium, "a path in time")
     refuse_own_law(medium, "creep()", "use indent_in_time(), which takes depths over time")
     if medium.f_c > 0:
-        raise ValueError(
+        raise check.MDRError(
             "creep() does not support f_c above 0: the force may fall while the depth grows, and the "
             "indenter jumps; use indent_in_time(), which takes depths over time, or set f_c = 0"
         )

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...base.errors import MDRError
 from ...base.motions import Motion
 from ..numerics.roots import root_in_bracket
 from . import element
@@ -42,7 +43,7 @@ def impact_depth_bound(profile, medium, mass, speed, history):
         depth_bound(profile, medium, "momentum", momentum, start),
     )
     if bound > _MAX_DEPTH_RATIO * elastic_limit(profile, medium, bound):
-        raise ValueError(
+        raise MDRError(
             f"speed = {speed:g} m/s presses to {bound:g} m, over {_MAX_DEPTH_RATIO:g} critical depths, "
             "where the live depth is lost in rounding; reduce the speed, or use impact"
         )
@@ -186,9 +187,7 @@ class ImpactSolver:
                 return
         why = f": the relaxation time tau = {self.tau:g} s is far from the contact time" * (self.tau > 0)
         instead = "set eta = 0" if self.tau > 0 else "take impact, or a larger tolerance"
-        raise ValueError(
-            f"the impact needs more than {_MAX_STEPS} steps{why}; check the units, or {instead}"
-        )
+        raise MDRError(f"the impact needs more than {_MAX_STEPS} steps{why}; check the units, or {instead}")
 
     def _trial(self, rate, dt, velocity):
         """Step at a constant rate (m/s) that ends with a velocity, and its impulse (N·s)."""

@@ -15,7 +15,7 @@ def cell_edges(profile, count, half_width, nodes=()):
     fixed = _fixed_edges(profile, half_width, nodes)
     share = np.diff(fixed) / half_width
     if len(share) > count:
-        raise ValueError(
+        raise check.MDRError(
             f"n = {2 * count} elements are too few for the {len(share)} intervals between the axis, the "
             f"kinks of the profile and the nodes on each side; give at least n = {2 * len(share)}"
         )

@@ -25,13 +25,13 @@ def element_count(n):
     """Number of elements n as an int, if it is even and positive."""
     count = check.positive_number("n", n)
     if count % 2 or count > _MAX_ELEMENTS:
-        raise ValueError(
+        raise check.MDRError(
             f"n = {count:g} must be an even whole number up to {_MAX_ELEMENTS:g}, half of it on either side"
         )
     return int(count)
 
 
-class NarrowRow(ValueError):
+class NarrowRow(check.MDRError):
     """The error of a contact that is wider than its row of elements."""
 
 
@@ -77,7 +77,7 @@ class Row:
         known = profile.known_radius
         half_width = check.positive_number("half_width", half_width, unit="m")
         if half_width > known:
-            raise ValueError(
+            raise check.MDRError(
                 f"half_width = {half_width:g} m exceeds the known radius of the profile, {known:g} m; "
                 "give at most that"
             )

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...base.errors import MDRError
 from ...base.motions import Hit
 from ..contact.integrals import integrals, tabulated_for
 from ..contact.live_interval import LiveInterval
@@ -164,7 +165,7 @@ class ModalMotion:
             return 0.0
         e = float(self.v[0] / self.speed)
         if e < -1e-9 and self.system.free_mass.size == 1:
-            raise ValueError(f"the body would leave through the structure, e = {e:.3g}; {_CHECK}")
+            raise MDRError(f"the body would leave through the structure, e = {e:.3g}; {_CHECK}")
         return e
 
     @property
@@ -218,7 +219,7 @@ class ModalMotion:
         for _ in range(_STEPS):
             trial = self._trial(h)
             if self.max_depth >= self.snap_depth:
-                raise ValueError(
+                raise MDRError(
                     "after the onset of yield the force falls with depth by more than 1/r, the stiffness "
                     "of the modes that are not given: the contact snaps, and what it loses is not "
                     "computed; give more modes, less speed, or a hardness without f_c"
@@ -254,7 +255,7 @@ class ModalMotion:
             else:
                 self.law.yields = True
         else:
-            raise ValueError(f"a contact on the structure has not ended in {_STEPS} steps; {_CHECK}")
+            raise MDRError(f"a contact on the structure has not ended in {_STEPS} steps; {_CHECK}")
         impulse, largest = np.transpose(done)
         self.force = 0.0
         self.hits.append(Hit(start, self.time, float(largest.max()), float(impulse.sum())))
@@ -262,7 +263,7 @@ class ModalMotion:
     def _halved(self, h, times=1):
         """A duration (s) that is too long, halved so many times and once at least."""
         if h < _SHORTEST * self.unit:
-            raise ValueError(f"the contact on the structure is not solved by steps of {h:.3g} s; {_CHECK}")
+            raise MDRError(f"the contact on the structure is not solved by steps of {h:.3g} s; {_CHECK}")
         return h / 2 ** max(times, 1)
 
     def _event(self, y):
@@ -310,7 +311,7 @@ class ModalMotion:
         """Free motion to the next contact; whether there is one."""
         s, swing = self.system, self.z / self.system.root.imag
         if len(self.hits) >= _CONTACTS:
-            raise ValueError(f"the body has hit the structure {_CONTACTS} times; {_CHECK}")
+            raise MDRError(f"the body has hit the structure {_CONTACTS} times; {_CHECK}")
         drift, way = -np.sum(self.v), -np.sum(self.x) - self.law.plastic_depth
 
         def gap(t):

@@ -12,6 +12,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from ...base.errors import MDRError
 from ...base.results import Entries
 from ..contact.quadrature import kink_above
 from ..numerics.stable import cube_way
@@ -88,12 +89,15 @@ class Solution:
         return largest
 
 
-class Unsolved(ValueError):
+class ConvergenceError(MDRError):
     """The error of impacts, at `rows`, whose motion has not ended after as many steps as are tried."""
 
     def __init__(self, rows):
-        super().__init__(f"a motion is not solved: it has not ended after {_MOST_STEPS} steps")
+        super().__init__(rows)
         self.rows = rows
+
+    def __str__(self):
+        return f"a motion is not solved: it has not ended after {_MOST_STEPS} steps"
 
 
 def solve(bodies, tolerance=1e-5, equations=ON_MEDIUM, to_rest=False):
@@ -234,7 +238,7 @@ class _Leg(Entries):
                 ended.append(after[at_end])
                 turned.append(outcome[at_end] == _Outcome.TURNED)
             impacts = _joined(going)
-        raise Unsolved(impacts.row)
+        raise ConvergenceError(impacts.row)
 
     def _variable(self, impacts):
         """Which impacts take their next step in depth, shape (N,), and their decelerations (m/s²)."""

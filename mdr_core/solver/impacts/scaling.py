@@ -135,7 +135,7 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
     x, y = np.log(energy.ravel()), np.log(radius.ravel())
     if energy.shape != radius.shape or np.all(x == x[:1]):
         bound = "must be of the same shape, with at least two different energies"
-        raise ValueError(f"energy {energy.shape} and radius {radius.shape} {bound}")
+        raise check.MDRError(f"energy {energy.shape} and radius {radius.shape} {bound}")
     laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
     expected = {name: (law.radius, MAX_ERROR * law.radius) for name, law in laws.items()}
     return HardnessClass(laws=laws, **class_of(expected, x, y, "energies"))
@@ -215,7 +215,7 @@ def fast_limit(hit):
     """The `FastLimit` of an `Impact`."""
     profile, medium = hit.profile, hit.medium
     if not hit.structure.rigid:
-        raise ValueError(
+        raise check.MDRError(
             "the fast limit is not for impacts on a structure, which takes up a part of the energy; leave "
             "the structure out"
         )

@@ -15,7 +15,7 @@ from ..medium.structure import RIGID
 from ..numerics.blocks import chunks
 from .energy_balance import dry_impact, largest_force
 from .equation_of_motion import ON_MEDIUM, ON_STRUCTURE, Bodies
-from .motion_solver import Unsolved, solve
+from .motion_solver import ConvergenceError, solve
 from .result import Impact
 
 #: Errors of steps. On a plate a depth may have a small share in the work: ten thousand critical depths deep
@@ -78,7 +78,7 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID,
             rows = numbers[block]
             try:
                 penetrations[rows], columns[:, rows] = _solved(bodies[rows], equations)
-            except Unsolved as error:
+            except ConvergenceError as error:
                 # A shape or a law that is at fault is known at the depths without losses, which are larger.
                 check_reached(profile, medium, interval.upper)
                 first = np.unravel_index(int(rows[error.rows][0]), mass.shape)

@@ -211,7 +211,7 @@ def refuse_beside_adhesion(medium):
     if not np.any(sticks):
         return
     if isinstance(medium.hardness, HardnessLaw):
-        raise ValueError(
+        raise check.MDRError(
             "adhesion is modelled for the hardness q_c/a only, not for the law "
             f"{shown(medium.hardness)}; set the work of adhesion work_of_adhesion to 0, or give q_c"
         )

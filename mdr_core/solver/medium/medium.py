@@ -21,13 +21,13 @@ def refuse_other_classes(medium, what, instead):
     """Refuses a medium of another hardness than q_c/a for a quantity `what` of class (b)."""
     if not medium.inverse_to_radius:
         law = f", not the law {shown(medium.hardness)}" if medium.has_own_law else ""
-        raise ValueError(f"{what} supports only the hardness q_c/a, class (b){law}; {instead}")
+        raise check.MDRError(f"{what} supports only the hardness q_c/a, class (b){law}; {instead}")
 
 
 def refuse_transversely_isotropic(medium, what):
     """Refuses a medium without a Poisson ratio for something, `what`, that needs more than E*."""
     if medium.poisson is None:
-        raise ValueError(
+        raise check.MDRError(
             f"{what} needs more elastic constants than E*: it is not computed for a transversely isotropic "
             "medium (poisson = None). As an estimate take an isotropic one, Medium(E_star, poisson=0.3)"
         )
@@ -182,7 +182,9 @@ class Medium(check.Parameters):
         100.0
         """
         if "q_c" in other or "f_c" in other:
-            raise ValueError("q_c or f_c and hardness both determine where yield starts; give one of them")
+            raise check.MDRError(
+                "q_c or f_c and hardness both determine where yield starts; give one of them"
+            )
         hardness = check.positive("hardness", hardness, unit="Pa")
         radius = check.positive("radius of the hardness", radius, unit="m")
         check.common_shape("medium", hardness=hardness, radius=radius)
@@ -217,7 +219,7 @@ class Medium(check.Parameters):
         1.273239545 2.0
         """
         if {"q_c", "hardness", "f_c"} & other.keys():
-            raise ValueError(
+            raise check.MDRError(
                 "q_c, hardness or f_c and critical_depth both determine where yield starts; give one"
             )
         E_star = check.positive("effective modulus E_star", E_star, unit="Pa")
@@ -271,7 +273,7 @@ class Medium(check.Parameters):
             ratio = _poisson(f"Poisson ratio nu{i}", ratio)
             compliance = compliance + (1 - ratio) * (1 + ratio) / modulus
         if np.any(compliance == 0):
-            raise ValueError("E1 and E2 are both infinite; at least one body must be elastic")
+            raise check.MDRError("E1 and E2 are both infinite; at least one body must be elastic")
         other = {"q_c": q_c, "hardness": hardness, "f_c": f_c, "work_of_adhesion": work_of_adhesion}
         return cls(1 / compliance, eta=eta, poisson=nu1, **other)
 

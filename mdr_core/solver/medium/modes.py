@@ -47,7 +47,9 @@ class Modes:
         check.refuse("damping ratio", damping, damping >= 1, "must be below 1")
         shape = check.common_shape("modes", frequency=frequency, mass=mass, damping=damping)
         if len(shape) != 1 or not shape[0]:
-            raise ValueError(f"modes have shape {shape}: give one number, or a list of them, for each mode")
+            raise check.MDRError(
+                f"modes have shape {shape}: give one number, or a list of them, for each mode"
+            )
         values = {"frequency": frequency, "mass": mass, "damping": damping}
         each = {name: tuple(np.broadcast_to(value, shape).tolist()) for name, value in values.items()}
         check.store(self, **each)

@@ -126,7 +126,7 @@ class Structure(check.Parameters):
         if not isinstance(self.modes, Modes):
             raise TypeError(f"modes must be made by Structure.modal, got {check.shown(self.modes)}")
         if shape:
-            raise ValueError(
+            raise check.MDRError(
                 f"a structure with modes is one: its parameters have shape {shape}; give numbers"
             )
         impedance = np.asarray(self.impedance)
@@ -360,9 +360,11 @@ class Structure(check.Parameters):
         mass = check.positive_number("mass_per_area", mass_per_area, unit="kg/m²")
         D11, D12, D22, D66 = _of_laminate(D11, D12, D22, D66)
         if np.shape(D12):
-            raise ValueError("a structure with modes is one: give numbers for its bending stiffnesses")
+            raise check.MDRError("a structure with modes is one: give numbers for its bending stiffnesses")
         if np.shape(at) != (2,):
-            raise ValueError(f"at must be two shares of the sides, as (0.5, 0.5), got {check.shown(at)}")
+            raise check.MDRError(
+                f"at must be two shares of the sides, as (0.5, 0.5), got {check.shown(at)}"
+            )
         at = [_inside("at", share) for share in at]
         stiffness = float(D11), float(D12 + 2 * D66), float(D22)
         frequency, modal = modes_of_plate(np.array(sides), stiffness, mass, at, _count(modes))
@@ -506,7 +508,7 @@ def _inside(name, share):
 def _count(modes):
     """A number of modes."""
     if isinstance(modes, bool) or not isinstance(modes, int | np.integer) or not 1 <= modes <= 10_000:
-        raise ValueError(f"modes = {check.shown(modes)} must be a whole number from 1 to 10,000")
+        raise check.MDRError(f"modes = {check.shown(modes)} must be a whole number from 1 to 10,000")
     return int(modes)
 
 

@@ -90,7 +90,7 @@ def _slope_integral(slope, x, factor):
         values = np.broadcast_to(check.numbers_of("slope dz/dr", slope, radius, _refused), radius.shape)
         bad = ~np.isfinite(values)
         if bad.any():
-            raise ValueError(
+            raise check.MDRError(
                 f"slope dz/dr is {values[bad][0]:g} at {radius[bad][0]:g} m and must be finite up to "
                 f"{x.max():g} m; stay below, or give a function that is finite there"
             )
@@ -99,7 +99,7 @@ def _slope_integral(slope, x, factor):
         if previous is not None and np.all(np.abs(integral - previous) <= _MAX_DIFFERENCE * size):
             return integral
         previous = integral
-    raise ValueError(
+    raise check.MDRError(
         f"slope dz/dr is too rough: {node.size} nodes do not converge up to {x.max():g} m; give a profile "
         "with kinks as samples (Sampled), or smooth it"
     )
@@ -234,7 +234,9 @@ def _samples(x, q):
     x = check.finite_array("coordinate", x, unit="m")
     q = check.finite_array("line load q", q, unit="N/m", most=check.LARGEST)
     if x.ndim != 1 or x.shape != q.shape or not x.size:
-        raise ValueError(f"line load q of shape {q.shape} needs as many coordinates, got shape {x.shape}")
+        raise check.MDRError(
+            f"line load q of shape {q.shape} needs as many coordinates, got shape {x.shape}"
+        )
     check.refuse("coordinate", x, x < 0, "is negative", unit="m", advice="give x ≥ 0; the load is even")
     back = np.append(False, np.diff(_lengths("coordinate", x)) < 0)
     check.refuse("coordinate", x, back, "comes after a larger one", unit="m", advice="sort the samples")

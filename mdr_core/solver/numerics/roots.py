@@ -83,7 +83,7 @@ def increasing_root(function, target, start, highest=np.inf, *, largest=check.LA
             return np.where(reachable, np.where(target > 0, best, 0.0), np.inf)
         # Beyond the largest length an entry waits for the others.
         x = np.where(sought & reachable, new, x)
-    raise ValueError(f"no {quantity} was found in 200 steps; check that all quantities are in SI units")
+    raise check.MDRError(f"no {quantity} was found in 200 steps; check that all quantities are in SI units")
 
 
 def change_between(answer, low, high, at_low):

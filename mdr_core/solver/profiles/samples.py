@@ -80,7 +80,7 @@ def _nearest_convex(r, z):
     _, _, *bends = scipy.optimize.nnls(columns, (z - z.mean()) / size)[0]
     bends = np.array(bends) * size / radii[-1]
     if not np.any(bends > 0):
-        raise ValueError(
+        raise check.MDRError(
             "the height z does not increase with the radius r: change the sign of z, or take FlatPunch"
         )
     used = (bends > 0) | (kinks == 0)
@@ -104,7 +104,7 @@ def _refuse_misfit(r, residual, height):
     if miss > _MISFIT * noise or (residual.size >= _ENOUGH_FOR_WAVES and _correlation(residual) > _WAVY):
         miss = _in_words(miss)
         worst = _in_words(r[order][np.argmax(np.abs(residual))])
-        raise ValueError(
+        raise check.MDRError(
             f"the nearest convex profile misses the samples by {miss} (rms, most at r = {worst}), more "
             "than noise: the tip is wavy or concave, so that the contact would not be compact; smooth "
             "the samples, or leave out those outside the convex part"
@@ -127,12 +127,12 @@ def area_samples(coefficients, height, samples, limit, unit):
     samples = check.positive_number("samples", samples)
     size = length_unit(unit)
     if size < 1.0 and height > _HIGHEST * size:
-        raise ValueError(
+        raise check.MDRError(
             f"height = {height:g} m is {height / size:.3g} {unit}, and must be at most {_HIGHEST:g} "
             f"{unit}: give the height in m, as in {1000 * size:g}"
         )
     if not 2 <= samples <= limit or samples % 1:
-        raise ValueError(f"samples = {samples:g} must be a whole number from 2 to {limit}")
+        raise check.MDRError(f"samples = {samples:g} must be a whole number from 2 to {limit}")
     h = height * np.geomspace(1e-4, 1.0, int(samples) - 1)
     powers = 2.0 / 2.0 ** np.arange(coefficients.size)
     area = size**2 * ((h[:, None] / size) ** powers @ coefficients)
@@ -144,7 +144,7 @@ def area_samples(coefficients, height, samples, limit, unit):
     h, radius = h[first:], np.sqrt(area[first:] / np.pi)
     wide = radius[-1] / height
     if not 1 / _WIDEST < wide < _WIDEST:
-        raise ValueError(
+        raise check.MDRError(
             f"area coefficients: at height = {height:g} m the radius is {radius[-1]:.3g} m, {wide:.2g} "
             f"times the height, which must be between {1 / _WIDEST:g} and {_WIDEST:g}: check the unit of "
             f"the coefficients, {unit}"

@@ -50,7 +50,7 @@ class Smooth(Profile):
     def __post_init__(self):
         if not callable(self.slope_function):
             given = check.shown(self.slope_function)
-            raise ValueError(f"Smooth slope_function must be a function of the radius, got {given}")
+            raise check.MDRError(f"Smooth slope_function must be a function of the radius, got {given}")
         if not isinstance(self.slope_function, Hashable):
             # As those of NumPy's polynomials, whose methods are hashable.
             check.store(self, slope_function=self.slope_function.__call__)
@@ -100,7 +100,7 @@ class Smooth(Profile):
         if not panels:
             advice = "a fractional power of r belongs to PowerLaw, kinks to Sampled"
             bad = "is not finite, not smooth or not positive next to the axis"
-            raise ValueError(f"Smooth slope_function {bad}; {advice}")
+            raise check.MDRError(f"Smooth slope_function {bad}; {advice}")
         return scipy.interpolate.PPoly(np.transpose(panels), np.array(edges))
 
     def _panel(self, low, high):

@@ -196,7 +196,7 @@ def test_from_a_depth_nothing_is_subtracted(write):
     """A stiffness that nothing uses is refused: a second subtraction made 46 kPa of 15."""
     path = write(table("Indentation (nm)", "Force (nN)", columns=(NM, 1e9 * SMALL)))
     assert_curve(mdr.read_curve(path), DEPTH, SMALL)
-    with pytest.raises(ValueError, match="spring_constant is given, and nothing uses it"):
+    with pytest.raises(ValueError, match="nothing uses the spring constant"):
         mdr.read_curve(path, spring_constant=STIFFNESS)
     with pytest.raises(ValueError, match=r'give "depth", or "piezo" .* not both'):
         mdr.read_curve(path, columns={"depth": (0, "nm"), "piezo": (0, "nm"), "force": (1, "nN")})
@@ -209,11 +209,11 @@ def test_a_stiffness_in_the_header_gives_way_to_the_one_that_is_given(write):
         columns = {"piezo": (0, "nm"), "force": (1, "nN")}
         curve = mdr.read_curve(path, columns=columns)
         assert_curve(curve, DEPTH, SMALL)
-        assert curve.remarks == ("spring_constant = 0.05 N/m is taken from the file",)
+        assert curve.remarks == ("the spring constant of the cantilever, 0.05 N/m, is taken from the file",)
         other = mdr.read_curve(path, columns=columns, spring_constant=0.1)
         np.testing.assert_allclose(other.depth, PIEZO - SMALL / 0.1, atol=1e-14)
         assert other.remarks == (
-            "spring_constant = 0.1 is taken as it is given; the file has spring_constant = 0.05 N/m",
+            "the spring constant of the cantilever, 0.1 N/m, is taken as given; the file has 0.05 N/m",
         )
 
 

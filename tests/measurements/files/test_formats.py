@@ -43,7 +43,7 @@ def test_text_of_jpk_has_its_own_constants(write, unit, size):
     assert curve.segment.tolist() == 56 * ["approach"] + 19 * ["retract"]
     assert curve.columns["piezo"] == (0, "−m")
     assert curve.source == "as JPK's text has them"
-    assert "spring_constant = 0.05 N/m is taken from the file" in curve.remarks
+    assert "the spring constant of the cantilever, 0.05 N/m, is taken from the file" in curve.remarks
     np.testing.assert_allclose(curve.time, TIME)
 
 

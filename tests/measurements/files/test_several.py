@@ -118,8 +118,8 @@ def test_a_mark_where_the_depth_is_at_its_beginning_again_is_asked_about(asked, 
         ("no such", "must be the number or the name"),
         ("Load (mN)", "gives curves of fewer than 5 rows: 'Load \\(mN\\)' has"),
         (3, "separates nothing: 'c' has one"),
-        ("gaps", "separates nothing: there are no gaps"),
-        ("segments", "finds no parts"), ([], "must name columns"),
+        ("gaps", "no gaps"),
+        ("segments", "parts of a curve"), ([], "must name columns"),
     ],
 )  # fmt: skip
 def test_what_parts_nothing_is_refused(write, by, says):

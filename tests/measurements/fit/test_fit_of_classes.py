@@ -157,8 +157,8 @@ class TestConstants:
             ({"q_c": np.inf, "hardness": None}, "nothing yields, which contradicts a hardness"),
             ({"hardness": np.inf}, "hardness.*finite"),
             ({"f_c": -1.0}, "f_c"),
-            ({"hardness": None, "eta": None, "time": OUT}, "eta is not fitted together with hardness"),
-            ({"f_c": None, "work_of_adhesion": 0.1}, "work_of_adhesion is not fitted together"),
+            ({"hardness": None, "eta": None, "time": OUT}, "η is fitted .* hold eta = 0"),
+            ({"f_c": None, "work_of_adhesion": 0.1}, "w is fitted .* hold work_of_adhesion = 0"),
         ],
     )
     def test_refusals(self, given, message):
