@@ -7,49 +7,30 @@ from .errors import MDRError
 
 #: Kinds of a `Remark`, the most important first, and what each says.
 KINDS = {
-    "invalid": "a curve of a map is not fitted, and why",
-    "refused": "what is given cannot be read or fitted",
+    "invalid": "what is given cannot be read, fitted or evaluated",
     "deflection": "the depth includes the deflection of the cantilever, whose stiffness is not known",
     "units": "numbers that no material or tip has: a unit, a sign, or columns that are exchanged",
     "order": "samples are not in the order in which they were measured",
     "no contact": "the record shows no contact",
     "no unloading": "there is no unloading that can be evaluated",
-    "adhesion": "an adhesion that is left out, or that the forces hardly determine",
-    "bound": "a parameter is at the bound of its range",
-    "second minimum": "other values of the parameters fit about as well",
-    "undetermined": "the data do not determine a parameter: the residuals have no minimum",
+    "adhesion": "an adhesion that is left out, is hardly determined, or ends at another depth",
+    "undetermined": "the data do not determine a parameter: it is at a bound, or others fit as well",
     "tilt": "a slope of the baseline that is left out",
     "drag": "a drag of a liquid that is left out",
     "drift": "a drift of the depth, or a relaxation of the medium",
     "misfit": "the model does not fit: another class of hardness, medium or tip",
-    "jitter": "noise of the depth that is taken for new largest depths",
+    "noise": "noise of the depth that counts as loading, or residuals above the given noise",
     "unloading": "another force on unloading: creep or hysteresis",
     "outliers": "single samples far from their neighbours",
-    "blocks": "residuals that are correlated over a large part of the curve",
-    "few": "too few samples for standard errors",
-    "loading": "loading alone hardly determines the modulus",
     "vague": "the modulus has a large error",
-    "contact": "contact is lost at another depth than in the model",
-    "constants": "the data do not distinguish the constants of the hardness",
-    "elastic": "no yield is seen beyond the noise",
-    "noisy": "residuals are larger than the noise that was given",
-    "rest": "a change of the depth while the force is held, by creep or a drift",
-    "inviscid": "the viscosity is 0 within the noise",
-    "medium": "the unloading of a medium that is viscous or adhesive is not evaluated",
-    "held": "the modulus is held, and not a result",
-    "creep": "the depth creeps at the start of the unloading",
-    "missing": "samples without a number, contact or stiffness",
-    "sign": "a sign is reversed",
-    "cantilever": "from where a constant of the cantilever is taken",
-    "time": "times that do not ascend, or are not plainly the times of the curve, are left out",
-    "left out": "columns, tables, unloadings or measurements that are left out",
-    "several": "which one of several curves or unloadings was taken",
-    "corrected": "what is subtracted from the depth",
+    "constant": "a constant of the medium may as well be 0: no yield, no viscosity, one class of hardness",
+    "creep": "the depth creeps while the force is held, or at the start of the unloading",
+    "errors": "standard errors are uncertain: few samples, or residuals that are correlated",
     "zero": "the depth is 0 where the force is not",
-    "first contact": "from where depth and force of an unloading count",
-    "hold": "the hold of the force before the unloading, which shows its creep",
-    "area": "where a tip is another one than that of its area function",
     "tip": "an ideal tip at depths at which real ones are blunt",
+    "changed": "what was changed: a reversed sign, a corrected depth, a tip",
+    "taken": "what was taken: one of several curves or unloadings, first contact, a hold, a constant",
+    "left out": "samples, columns, tables, unloadings or quantities that are left out",
 }
 #: What a `Remedy` does: fit a parameter, hold one, give what is missing, look at a unit, take a part of the
 #: curve, choose another class of hardness.
@@ -184,11 +165,11 @@ class Remark(str):
 class MeasurementError(MDRError):
     """The error of a measurement that cannot be read, fitted or evaluated.
 
-    The message is a `Remark`: that is given, or one of kind "refused" with a text and remedies.
+    The message is a `Remark`, which is given, or made of a text and remedies.
     """
 
     def __init__(self, text: str, *remedy: Remedy):
-        remark = text if isinstance(text, Remark) else Remark(text, "refused", *remedy)
+        remark = text if isinstance(text, Remark) else Remark(text, "invalid", *remedy)
         super().__init__(remark)
         self.kind, self.remedy = remark.kind, remark.remedy
 

@@ -207,7 +207,7 @@ class MeasuredCurve(Record):
         return self.time
 
     def _minus(self, depth, text):
-        remarks = (*self.remarks, Remark(f"depth: {text} is subtracted", "corrected"))
+        remarks = (*self.remarks, Remark(f"depth: {text} is subtracted", "changed"))
         return replace(self, depth=frozen(self.depth - depth), remarks=remarks)
 
 

@@ -67,7 +67,7 @@ def read_curve(path: str | PathLike[str], index: int | None = None, **given: Any
     curve = curves[index]
     if len(curves) == 1:
         return curve
-    other = Remark(f"curve {index} of {len(curves)}, counted from 0", "several", Remedy("give", "index"))
+    other = Remark(f"curve {index} of {len(curves)}, counted from 0", "taken", Remedy("give", "index"))
     return replace(curve, remarks=(other, *curve.remarks))
 
 

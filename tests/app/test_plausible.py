@@ -310,7 +310,7 @@ def test_a_noise_of_the_depth_is_given_by_a_button():
     offers = buttons(page.results.remarks) | buttons(page.results.below)
     press(offers["Give the noise of the depth"])
     assert page.found.fit.depth_noise == approx(5e-9, rel=0.3)
-    assert "jitter" not in {each.kind for each in page.results.all_remarks()}
+    assert "noise" not in {each.kind for each in page.results.all_remarks()}
 
 
 def test_remarks_are_kinds_texts_and_remedies_in_the_file():

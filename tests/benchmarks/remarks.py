@@ -26,14 +26,14 @@ GEL, GLASS, METAL = families.KINDS.values()
 NAMES = {
     "tilt": {"tilt", "misfit"},
     "retract": {"unloading", "misfit"},
-    "drift": {"drift", "unloading", "rest", "misfit"},
-    "creep": {"drift", "unloading", "misfit", "rest"},
-    "correlated noise": {"blocks"},
+    "drift": {"drift", "unloading", "creep", "misfit"},
+    "creep": {"drift", "unloading", "misfit", "creep"},
+    "correlated noise": {"errors"},
     "outliers": {"outliers"},
-    "few samples": {"few", "undetermined", "second minimum", "vague"},
+    "few samples": {"errors", "undetermined", "vague"},
 }
 #: Kinds of refusals and of what is not quoted, which no result has among its remarks.
-OF_REFUSALS = {"refused", "no unloading", "medium", "held"}
+OF_REFUSALS = {"invalid", "no unloading", "undetermined"}
 #: Remarks on correlated residuals are right where these are not noise.
 CORRELATED = {"tilt", "retract", "drift", "creep", "correlated noise"}
 
@@ -52,7 +52,7 @@ def of_families(seeds):
                 for i in range(seeds):
                     made = kinds(fit[i])
                     right = made & NAMES.get(family, set())
-                    right |= made & {"blocks"} if family in CORRELATED else set()
+                    right |= made & {"errors"} if family in CORRELATED else set()
                     yield made, right if covered[i] else made
 
 
@@ -66,37 +66,37 @@ def of_a_kind(medium, seed):
         return mdr.fit_indentation(medium.tip, z, F, **given | options)
 
     yield fit(), set()
-    yield fit(F=np.where(np.arange(count) % 50, force, np.nan)), {"missing"}
-    yield fit(force_noise=0.3 * families.NOISE * top), {"noisy"}
+    yield fit(F=np.where(np.arange(count) % 50, force, np.nan)), {"left out"}
+    yield fit(force_noise=0.3 * families.NOISE * top), {"noise"}
     yield fit(z=depth * 1e9, F=force * 1e9), {"units"}
-    yield fit(z=-depth), {"units", "few", "undetermined"}
+    yield fit(z=-depth), {"units", "errors", "undetermined"}
     # Of noise alone nothing is determined, and no yield is seen in it.
-    of_noise = {"no contact", "undetermined", "vague", "few", "second minimum", "elastic"}
+    of_noise = {"no contact", "undetermined", "vague", "errors", "constant"}
     yield fit(F=families.NOISE * top * random.normal(size=count)), of_noise
     if elastic:
-        yield fit(q_c=None), {"elastic"}
-        yield fit(time=time, eta=None), {"inviscid"}
+        yield fit(q_c=None), {"constant"}
+        yield fit(time=time, eta=None), {"constant"}
         drag = 0.05 * top * np.gradient(depth, time) / np.abs(np.gradient(depth, time)).max()
         yield fit(F=force + drag, time=time), {"drag", "unloading"}
         sticky = mdr.Medium(1e4, work_of_adhesion=1e-4)
         pulled = mdr.indent(medium.tip, sticky, depth - 1e-7).force
         pulled = pulled + 4e-3 * top * random.normal(size=count)
-        yield fit(F=pulled, work_of_adhesion=None), {"contact"}
+        yield fit(F=pulled, work_of_adhesion=None), {"adhesion"}
         yield fit(F=pulled), {"adhesion"}
-        yield fit(work_of_adhesion=None), {"adhesion", "contact"}
+        yield fit(work_of_adhesion=None), {"adhesion"}
     else:
         shuffled = random.permutation(count)
         for order in (shuffled, slice(None, None, -1)):
             yield fit(z=depth[order], F=force[order]), {"order"}
         noisy = depth + 0.01 * np.ptp(depth) * random.normal(size=count)
-        yield fit(z=noisy), {"jitter"}
-        yield fit(z=depth[: count // 2], F=force[: count // 2]), {"loading", "undetermined"}
-        yield fit(hardness=None, q_c=None), {"constants"}
+        yield fit(z=noisy), {"noise"}
+        yield fit(z=depth[: count // 2], F=force[: count // 2]), {"vague", "undetermined"}
+        yield fit(hardness=None, q_c=None), {"constant"}
         moments = np.linspace(0.0, 140.0, count)
         pressed = 1e-9 * np.interp(moments, [0, 5, 85, 105, 140], [-20, 0, 600, 600, 400])
         holding = mdr.indent(medium.tip, medium.medium, pressed).force
         holding = holding + 4e-3 * top * random.normal(size=count)
-        yield fit(z=pressed + 3e-10 * moments, F=holding, time=moments), {"rest", "drift"}
+        yield fit(z=pressed + 3e-10 * moments, F=holding, time=moments), {"creep", "drift"}
         other = {"q_c": None, "hardness": 0.0} if medium is GLASS else {"q_c": 0.0, "hardness": None}
         yield fit(**other), {"misfit"}
 
@@ -111,28 +111,28 @@ def of_unloadings(medium, seed):
 
     depth = np.append(np.linspace(0, top, 300), np.linspace(top, 0.3 * top, 200))
     force, time = loaded(depth), np.linspace(0.0, 60.0, 500)
-    yield mdr.oliver_pharr(tip, depth, force), {"first contact"}
+    yield mdr.oliver_pharr(tip, depth, force), {"taken"}
     air = np.append(np.linspace(-0.3 * top, 0, 100, endpoint=False), depth)
-    yield mdr.oliver_pharr(tip, air + 0.3 * top, loaded(air)), {"first contact"}
+    yield mdr.oliver_pharr(tip, air + 0.3 * top, loaded(air)), {"taken"}
     later = int(np.argmax(force > 0.1 * force.max()))
     yield mdr.oliver_pharr(tip, depth[later:] - depth[later], force[later:]), {"zero", "units"}
-    yield mdr.oliver_pharr(tip, depth, force, time=time), {"first contact", "hold"}
-    yield mdr.oliver_pharr(tip, 1e3 * depth, 1e-3 * force), {"first contact", "units"}
+    yield mdr.oliver_pharr(tip, depth, force, time=time), {"taken"}
+    yield mdr.oliver_pharr(tip, 1e3 * depth, 1e-3 * force), {"taken", "units"}
     twice = np.append(0.6 * depth, depth)
-    yield mdr.oliver_pharr(tip, twice, loaded(twice)), {"first contact", "several"}
+    yield mdr.oliver_pharr(tip, twice, loaded(twice)), {"taken"}
     spoiled = loaded(twice)
     spoiled[300:500] = spoiled[299] * np.linspace(1, 0.2, 200) ** 0.2
-    yield mdr.oliver_pharr(tip, twice, spoiled, cycles=True), {"first contact", "left out"}
+    yield mdr.oliver_pharr(tip, twice, spoiled, cycles=True), {"taken", "left out"}
     stiffness = np.array(mdr.indent(tip, medium.medium, depth).stiffness)
     stiffness[::50] = np.nan
-    right = {"first contact", "missing"}
+    right = {"taken", "left out"}
     if medium is GEL:
         yield mdr.oliver_pharr(tip, depth, force, stiffness=stiffness), right
         return
     moments, z, F = record(0.4, "viscous")
     yield mdr.oliver_pharr(tip, z, F), {"creep"}
     moments, z, F = record(0.2, "viscous")
-    yield mdr.oliver_pharr(tip, z, F, time=moments), {"first contact", "hold", "creep"}
+    yield mdr.oliver_pharr(tip, z, F, time=moments), {"taken", "creep"}
     # A new tip and a worn one, as ideal: right where the hardness is off by more than 5 %.
     for radius in (50e-9, 200e-9):
         real = mdr.RoundedCone(tip_radius=radius, slope=tip.slope)
@@ -141,7 +141,7 @@ def of_unloadings(medium, seed):
             for stiffness in (None, state.stiffness):
                 found, true = (mdr.oliver_pharr(each, z, F, stiffness=stiffness) for each in (tip, real))
                 off = np.nanmax(np.divide(found.hardness, true.hardness)) > 1.05
-                yield found, {"first contact", "missing"} | ({"tip"} if off else set())
+                yield found, {"taken", "left out"} | ({"tip"} if off else set())
 
 
 def beside_fits():
@@ -152,7 +152,7 @@ def beside_fits():
     map_of_two = mdr.fit_indentation(mdr.Cone(0.3), [z, z], [F, 0 * F], q_c=np.inf, invalid="nan")
     yield map_of_two, {"invalid"}
     for coefficients in ([24.5, 0.0, 50.0], [24.5, 200.0, -300.0]):
-        yield mdr.Sampled.from_area_function(coefficients, 1e-6, unit="nm"), {"area"}
+        yield mdr.Sampled.from_area_function(coefficients, 1e-6, unit="nm"), {"changed"}
     cone, media = (
         mdr.Cone(0.3),
         (mdr.Medium(10e9, hardness=0.5e9), mdr.Medium(10e9, q_c=20.0, hardness=0.3e9)),
@@ -163,13 +163,13 @@ def beside_fits():
         data = state.mean_pressure, state.contact_radius
         few = tuple(each[:1] for each in data)
         above = np.append(data[0], 2e9), np.append(data[1], 1e-9)
-        yield mdr.fit_hardness(cone, *few, E_star=10e9), {"few"}
+        yield mdr.fit_hardness(cone, *few, E_star=10e9), {"errors"}
         yield mdr.fit_hardness(cone, *above, E_star=10e9, hardness=None), {"left out", "misfit"}
         yield mdr.fit_hardness(cone, *data, E_star=10e9, f_c=None), {"misfit"}
         both = mdr.fit_hardness(
             cone, data[0] * [1, 1.1, 0.9, 1], data[1], E_star=10e9, hardness=None, q_c=None
         )
-        yield both, {"constants"}
+        yield both, {"constant"}
 
 
 def of_files():
@@ -182,13 +182,13 @@ def of_files():
 
     files = (
         (text(rows), {}, set()),
-        (text([*rows[:5], ["", "3", "4"], *rows[5:]]), {}, {"missing"}),
-        (text([["-" + line[0], *line[1:]] for line in rows]), {}, {"sign"}),
-        (text([[*line[:2], "7" if k % 9 else "1"] for k, line in enumerate(rows)]), {}, {"time"}),
+        (text([*rows[:5], ["", "3", "4"], *rows[5:]]), {}, {"left out"}),
+        (text([["-" + line[0], *line[1:]] for line in rows]), {}, {"changed"}),
+        (text([[*line[:2], "7" if k % 9 else "1"] for k, line in enumerate(rows)]), {}, {"left out"}),
         (
             text(rows, "Spring constant: 50 N/m\nDepth (nm);Load (mN);Time (s)"),
             {"columns": {"piezo": (0, "nm"), "force": (1, "mN")}},
-            {"cantilever"},
+            {"taken"},
         ),
     )
     with tempfile.TemporaryDirectory() as folder:
@@ -197,9 +197,9 @@ def of_files():
             path.write_text(content, encoding="utf-8")
             yield mdr.read_curve(path, **given), right
         curve = mdr.read_curve(path, columns={"depth": (0, "nm"), "force": (1, "mN")})
-        yield curve.minus_frame(1e-9), {"corrected"}
+        yield curve.minus_frame(1e-9), {"changed"}
         path.write_text("\n".join(f"Test {k}\n{text(rows)}" for k in (1, 2)), encoding="utf-8")
-        yield mdr.read_curve(path, 1), {"several"}
+        yield mdr.read_curve(path, 1), {"taken"}
     # Files of AFM instruments are read by an optional package.
     if find_spec("afmformats"):
         yield _without_stiffness(), {"deflection"}
@@ -239,7 +239,7 @@ def of_measured():
         for tip in HERTZ.values():
             for segment in ("approach", "retract"):
                 fit = mdr.fit_indentation(tip, *measured(name, segment), q_c=np.inf, baseline=None)
-                right = {"misfit", "vague", "second minimum", "undetermined", "tilt"}
+                right = {"misfit", "vague", "undetermined", "tilt"}
                 yield kinds(fit), right | ({"adhesion"} if segment == "retract" else set())
     for name in AFM[:2]:
         yield kinds(fit_of(name)), {"drag", "misfit", "unloading", "tilt"}
@@ -253,12 +253,12 @@ def of_measured():
         ):
             fit = mdr.fit_indentation(BERKOVICH, *real(name), **options)
             wrong_class = "hardness" not in options or name in ("nial", "steel")
-            right = {"constants", "blocks", "vague"} | ({"misfit", "unloading"} if wrong_class else set())
-            yield kinds(fit), right | ({"jitter"} if name == "steel" else set())
+            right = {"constant", "errors", "vague"} | ({"misfit", "unloading"} if wrong_class else set())
+            yield kinds(fit), right | ({"noise"} if name == "steel" else set())
         depth, force, time = record_of(name)
         for times in (None, time):
             result = mdr.oliver_pharr(BERKOVICH, depth, force, time=times)
-            right = {"first contact", "hold"} | ({"several"} if name == "quartz" else set())
+            right = {"taken"} | ({"taken"} if name == "quartz" else set())
             # The correction of steel is 10 % of E*.
             yield kinds(result), right | ({"tip", "creep"} if name == "steel" else set())
 

@@ -102,7 +102,7 @@ def _refused(errors, path):
         export = export_of(path.suffix.lower())
         cure, remedy = _CURES.get(type(error).__name__, (export, ()))
         text = f"{path.name} cannot be read by afmformats: {error}{cure}"
-        raise MeasurementError(Remark(text, "refused", *remedy, together=True)) from None
+        raise MeasurementError(Remark(text, "invalid", *remedy, together=True)) from None
 
 
 def from_afm(path, given):

@@ -58,11 +58,11 @@ def constants(table, name, layout, given, asked):
         if known.get(each) is None:
             known[each] = own
             if needed[each]:
-                remarks.append(Remark(f"{words}, {text}, is taken from the file", "cantilever"))
+                remarks.append(Remark(f"{words}, {text}, is taken from the file", "taken"))
         elif known[each] != own:
             value = f"{known[each]:.6g} {CONSTANTS[each]}"
             words = f"{words}, {value}, is taken as given; the file has {text}"
-            remarks.append(Remark(words, "cantilever"))
+            remarks.append(Remark(words, "taken"))
     lacking = [each for each in needed if needed[each] and known.get(each) is None]
     if lacking:
         _ask(table, name, layout, lacking, deflection, asked)

@@ -94,7 +94,7 @@ def time_left_out(table, columns):
     if not heads:
         return ()
     text = f"the curve has no time: the header does not say plainly that {' or '.join(heads)} is it"
-    return (Remark(text, "time", Remedy("give", "columns")),)
+    return (Remark(text, "left out", Remedy("give", "columns")),)
 
 
 def ask_for_parts(table, file, columns):

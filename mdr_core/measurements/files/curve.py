@@ -126,7 +126,7 @@ def curve_of(table, name, layout, cantilever, source, *, turn=True, segment=None
         values[key], (column, unit) = -values[key], columns[key]
         columns[key] = column, unit[1:] if unit[0] == "−" else f"−{unit}"
         text = f"the sign of {each} is reversed: {each} is positive in compression"
-        remarks.append(Remark(text, "sign"))
+        remarks.append(Remark(text, "changed"))
     depth = values.pop(place)
     values["depth"] = depth - values["force"] / cantilever.stiffness if place == "piezo" else depth
     arrays = {"time": None} | {each: check.frozen(value) for each, value in values.items()}
@@ -152,7 +152,7 @@ def _in_time(values, rows, columns, remarks):
         return rows[::-1]
     if (steps < 0).any() or not np.any(steps):
         text = "the time does not ascend and is left out: samples are in the order of the file"
-        remarks.append(Remark(text, "time"))
+        remarks.append(Remark(text, "left out"))
         columns["time"] = None
         del values["time"]
     return rows
@@ -167,7 +167,7 @@ def _omissions(table, rows, name, labels):
         raise check.MDRError(f"most lines of {name} are not rows of numbers, for example {what}")
     named = [column for column in table.words if column != labels and " " in column.strip()]
     left = [Remark(f"column {each}, which has no numbers, is left out", "left out") for each in named]
-    return left + [Remark(f"left out {what}", "missing")] * bool(lines)
+    return left + [Remark(f"left out {what}", "left out")] * bool(lines)
 
 
 def _turned(depth, force):

@@ -212,10 +212,10 @@ def _remarks(yielded, constants, errors, free, power_law):
     for constant, error in zip(free, errors, strict=True):
         if len(free) > 1 and constants[constant] < 2 * error:
             text = f"the radii do not distinguish {symbols(free)}: {symbols([constant])} may be 0"
-            yield Remark(text, "constants", Remedy("hold", constant, 0.0))
+            yield Remark(text, "constant", Remedy("hold", constant, 0.0))
     if np.isinf(errors).any():
         text = f"the standard error of {symbols(free[:1])} cannot be determined from one measurement"
-        yield Remark(f"{text}: give three or more", "few")
+        yield Remark(f"{text}: give three or more", "errors")
 
 
 @dataclass(frozen=True, eq=False, repr=False)

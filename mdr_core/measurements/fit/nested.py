@@ -215,7 +215,7 @@ def _in_a_hold(curves, state, i, contact, change):
             f"{engineering(rate, 'm/s')}: this is creep, or a drift that since first contact would "
             f"change E* by {100 * change * rate:+.2g} %"
         )
-        yield Remark(text, "rest")
+        yield Remark(text, "creep")
 
 
 def _longest_hold(curves, state, i):

@@ -67,7 +67,7 @@ def _jitter(solved, i):
             f"the depth goes back and forth at {reversals} of {depth.size - 1} samples, and its noise of "
             f"some {engineering(noise, 'm')} is taken for new largest depths: E* is biased"
         )
-        yield Remark(text, "jitter", Remedy("give", "depth_noise", float(f"{noise:.2g}")))
+        yield Remark(text, "noise", Remedy("give", "depth_noise", float(f"{noise:.2g}")))
 
 
 def _misfit(solved, i):
@@ -93,7 +93,7 @@ def _misfit(solved, i):
             f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
             "larger than the given noise"
         )
-        yield Remark(text, "noisy")
+        yield Remark(text, "noise")
 
 
 def _other_class(solved, i, letters):
@@ -132,7 +132,7 @@ def _blocks(solved, i):
             f"neighbouring residuals are correlated over {length} of {count} samples: the standard errors "
             "are estimated from few blocks, and may be too small by up to a factor of two"
         )
-        yield Remark(text, "blocks")
+        yield Remark(text, "errors")
 
 
 def _few(solved, i):
@@ -142,4 +142,4 @@ def _few(solved, i):
     names = [name for name in solved.curves.free if name not in BACKGROUND]
     if names and count < len(names) + _SPARE:
         text = f"only {count} samples are in contact for {symbols(names)}"
-        yield Remark(f"{text}: the standard errors are uncertain; record more", "few")
+        yield Remark(f"{text}: the standard errors are uncertain; record more", "errors")

@@ -15,7 +15,7 @@ from ..unloading.oliver_pharr_result import OliverPharr
 from .remarks import DOUBTS
 
 #: Remarks that say that a model which is elastic does not describe the curve, or that E* is not determined.
-NOT_COMPARABLE = DOUBTS | {"unloading", "outliers", "second minimum", "bound", "undetermined"}
+NOT_COMPARABLE = DOUBTS | {"unloading", "outliers"}
 #: Remarks that say that the force is not that of the contact, whatever the medium.
 OF_THE_FORCE = {"units", "no contact", "tilt", "drag", "drift"}
 #: Share of the largest depth and force, below which those of the first sample are those of first contact.
@@ -88,7 +88,7 @@ def _of_the_fit(fit):
         model = next((name for _, name in _others(fit)), "elastic")
         return _none(doubt.after(f"the {model} model does not fit: "))
     if "E_star" not in fit.standard_errors:
-        return _none(Remark("E* is held", "held", Remedy("free", "E_star")))
+        return _none(Remark("E* is held", "undetermined", Remedy("free", "E_star")))
     value, error = float(fit.medium.E_star), float(fit.standard_errors["E_star"])
     if not error < np.inf:
         return _none(Remark("the data do not determine E*", "undetermined", Remedy("hold", "E_star")))
@@ -115,7 +115,7 @@ def unloading(fit) -> tuple[OliverPharr | None, Remark]:
     """
     for name, text in _others(fit):
         text = f"the medium is {text}: its unloading does not follow a power law"
-        return None, Remark(text, "medium", Remedy("hold", name, 0.0))
+        return None, Remark(text, "no unloading", Remedy("hold", name, 0.0))
     # Beside a law of hardness that does not fit, these are of the law, not of the force.
     if not _doubt(fit, {"misfit"}) and (doubt := _doubt(fit, OF_THE_FORCE)):
         return None, doubt.after("the force of the contact is not known: ")
@@ -143,7 +143,7 @@ def unloading(fit) -> tuple[OliverPharr | None, Remark]:
 
 
 def _first(text):
-    return Remark(text, "first contact")
+    return Remark(text, "taken")
 
 
 def _evaluated(fit, depth, force):

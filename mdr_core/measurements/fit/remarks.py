@@ -16,13 +16,9 @@ from .parameters import TOGETHER, symbols
 from .tension import of_tension
 
 #: Those that say that the model does not fit, and its first contact may be wrong by more than its error.
-DOUBTS = {
-    "units", "order", "no contact", "undetermined", "tilt", "drag", "drift", "misfit", "jitter", "noisy",
-}  # fmt: skip
+DOUBTS = {"units", "order", "no contact", "undetermined", "tilt", "drag", "drift", "misfit", "noise"}
 #: Those that take the parameters for those of a minimum, with the errors there.
-_OF_MINIMUM = {
-    "tilt", "drag", "drift", "misfit", "unloading", "outliers", "blocks", "loading", "vague", "rest",
-}  # fmt: skip
+_OF_MINIMUM = {"tilt", "drag", "drift", "misfit", "unloading", "outliers", "errors", "vague", "creep"}
 #: Relative error of E* above which it counts as not determined, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
 #: Relative error of a parameter from which on it is not determined at all.
@@ -46,19 +42,34 @@ def remarks_of(solved):
     checks = (
         _units, _order, _ambiguous, _adhesion, of_tension, _undetermined, tests_of_noise, nested_tests, _tip
     )  # fmt: skip
-    return [_consistent([*chain(*(check(solved, i) for check in checks))]) for i in range(len(solved.rows))]
+    return [
+        _consistent([*chain(*(check(solved, i) for check in checks))], _not_at_all(solved, i))
+        for i in range(len(solved.rows))
+    ]
 
 
-def _consistent(remarks):
-    """Remarks on one curve without those that others make void."""
+def _not_at_all(solved, i):
+    """Names of parameters in whose direction the residuals do not change."""
+    errors = solved.errors(i)
+    if _sees_no_yield(solved, i, errors):
+        return []
+    return [name for name, error in errors.items() if error == np.inf and name != "work_of_adhesion"]
+
+
+def _sees_no_yield(solved, i, errors):
+    return solved.elastic[i] and any(name in errors for name in solved.curves.constants)
+
+
+def _consistent(remarks, undetermined):
+    """Remarks on one curve without those that others make void, as by parameters without a minimum."""
     made = {remark.kind for remark in remarks}
-    void = set(_OF_MINIMUM) if "undetermined" in made else set()
+    void = set(_OF_MINIMUM) if undetermined else set()
     # The contact may be hidden by what a linear parameter describes.
     if {"tilt", "drag", "drift"} & (made - void):
         void |= {"no contact"}
     # These say more.
-    if {"misfit", "jitter"} & (made - void):
-        void |= {"unloading", "blocks"}
+    if {"misfit", "noise"} & (made - void):
+        void |= {"unloading", "errors"}
     return [remark for remark in remarks if remark.kind not in void]
 
 
@@ -71,7 +82,7 @@ def missing(used, samples):
     """A remark on samples that are left out, if there are any."""
     if used < samples:
         text = f"{samples - used} of {samples} samples have no number and are left out"
-        yield Remark(text, "missing")
+        yield Remark(text, "left out")
 
 
 def _units(solved, i):
@@ -186,15 +197,17 @@ def _ambiguous(solved, i):
     curves, squares = solved.curves, np.sum(solved.minimum.residual[i] ** 2)
     for name, at_bound in zip(curves.free, solved.minimum.at_bound[i], strict=False):
         if at_bound and name == "eta":
-            yield Remark("the viscosity is 0 within the noise", "inviscid", Remedy("hold", name, 0.0))
+            yield Remark("the viscosity is 0 within the noise", "constant", Remedy("hold", name, 0.0))
         elif at_bound and name not in TOGETHER:
-            yield Remark(f"{symbols([name])} is at the bound of its range", "bound", Remedy("hold", name))
+            yield Remark(
+                f"{symbols([name])} is at the bound of its range", "undetermined", Remedy("hold", name)
+            )
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
     if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
         rival = curves.rows([i]).values(solved.rival[[i]])
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
         remedy = Remedy("hold", "contact_point"), Remedy("hold", "E_star")
-        yield Remark(f"E* = {E} with contact at {point} fits about as well", "second minimum", *remedy)
+        yield Remark(f"E* = {E} with contact at {point} fits about as well", "undetermined", *remedy)
 
 
 def _adhesion(solved, i):
@@ -217,7 +230,7 @@ def _adhesion(solved, i):
             f"contact is lost at z = {measured} in the data and at {model} in the model (difference "
             f"{difference}): a soft cantilever loses contact earlier, or adhesion differs between "
             "approach and retraction",
-            "contact",
+            "adhesion",
         )
 
 
@@ -237,9 +250,9 @@ def _undetermined(solved, i):
     _, state = solved.values_and_states
     errors = solved.errors(i)
     constants = [name for name in solved.curves.constants if name in errors]
-    if solved.elastic[i] and constants:
+    if _sees_no_yield(solved, i, errors):
         text = f"no yield is seen beyond the noise: {_hardest(solved, i)}"
-        yield Remark(text, "elastic", Remedy("class", "elastic"))
+        yield Remark(text, "constant", Remedy("class", "elastic"))
         return
     if len(constants) > 1:
         yield from _constants(solved, i, constants)
@@ -250,7 +263,7 @@ def _undetermined(solved, i):
             yield Remark(f"the data hardly determine E* ({_share(error)})", "vague", hold)
     elif unloading < 2 and error > _VAGUE_LOADING:
         text = f"loading alone hardly determines E* ({_share(error)})"
-        yield Remark(text, "loading", Remedy("part", "all"), hold)
+        yield Remark(text, "vague", Remedy("part", "all"), hold)
     elif error > _VAGUE:
         recovered = "critical depth" if solved.curves.constants == ("q_c",) else "recovered depth"
         text = (
@@ -258,13 +271,12 @@ def _undetermined(solved, i):
             f"the {recovered} of {engineering(state.cap[i, -1], 'm')}"
         )
         yield Remark(text, "vague", hold)
-    for name, error in errors.items():
-        if error == np.inf and name != "work_of_adhesion":
-            text = (
-                f"the data do not determine {symbols([name])}, or a parameter correlated with it: the "
-                "residuals have no minimum, but a direction in which they do not change"
-            )
-            yield Remark(text, "undetermined", Remedy("hold", name))
+    for name in _not_at_all(solved, i):
+        text = (
+            f"the data do not determine {symbols([name])}, or a parameter correlated with it: the "
+            "residuals have no minimum, but a direction in which they do not change"
+        )
+        yield Remark(text, "undetermined", Remedy("hold", name))
 
 
 def _hardest(solved, i):
@@ -289,7 +301,7 @@ def _constants(solved, i, names):
             f"the data do not distinguish {symbols(names)}: {symbols([name])} is {shares[name]:.2g} times "
             "its standard error"
         )
-        yield Remark(text, "constants", Remedy("hold", name, 0.0))
+        yield Remark(text, "constant", Remedy("hold", name, 0.0))
 
 
 def _tip(solved, i):

@@ -28,8 +28,6 @@ from .report import Fit
 if TYPE_CHECKING:
     import xarray
 
-#: Remarks of which a curve may have several, one for each parameter.
-_OF_PARAMETERS = {"bound", "undetermined"}
 #: Fields with one entry per curve; those with one per sample are `SAMPLES`.
 _OF_CURVES = ("contact_point", *BACKGROUND, "covariance", "reduced_chi_square", "block_length")
 
@@ -237,7 +235,7 @@ class IndentationFit(Fit):
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
         result, _ = unloading(self)
-        if result is None or {"misfit", "jitter", "noisy"} & {remark.kind for remark in self.remarks}:
+        if result is None or {"misfit", "noise"} & {remark.kind for remark in self.remarks}:
             return
         errors = result.standard_errors
         texts = [
@@ -272,7 +270,7 @@ def _of_many(remarks):
     for i, own in enumerate(remarks):
         for remark in own:
             # Two parameters at their bounds are two remarks.
-            named = remark.remedy if remark.kind in _OF_PARAMETERS else ()
+            named = tuple((each.action, each.what) for each in remark.remedy if remark.kind != "invalid")
             same.setdefault((remark.kind, named), {}).setdefault(i, remark)
     for found in same.values():
         i, first = next(iter(found.items()))

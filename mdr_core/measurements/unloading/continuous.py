@@ -49,7 +49,7 @@ def _values_and_errors(profile, depth, force, stiffness, constants, contact):
     values["contact_point"] = np.full(depth.size, contact.depth)
     without = np.count_nonzero(~used)
     text = f"{without} of {used.size} samples have no contact or no stiffness, and no results"
-    remarks = [Remark(text, "missing")] if without else []
+    remarks = [Remark(text, "left out")] if without else []
     frozen = {name: check.frozen(value) for name, value in values.items()}
     errors = {"stiffness": noise} | errors
     if contact.depth_error:

@@ -179,7 +179,7 @@ def no_hold(depth, force, time):
             "the force stays the same while the depth grows and comes back, as that of a sensor at the end "
             "of its range, which is no hold"
         )
-    return Remark(f"{text}: creep is not corrected", "hold")
+    return Remark(f"{text}: creep is not corrected", "taken")
 
 
 def of_share(share):
@@ -193,7 +193,7 @@ def of_share(share):
 
 def of_hold(length):
     """A remark on the hold whose end gives the rate."""
-    return Remark(f"the force is held for {engineering(length, 's')} before the unloading", "hold")
+    return Remark(f"the force is held for {engineering(length, 's')} before the unloading", "taken")
 
 
 def of_rise(rise, in_time):

@@ -189,7 +189,7 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
                 iso, text = iso_numbers(profile, depth, force, time, whole, both)
             else:
                 iso, text = None, remark_on_beginning(force)
-            notes += [Remark(text, "missing")] if text else []
+            notes += [Remark(text, "left out")] if text else []
             results[number] = *both, iso
             remarks += [each.after(f"{which}: ") for each in notes] if cycles and len(parts) > 1 else notes
         except ValueError as error:
@@ -200,7 +200,7 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
         raise MeasurementError(remarks[0])
     if len(parts) > 1 and not cycles:
         text = f"unloading {taken} of {len(parts)}, which follows the largest depth, was evaluated"
-        remarks.insert(0, Remark(text, "several", Remedy("give", "cycles", True)))
+        remarks.insert(0, Remark(text, "taken", Remedy("give", "cycles", True)))
     return results, remarks
 
 

@@ -71,7 +71,7 @@ def zero_of(profile, depth, force):
     where = f"is in the air after its first {begin} samples" if begin else "begins in the air"
     text = f"the record {where}: first contact at {point} is subtracted from the depth"
     text = f"{text}, {level} from the force; {samples} samples are before it"
-    return begin, contact, Remark(text, "first contact"), None
+    return begin, contact, Remark(text, "taken"), None
 
 
 def _end_of_loading(force):

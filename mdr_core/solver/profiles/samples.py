@@ -160,7 +160,7 @@ def area_samples(coefficients, height, samples, limit, unit):
     if first:
         below = _in_words(h[1])
         text = f"the area function does not grow below a height of {below}: the tip is a cone there"
-        remarks.append(Remark(text, "area"))
+        remarks.append(Remark(text, "changed"))
     return r, z, tuple(remarks)
 
 
@@ -173,4 +173,4 @@ def _repaired(z, h):
         f"the area function is concave in parts: heights were changed by up to {most} (at {place}), or "
         f"{100 * share.max():.2g} % (at {worst}), to make the tip convex"
     )
-    return Remark(text, "area")
+    return Remark(text, "changed")

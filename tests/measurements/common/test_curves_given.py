@@ -45,7 +45,7 @@ def test_its_columns_are_taken(curve):
 
 def test_its_remarks_come_first_and_once(curve):
     (said,) = curve.remarks
-    assert said.kind == "missing"
+    assert said.kind == "left out"
     for result in (mdr.oliver_pharr(BERKOVICH, curve), mdr.fit_indentation(BERKOVICH, curve)):
         assert result.remarks[0] == said
         assert result.remarks.count(said) == 1
@@ -109,7 +109,7 @@ def test_curves_of_a_file_are_fitted_at_once(many):
     assert "columns=" not in fit.invalid[2].text
     # What was said of its file is said first of a curve, and once of all.
     assert fit[0].remarks[0] == many[0].remarks[0]
-    assert [remark.kind for remark in fit.remarks] == ["sign", "invalid"]
+    assert [remark.kind for remark in fit.remarks] == ["changed", "invalid"]
     assert fit.remarks[0].startswith("curve 0 (2 of 3 curves): the sign of depth is reversed")
     assert fit.remarks[0].text.endswith(many[0].remarks[0].text)
 

@@ -182,7 +182,7 @@ def test_of_a_piezo_the_deflection_is_subtracted_once(write, head):
     )
     turned = mdr.read_curve(falling, columns=columns, spring_constant=STIFFNESS)
     assert_curve(turned, DEPTH, SMALL)
-    assert (turned.columns["piezo"], turned.remarks[0].kind) == ((0, "−nm"), "sign")
+    assert (turned.columns["piezo"], turned.remarks[0].kind) == ((0, "−nm"), "changed")
     # What a curve says of its columns reads it again.
     path = write(text)
     assert_curve(mdr.read_curve(path, columns=curve.columns, spring_constant=STIFFNESS), DEPTH, SMALL)
@@ -359,7 +359,7 @@ def test_times_that_are_not_taken_are_said(write, heads):
     curve = mdr.read_curve(path)
     assert curve.time is None
     (remark,) = curve.remarks
-    assert remark.kind == "time"
+    assert remark.kind == "left out"
     assert all(repr(head) in remark.text for head in heads)
     assert mdr.read_curve(path, columns={"time": None}).remarks == ()
     np.testing.assert_allclose(mdr.read_curve(path, columns={"time": (0, "s")}).time, TIME)

@@ -121,7 +121,7 @@ class TestYielding:
 
     def test_a_hold_tells_it(self):
         fit = self.fit(self.HOLD, 1e-10)
-        (remark,) = [remark for remark in fit.remarks if remark.kind == "rest"]
+        (remark,) = [remark for remark in fit.remarks if remark.kind == "creep"]
         rate, said = re.search(
             r"depth changes by (\S+) pm/s: this is creep, or a drift.* by (\S+) %", remark
         ).groups()
@@ -136,12 +136,12 @@ class TestYielding:
         """In 20 s at the largest load, with the noise of the force and none of the depth."""
         depth = 1e-9 * np.interp(self.TIME, [0, 5, 85, 105, 140], [-20, 0, 300, 300, 250])
         fit = self.fit(depth, 1e-10, noise, mdr.Medium(70e9, q_c=2e3))
-        (remark,) = [remark for remark in fit.remarks if remark.kind == "rest"]
+        (remark,) = [remark for remark in fit.remarks if remark.kind == "creep"]
         rate = float(re.search(r"depth changes by (\S+) pm/s", remark)[1])
         assert rate == approx(100, rel=0.05)
         # A ramp is none, whatever the noise.
         ramp = self.fit(self.RAMP, 1e-10, noise, mdr.Medium(70e9, q_c=2e3))
-        assert "rest" not in {remark.kind for remark in ramp.remarks}
+        assert "creep" not in {remark.kind for remark in ramp.remarks}
 
 
 class TestData:

@@ -15,7 +15,7 @@ from .test_creep import record
 
 DATA = Path(__file__).parents[2] / "data"
 E, DEEP, TIP = 70e9, 300e-9, mdr.Cone.berkovich()
-SAID = {"zero", "creep", "first contact"}
+SAID = {"zero", "creep", "taken"}
 
 
 def kinds(result):
