@@ -76,7 +76,7 @@ def slow(scene: mdr.Scene, progress: float, turning_point: mdr.Indentation) -> C
     share = np.where(
         places > 2, np.interp(places, [2, LAST_PROGRESS], [0, -1]), np.minimum(2 - places, 1.0)
     )
-    states = unloading(path, share, isinstance(scene.drive, mdr.ForcePath))
+    states = unloading(path, share, isinstance(scene.drive, mdr.scene.ForcePath))
     return Course(scene=scene, progress=places, states=states)
 
 
@@ -84,7 +84,7 @@ class Depth(Drive):
     """Pressed to a depth."""
 
     def make(self, state):
-        return mdr.DepthPath(**self.given(state))
+        return mdr.scene.DepthPath(**self.given(state))
 
     def given(self, state):
         return {"depth": state.max_depth}
@@ -97,7 +97,7 @@ class Force(Drive):
     """Pressed to a force."""
 
     def make(self, state):
-        return mdr.ForcePath(**self.given(state))
+        return mdr.scene.ForcePath(**self.given(state))
 
     def given(self, state):
         return {"force": state.max_force}
@@ -110,7 +110,7 @@ class Impact(Drive):
     """A free body hits along the normal."""
 
     def make(self, state):
-        return mdr.FreeImpact(**self.given(state))
+        return mdr.scene.FreeImpact(**self.given(state))
 
     def given(self, state):
         return {"mass": state.mass, "speed": state.speed, "plastic_depth": state.plastic_depth}

@@ -29,9 +29,9 @@ def law_of(**given):
 CALLS = {
     "Ball": (mdr.Ball, {"radius": 1e-6 * ONE, "mass": ONE}),
     "Cone": (mdr.Cone, {"slope": TWO}),
-    "DepthPath": (mdr.DepthPath, {"depth": DEPTH, "time": TIME}),
+    "DepthPath": (mdr.scene.DepthPath, {"depth": DEPTH, "time": TIME}),
     "FlatPunch": (mdr.FlatPunch, {"radius": ONE}),
-    "ForcePath": (mdr.ForcePath, {"force": np.abs(FORCE), "time": TIME}),
+    "ForcePath": (mdr.scene.ForcePath, {"force": np.abs(FORCE), "time": TIME}),
     "HardnessLaw": (law_of, {"H0": 1e9 * ONE, "a_star": 1e-6 * ONE}),
     "Hyperboloid": (mdr.Hyperboloid, {"slope": TWO, "tip_radius": ONE}),
     "Medium": (mdr.Medium, {"E_star": 1e9 * ONE, "q_c": ONE, "eta": ONE, "poisson": TWO}),
@@ -52,7 +52,7 @@ CALLS = {
     "capture_speeds": (mdr.capture_speeds, {"profile": CONE, "medium": STICKY, "mass": 1e-12 * ONE}),
     "contact_radius": (CONE.contact_radius, {"depth": np.abs(DEPTH)}),
     "creep": (mdr.creep, {"profile": CONE, "medium": VISCOUS, "force": np.abs(FORCE), "time": TIME}),
-    "critical_force": (mdr.critical_force, {"profile": mdr.Cone(TWO), "medium": MEDIUM}),
+    "yield_force": (mdr.yield_force, {"profile": mdr.Cone(TWO), "medium": MEDIUM}),
     "yield_depth": (mdr.yield_depth, {"profile": mdr.Cone(TWO), "medium": MEDIUM}),
     "fit_hardness": (mdr.fit_hardness, {"profile": CONE, "radius": 1e-7 * ONE, "E_star": 1e9}),
     "fit_indentation": (mdr.fit_indentation, {"depth": DEPTH, "force": FORCE, "force_noise": NOISE}),
@@ -87,9 +87,10 @@ CALLS = {
 }  # fmt: skip
 #: Public names that take no arrays, or only through those above.
 WITHOUT = {
-    "FreeImpact", "FreeObliqueImpact", "Foundation", "Impact", "Indentation", "MDRError", "Motion",
-    "ObliqueImpact", "Profile", "Remark", "Remedy", "ScalingLaw", "Scene", "Smooth", "TimedIndentation",
-    "UnknownColumns", "abel", "chain_impact", "read_curve", "read_curves", "sweep",
+    "ChainImpact", "Foundation", "HardnessFit", "Impact", "Indentation", "IndentationFit", "Limit",
+    "MDRError", "MeasuredCurve", "MeasuredCurves", "Motion", "ObliqueImpact", "OliverPharr", "Profile",
+    "Quoted", "Remark", "Remedy", "ScalingLaw", "Scene", "Smooth", "TimedIndentation", "UnknownColumns",
+    "abel", "chain_impact", "read_curve", "read_curves", "scene", "sweep",
 }  # fmt: skip
 
 

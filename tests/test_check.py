@@ -135,12 +135,12 @@ class TestBigFiles:
     @pytest.mark.parametrize("depth", [33, 64, *range(980, 1000)])
     def test_a_number_that_is_deep_is_refused(self, depth):
         """Deep enough to be too much for NumPy, and for what quotes it, in a scene that is JSON."""
-        scene = mdr.Scene(mdr.Cone(0.3), MEDIUM, mdr.DepthPath(1e-6)).to_json()
+        scene = mdr.Scene(mdr.Cone(0.3), MEDIUM, mdr.scene.DepthPath(1e-6)).to_json()
         with pytest.raises(ValueError, match="scene"):
             mdr.Scene.from_json(scene.replace("1000000000.0", "[" * depth + "1" + "]" * depth))
 
     def test_a_wide_path_is_read(self):
-        scene = mdr.Scene(mdr.Cone(0.3), MEDIUM, mdr.DepthPath(np.linspace(0, 1e-6, 10**5)))
+        scene = mdr.Scene(mdr.Cone(0.3), MEDIUM, mdr.scene.DepthPath(np.linspace(0, 1e-6, 10**5)))
         assert mdr.Scene.from_json(scene.to_json()) == scene
 
 

@@ -238,16 +238,10 @@ def test_only_public_names_are_shown():
     assert all(hasattr(mdr, name) for name in mdr.__all__)
 
 
-def test_type_checkers_see_the_names_that_are_found_when_they_are_asked_for():
-    seen = {
-        (alias.name, node.module)
-        for node in ast.walk(tree_of("__init__"))
-        if isinstance(node, ast.ImportFrom) and node.level and node.module != "base.check"
-        for alias in node.names
-    }
-    found = {(name, module) for module, names in mdr._MODULES.items() for name in names}
-    assert seen == found | {("abel", None), ("sweep", None)}
-    assert {name for name, _ in seen} == set(mdr.__all__)
+@pytest.mark.parametrize("name", ["critical_force", "DepthPath", "ForcePath", "FreeImpact"])
+def test_a_former_name_works_and_names_the_new_one(name):
+    with pytest.warns(DeprecationWarning, match=f"{name} is mdr_core.*(yield_force|scene.{name})"):
+        assert getattr(mdr, name) in (mdr.yield_force, getattr(mdr.scene, name, None))
 
 
 def python(code, folder=PACKAGE.parent):

@@ -11,17 +11,17 @@ import mdr_core as mdr
 from .approx import approx
 from .shapes import SHAPES, name
 
-SCENE = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, q_c=1 / 3), mdr.DepthPath((0.0, 1e-9, 1 / 7)))
+SCENE = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, q_c=1 / 3), mdr.scene.DepthPath((0.0, 1e-9, 1 / 7)))
 
 
 @pytest.mark.parametrize(
     "drive",
     [
-        mdr.DepthPath(1e-9),
-        mdr.DepthPath([1e-9, 0]),
-        mdr.FreeImpact(1e-3, 0.1),
-        mdr.FreeImpact(1e-3, 0.1, plastic_depth=1e-9),
-        mdr.FreeObliqueImpact(1e-3, 0.1, -1 / 3, 0.3),
+        mdr.scene.DepthPath(1e-9),
+        mdr.scene.DepthPath([1e-9, 0]),
+        mdr.scene.FreeImpact(1e-3, 0.1),
+        mdr.scene.FreeImpact(1e-3, 0.1, plastic_depth=1e-9),
+        mdr.scene.FreeObliqueImpact(1e-3, 0.1, -1 / 3, 0.3),
     ],
 )
 @pytest.mark.parametrize("medium", [mdr.Medium(1e9), mdr.Medium(1 / 3, q_c=0.1, eta=1e-30)])
@@ -36,37 +36,37 @@ def test_solve_gives_what_the_functions_give():
     np.testing.assert_array_equal(
         path.force, mdr.indent(SCENE.profile, SCENE.medium, SCENE.drive.depth).force
     )
-    hit = mdr.Scene(SCENE.profile, SCENE.medium, mdr.FreeImpact(1e-3, 0.1)).solve()
+    hit = mdr.Scene(SCENE.profile, SCENE.medium, mdr.scene.FreeImpact(1e-3, 0.1)).solve()
     assert hit.restitution == mdr.impact(SCENE.profile, SCENE.medium, 1e-3, 0.1).restitution
 
 
 def test_an_oblique_impact_is_solved_as_one():
     medium, ball = mdr.Medium(1e9, q_c=10.0), mdr.Ball(1e-9, 1e-5)
-    drive = mdr.FreeObliqueImpact(1e-9, 0.1, 0.1, 0.3, ball.tangential_mass)
+    drive = mdr.scene.FreeObliqueImpact(1e-9, 0.1, 0.1, 0.3, ball.tangential_mass)
     hit = mdr.Scene(mdr.Cone(0.1), medium, drive).solve()
     expected = mdr.oblique_impact(
         mdr.Cone(0.1), medium, 1e-9, 0.1, 0.1, 0.3, tangential_mass=ball.tangential_mass
     )
     assert hit.tangential_velocity == expected.tangential_velocity
     # Of a body that cannot turn it is the mass.
-    assert mdr.FreeObliqueImpact(1e-9, 0.1, 0.1, 0.3).tangential_mass == 1e-9
+    assert mdr.scene.FreeObliqueImpact(1e-9, 0.1, 0.1, 0.3).tangential_mass == 1e-9
     with pytest.raises(ValueError, match="FreeObliqueImpact friction = -1"):
-        mdr.FreeObliqueImpact(1e-9, 0.1, 0.1, -1.0)
+        mdr.scene.FreeObliqueImpact(1e-9, 0.1, 0.1, -1.0)
 
 
 @pytest.mark.parametrize("eta", [0.0, 20.0])
 def test_impact_on_an_imprint_is_solved_as_one(eta):
-    medium, again = mdr.Medium(1e9, q_c=10.0, eta=eta), mdr.FreeImpact(1e-9, 0.1, plastic_depth=2e-8)
+    medium, again = mdr.Medium(1e9, q_c=10.0, eta=eta), mdr.scene.FreeImpact(1e-9, 0.1, plastic_depth=2e-8)
     scene = mdr.Scene(mdr.Cone(0.1), medium, again)
     expected = mdr.impact(scene.profile, medium, 1e-9, 0.1, plastic_depth=2e-8)
     assert scene.solve().restitution == expected.restitution
     assert "chain" not in scene.models
     # Scenes from before it could be said have none.
-    old = json.loads(mdr.Scene(scene.profile, medium, mdr.FreeImpact(1e-9, 0.1)).to_json())
+    old = json.loads(mdr.Scene(scene.profile, medium, mdr.scene.FreeImpact(1e-9, 0.1)).to_json())
     del old["drive"]["plastic_depth"]
-    assert mdr.Scene.from_json(json.dumps(old)).drive == mdr.FreeImpact(1e-9, 0.1)
+    assert mdr.Scene.from_json(json.dumps(old)).drive == mdr.scene.FreeImpact(1e-9, 0.1)
     with pytest.raises(ValueError, match="FreeImpact plastic_depth = -1"):
-        mdr.FreeImpact(1e-9, 0.1, plastic_depth=-1.0)
+        mdr.scene.FreeImpact(1e-9, 0.1, plastic_depth=-1.0)
 
 
 def changed(**changes):
@@ -115,7 +115,7 @@ def test_bad_scenes_are_refused(text, says):
 
 def test_wrong_parts_are_refused():
     with pytest.raises(TypeError, match="scene medium must be a Medium, got"):
-        mdr.Scene(mdr.Cone(1.0), 1e9, mdr.DepthPath(1.0))
+        mdr.Scene(mdr.Cone(1.0), 1e9, mdr.scene.DepthPath(1.0))
 
 
 class TestModel:
@@ -123,16 +123,16 @@ class TestModel:
 
     DRY, VISCOUS = mdr.Medium(1e9, q_c=10.0), mdr.Medium(1e9, q_c=10.0, eta=20.0)
     PATH, TIME = (0.0, 60e-9, 60e-9, 40e-9), (0.0, 1e-6, 2e-6, 3e-6)
-    HIT = mdr.FreeImpact(mass=1e-9, speed=0.1)
+    HIT = mdr.scene.FreeImpact(mass=1e-9, speed=0.1)
 
     @pytest.mark.parametrize(
         ("medium", "drive", "model", "kind"),
         [
-            (DRY, mdr.DepthPath(PATH), "closed form", mdr.Indentation),
-            (VISCOUS, mdr.DepthPath(PATH), "closed form", mdr.Indentation),
-            (DRY, mdr.DepthPath(PATH, TIME), "closed form", mdr.Indentation),
-            (VISCOUS, mdr.DepthPath(PATH, TIME), "chain", mdr.TimedIndentation),
-            (VISCOUS, mdr.ForcePath((0.0, 1e-6, 1e-6), TIME[:3]), "scalar ODE", mdr.TimedIndentation),
+            (DRY, mdr.scene.DepthPath(PATH), "closed form", mdr.Indentation),
+            (VISCOUS, mdr.scene.DepthPath(PATH), "closed form", mdr.Indentation),
+            (DRY, mdr.scene.DepthPath(PATH, TIME), "closed form", mdr.Indentation),
+            (VISCOUS, mdr.scene.DepthPath(PATH, TIME), "chain", mdr.TimedIndentation),
+            (VISCOUS, mdr.scene.ForcePath((0.0, 1e-6, 1e-6), TIME[:3]), "scalar ODE", mdr.TimedIndentation),
             (DRY, HIT, "closed form", mdr.Impact),
             (VISCOUS, HIT, "scalar ODE", mdr.Impact),
         ],
@@ -157,7 +157,7 @@ class TestModel:
             assert other.max_depth == approx(exact.max_depth, rel=2e-6)
 
     @pytest.mark.parametrize(
-        "drive", [mdr.DepthPath(PATH), mdr.DepthPath(60e-9), mdr.ForcePath((0.0, 1e-6))]
+        "drive", [mdr.scene.DepthPath(PATH), mdr.scene.DepthPath(60e-9), mdr.scene.ForcePath((0.0, 1e-6))]
     )
     def test_all_models_of_a_path_agree(self, drive):
         scene = mdr.Scene(mdr.Paraboloid(1e-6), self.VISCOUS, drive)
@@ -172,7 +172,7 @@ class TestModel:
             scene.solve(model="closed form")
 
     def test_scenes_without_times_can_still_be_read(self):
-        text = mdr.Scene(mdr.Cone(0.3), self.DRY, mdr.DepthPath(1e-9)).to_json()
+        text = mdr.Scene(mdr.Cone(0.3), self.DRY, mdr.scene.DepthPath(1e-9)).to_json()
         assert '"time": null' in text
         old = text.replace(',\n  "time": null', "")
         assert "time" not in old
@@ -184,7 +184,7 @@ class TestModel:
 
 
 def test_poisson_ratio_is_kept_and_scenes_without_are_incompressible():
-    scene = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, poisson=0.3), mdr.DepthPath(1e-9))
+    scene = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, poisson=0.3), mdr.scene.DepthPath(1e-9))
     assert mdr.Scene.from_json(scene.to_json()) == scene
     old = json.loads(scene.to_json())
     del old["medium"]["poisson"]
@@ -199,7 +199,7 @@ def test_the_name_of_a_file_is_no_scene(name):
 
 def test_scenes_of_every_class_of_hardness():
     for given in ({"hardness": 9e9}, {"f_c": 1e-3, "q_c": 5.0}, {"q_c": 5.0}, {}):
-        scene = mdr.Scene(mdr.Cone(0.3), mdr.Medium(70e9, **given), mdr.FreeImpact(1e-9, 0.1))
+        scene = mdr.Scene(mdr.Cone(0.3), mdr.Medium(70e9, **given), mdr.scene.FreeImpact(1e-9, 0.1))
         assert mdr.Scene.from_json(scene.to_json()) == scene
         arguments = ", ".join(
             f"{name}={given[name]!r}" for name in ("q_c", "hardness", "f_c") if name in given
@@ -208,7 +208,7 @@ def test_scenes_of_every_class_of_hardness():
 
 
 def test_a_file_from_before_classes_of_hardness_is_read():
-    scene = mdr.Scene(mdr.Cone(0.3), mdr.Medium(70e9, q_c=5.0), mdr.FreeImpact(1e-9, 0.1))
+    scene = mdr.Scene(mdr.Cone(0.3), mdr.Medium(70e9, q_c=5.0), mdr.scene.FreeImpact(1e-9, 0.1))
     data = json.loads(scene.to_json())
     del data["medium"]["hardness"], data["medium"]["f_c"]
     assert mdr.Scene.from_json(json.dumps(data)) == scene
@@ -216,8 +216,8 @@ def test_a_file_from_before_classes_of_hardness_is_read():
 
 def test_an_oblique_impact_without_friction_keeps_its_speed_along_the_surface():
     """μ = 0 is no friction, not a mistake; less is one."""
-    drive = mdr.FreeObliqueImpact(1e-9, 0.1, tangential_speed=0.3, friction=0.0)
+    drive = mdr.scene.FreeObliqueImpact(1e-9, 0.1, tangential_speed=0.3, friction=0.0)
     hit = mdr.Scene(mdr.Paraboloid(1e-3), mdr.Medium(1e9), drive).solve()
     assert hit.tangential_velocity == 0.3
     with pytest.raises(ValueError, match=r"friction .*must be finite and not negative"):
-        mdr.FreeObliqueImpact(1e-9, 0.1, tangential_speed=0.3, friction=-0.1)
+        mdr.scene.FreeObliqueImpact(1e-9, 0.1, tangential_speed=0.3, friction=-0.1)

@@ -75,7 +75,7 @@ def test_units_are_converted(quantity):
         (lambda q: mdr.PowerLaw(q(1.0, "m"), 2.0), "coefficient = .* cannot be converted to"),
         (lambda q: mdr.indent(mdr.Cone(0.3), MEDIUM, [1e-9, q(1.0, "Pa")]), "depth = .* converted to m"),
         (lambda q: mdr.impact(mdr.Cone(0.3), MEDIUM, q(1.0, "nm"), 1.0), "mass = .* converted to kg"),
-        (lambda q: mdr.FreeImpact(q(1.0, "nm"), 1.0), "FreeImpact mass = .* converted to kg"),
+        (lambda q: mdr.scene.FreeImpact(q(1.0, "nm"), 1.0), "FreeImpact mass = .* converted to kg"),
         (lambda q: mdr.indent_in_time(mdr.Cone(0.3), MEDIUM, [0, 1e-9], q([0, 1], "m")), "time = .* to s"),
     ],
 )

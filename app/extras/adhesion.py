@@ -5,7 +5,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.integrate import trapezoid
 
-from mdr_core import ForcePath
+from mdr_core.scene import ForcePath
 from mdr_core.show.figures import NOTHING, area, label, line, mark
 from mdr_core.show.units import written
 from mdr_core.solver.contact.unloading import AdhesiveLoop, adhesive_loop, unloading_curve

@@ -70,7 +70,7 @@ class Oblique(Impact):
         speeds = map(float, mdr.at_angle(state["oblique.incoming_speed"], pi / 2 - state["oblique.attack"]))
         ball = mdr.Ball(state.mass, 1.0, state["oblique.body"] == "hollow")
         felt = state.mass if state["oblique.body"] == "block" else float(ball.tangential_mass)
-        return mdr.FreeObliqueImpact(state.mass, *speeds, state["oblique.friction"], felt)
+        return mdr.scene.FreeObliqueImpact(state.mass, *speeds, state["oblique.friction"], felt)
 
     def follow(self, scene, progress):
         """States from one coarse solution of friction until the exact ones are found."""

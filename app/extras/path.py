@@ -42,7 +42,7 @@ def _in_time(state):
 
 
 def _by_force(drive):
-    return isinstance(drive, mdr.ForcePath)
+    return isinstance(drive, mdr.scene.ForcePath)
 
 
 def _refined(scene, chain):
@@ -183,13 +183,13 @@ class Path(Drive):
                         "creep with viscosity is not computed for a hardness ∝ 1/a², because the force may "
                         "decrease with depth: choose another hardness or ramp and hold first"
                     )
-                return mdr.ForcePath((0.0, state.max_force, state.max_force), times)
-            return mdr.DepthPath((0.0, state.max_depth, state.max_depth), times)
+                return mdr.scene.ForcePath((0.0, state.max_force, state.max_force), times)
+            return mdr.scene.DepthPath((0.0, state.max_depth, state.max_depth), times)
         tenths = (2, 4, 6, 8, 10) if state["path.pattern"] == "cycles" else (7, 10)
         peaks = [state.max_depth * tenth / 10 for tenth in tenths]
         # Unloading ends at loss of contact.
         unloaded = map(float, yield_rule(profile(state), made).plastic_depth(np.array(peaks)))
-        return mdr.DepthPath([depth for pair in zip(peaks, unloaded, strict=True) for depth in pair])
+        return mdr.scene.DepthPath([depth for pair in zip(peaks, unloaded, strict=True) for depth in pair])
 
     def follow(self, scene, progress):
         """States along the path."""

@@ -59,7 +59,7 @@ def contents(found: Any, about: dict[str, Any], corrections: dict[str, float]) -
 def as_json(found: Any, told: dict[str, Any]) -> str:
     """Return `contents` with scene and samples as JSON; what is not finite is null."""
     fit = found.fit
-    scene = mdr.Scene(fit.profile, fit.medium, mdr.DepthPath(float(np.max(fit.path.depth))))
+    scene = mdr.Scene(fit.profile, fit.medium, mdr.scene.DepthPath(float(np.max(fit.path.depth))))
     samples = {"depth": fit.depth, "force": fit.force, "time": fit.time, "residuals": fit.residuals}
     units = {"depth": "m", "time": "s"}
     columns = {

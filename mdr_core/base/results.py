@@ -103,6 +103,13 @@ class Limit:
         "result", or the formula of the paper that is concerned while the result itself is exact.
     severe : bool
         Whether the result is only an estimate where the bound is exceeded.
+
+    Examples
+    --------
+    >>> from mdr_core import Cone, Medium, indent
+    >>> slope = indent(Cone(slope=1.0), Medium(E_star=1e9), 1e-9).limits[0]
+    >>> print(slope.what, slope.value, slope.exceeded)
+    slope 1.0 True
     """
 
     what: str

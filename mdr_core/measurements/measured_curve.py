@@ -249,6 +249,18 @@ class MeasuredCurves(Sequence[MeasuredCurve]):
     """All curves of a file, returned by `read_curves`: length, index, slices and iteration.
 
     A curve is understood when it is taken: one that is refused does not stop the others.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import mdr_core as mdr
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "run.csv"
+    ...     _ = path.write_text("h (nm), F (mN)\\n0, 0\\n10, 1\\n20, 4\\n", encoding="utf-8")
+    ...     curves = mdr.read_curves(path)
+    >>> print(curves, len(curves[0].depth))
+    MeasuredCurves: 1 of run.csv 3
     """
 
     #: Name of the file.

@@ -46,7 +46,8 @@ class DepthPath(_Path):
 
     Examples
     --------
-    >>> from mdr_core import Cone, DepthPath, Medium, Scene
+    >>> from mdr_core import Cone, Medium
+    >>> from mdr_core.scene import DepthPath, Scene
     >>> state = Scene(Cone(slope=1.0), Medium(E_star=1.0), DepthPath(1.0)).solve()
     >>> print(round(state.force, 6))  # 2/π
     0.63662
@@ -84,7 +85,8 @@ class ForcePath(_Path):
 
     Examples
     --------
-    >>> from mdr_core import Cone, ForcePath, Medium, Scene
+    >>> from mdr_core import Cone, Medium
+    >>> from mdr_core.scene import ForcePath, Scene
     >>> state = Scene(Cone(slope=1.0), Medium(E_star=1.0), ForcePath(1.0)).solve()
     >>> print(round(state.depth, 6))  # √(π/2)
     1.253314
@@ -158,7 +160,8 @@ class FreeImpact:
 
     Examples
     --------
-    >>> from mdr_core import FlatPunch, FreeImpact, Medium, Scene
+    >>> from mdr_core import FlatPunch, Medium
+    >>> from mdr_core.scene import FreeImpact, Scene
     >>> hit = Scene(FlatPunch(radius=0.5), Medium(E_star=1.0), FreeImpact(1.0, 0.1)).solve()
     >>> print(round(hit.contact_time, 6))  # half a period of a spring of 1 N/m: π
     3.141593
@@ -223,7 +226,8 @@ class FreeObliqueImpact:
 
     Examples
     --------
-    >>> from mdr_core import FlatPunch, FreeObliqueImpact, Medium, Scene
+    >>> from mdr_core import FlatPunch, Medium
+    >>> from mdr_core.scene import FreeObliqueImpact, Scene
     >>> drive = FreeObliqueImpact(1.0, 0.1, tangential_speed=1.0, friction=0.1)
     >>> hit = Scene(FlatPunch(radius=0.5), Medium(E_star=1.0), drive).solve()
     >>> print(round(hit.tangential_velocity, 6))  # it slips throughout: 1 − 2 μ v₀

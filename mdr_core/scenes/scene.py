@@ -66,7 +66,8 @@ class Scene:
 
     Examples
     --------
-    >>> from mdr_core import Cone, DepthPath, Medium, Scene
+    >>> from mdr_core import Cone, Medium
+    >>> from mdr_core.scene import DepthPath, Scene
     >>> scene = Scene(Cone(slope=1.0), Medium(E_star=1.0), DepthPath(2.0))
     >>> print(round(scene.solve().force, 9))  # 2E* d²/(π s)
     2.546479089
@@ -101,7 +102,8 @@ class Scene:
 
         Examples
         --------
-        >>> from mdr_core import Cone, FreeImpact, Medium, Scene
+        >>> from mdr_core import Cone, Medium
+        >>> from mdr_core.scene import FreeImpact, Scene
         >>> scene = Scene(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), FreeImpact(1e-9, 0.1))
         >>> print(scene.models, round(scene.solve().restitution, 6))
         ('closed form', 'scalar ODE', 'chain') 0.200701
@@ -134,14 +136,15 @@ class Scene:
 
         Examples
         --------
-        >>> from mdr_core import Cone, DepthPath, Medium, Scene
+        >>> from mdr_core import Cone, Medium
+        >>> from mdr_core.scene import DepthPath, Scene
         >>> print(Scene(Cone(slope=1.0), Medium(E_star=1.0), DepthPath(2.0)).to_python())
         import mdr_core as mdr
         <BLANKLINE>
         scene = mdr.Scene(
             mdr.Cone(slope=1.0),
             mdr.Medium(E_star=1.0),
-            mdr.DepthPath(depth=2.0),
+            mdr.scene.DepthPath(depth=2.0),
         )
         result = scene.solve()
         <BLANKLINE>
@@ -161,7 +164,8 @@ class Scene:
 
         Examples
         --------
-        >>> from mdr_core import Cone, DepthPath, Medium, Scene
+        >>> from mdr_core import Cone, Medium
+        >>> from mdr_core.scene import DepthPath, Scene
         >>> scene = Scene(Cone(slope=1.0), Medium(E_star=1.0), DepthPath(2.0))
         >>> Scene.from_json(scene.to_json()) == scene
         True
@@ -207,7 +211,8 @@ def _constructed(value):
         return f"mdr.Structure.modal({', '.join(given)})"
     own = [(each, getattr(value, each.name)) for each in fields(value) if each.init]
     given = [f"{each.name}={_constructed(part)}" for each, part in own if not at_default(each, part)]
-    return f"mdr.{type(value).__name__}({', '.join(given)})"
+    module = "mdr.scene" if isinstance(value, _DRIVES) else "mdr"
+    return f"{module}.{type(value).__name__}({', '.join(given)})"
 
 
 def _tagged(value):

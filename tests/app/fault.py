@@ -7,7 +7,7 @@ _solve = mdr.Scene.solve
 
 
 def _failing(scene, model=None):
-    if isinstance(scene.drive, mdr.DepthPath) and abs(scene.drive.depth - DEPTH) < 1e-6 * DEPTH:
+    if isinstance(scene.drive, mdr.scene.DepthPath) and abs(scene.drive.depth - DEPTH) < 1e-6 * DEPTH:
         raise ArithmeticError("made to fail")
     return _solve(scene, model)
 

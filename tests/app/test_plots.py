@@ -123,7 +123,7 @@ def test_after_another_hit_depth_and_force_of_yield_belong_together():
     state = changes.hit_again(preset_state(DROP))
     course = follow(state)
     again = float(hit.plastic_depth) + medium(state).critical_depth
-    assert numbers(course)["critical_force"] == approx(float(course.onset.force))
+    assert numbers(course)["yield_force"] == approx(float(course.onset.force))
     np.testing.assert_allclose(force(view_of(state), 0)["onset of yield"][0], again)
 
 

@@ -97,7 +97,7 @@ def test_11_small_things_are_said_right():
     assert "∞ m" not in said
     assert "line load" in QUANTITIES["q_c"].help
     equations = {each.name: each.equation for each in readouts.READOUTS}
-    assert equations["critical_force"].startswith("(22)")
+    assert equations["yield_force"].startswith("(22)")
 
 
 def test_12_curves_with_a_vertical_start_are_no_chords():

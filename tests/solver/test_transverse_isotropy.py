@@ -137,7 +137,7 @@ class TestMedium:
         assert self.medium.poisson is None
         assert self.medium != mdr.Medium(self.medium.E_star, hardness=0.5e9)
         assert pickle.loads(pickle.dumps(self.medium)) == self.medium
-        scene = mdr.Scene(mdr.Cone(0.1), self.medium, mdr.DepthPath(1e-9))
+        scene = mdr.Scene(mdr.Cone(0.1), self.medium, mdr.scene.DepthPath(1e-9))
         assert mdr.Scene.from_json(scene.to_json()) == scene
         assert "poisson=None" in scene.to_python()
         assert "no Poisson ratio" in str(mdr.indent(mdr.Cone(0.1), self.medium, 1e-9))

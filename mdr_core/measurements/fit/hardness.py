@@ -223,6 +223,13 @@ class HardnessFit(Fit):
     """A medium fitted to mean pressures at several radii, a `Fit` returned by `fit_hardness`.
 
     Residuals are those of the mean pressure, relative; remarks name measurements that were left out.
+
+    Examples
+    --------
+    >>> from mdr_core import Cone, fit_hardness
+    >>> fit = fit_hardness(Cone(slope=0.3), [1e-6, 2e-6], [2e9, 2e9], E_star=70e9)
+    >>> print(fit.hardness_class, f"{fit.slope:.1f}")
+    a 0.0
     """
 
     standard_errors: dict[str, float]

@@ -40,6 +40,16 @@ class IndentationFit(Fit):
     nothing has yielded. Residuals are those of the force (N) at the measured depth. Curves of different
     numbers of samples are filled with NaN up to the longest; `fit[i]` is not. Curves that are `invalid`
     have NaN for what was not fitted.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mdr_core import Cone, Medium, fit_indentation, indent
+    >>> depth = np.linspace(-5e-9, 60e-9, 100)
+    >>> force = indent(Cone(slope=0.3), Medium(E_star=10e9), depth).force
+    >>> fit = fit_indentation(Cone(slope=0.3), depth, force, q_c=np.inf)
+    >>> print(f"{fit.medium.E_star:.6g}", list(fit.standard_errors))
+    1e+10 ['E_star', 'contact_point']
     """
 
     #: Measured depth (m), force (N), and time (s), None where it was not given.

@@ -43,6 +43,16 @@ class OliverPharr(Record):
     these parts and for those down to 20 %. With
     ``cycles=True`` all are arrays (U,), and `result[i]` is one unloading, i from 0 on. Its number in the
     record, from 1 on, is `unloading`; remarks, print and tables have the same number.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from mdr_core import Cone, Medium, indent, oliver_pharr
+    >>> depth = np.append(np.linspace(0, 60e-9, 100), np.linspace(60e-9, 0, 100))
+    >>> force = indent(Cone(slope=0.3), Medium(E_star=10e9), depth).force
+    >>> result = oliver_pharr(Cone(slope=0.3), depth, force, epsilon=2 - 4 / np.pi)
+    >>> print(f"{result.E_star:.6g} Pa")
+    1e+10 Pa
     """
 
     profile: Profile

@@ -51,10 +51,10 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     --------
     A cone at twice the critical depth, F = 3 F_c (Popov 2015, Eqs. (20), (22)):
 
-    >>> from mdr_core import Cone, Medium, critical_force, indent
+    >>> from mdr_core import Cone, Medium, yield_force, indent
     >>> cone, medium = Cone(slope=1.0), Medium(E_star=1.0, q_c=2.0)
     >>> state = indent(cone, medium, 2 * medium.critical_depth)
-    >>> print(round(state.force / critical_force(cone, medium), 12))
+    >>> print(round(state.force / yield_force(cone, medium), 12))
     3.0
     """
     check_pair(profile, medium)

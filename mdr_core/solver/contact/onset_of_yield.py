@@ -51,7 +51,7 @@ def yield_depth(profile: Profile, medium: Medium) -> Array:
 
 
 @check.keywords_explained
-def critical_force(profile: Profile, medium: Medium) -> Array:
+def yield_force(profile: Profile, medium: Medium) -> Array:
     """Compute the normal force F_c (N) at which yield starts.
 
     F_c = 2E* ∫ a(s) ds over 0 < s < d_y, the `yield_depth`; for a cone of hardness q_c/a Popov (2015),
@@ -76,11 +76,11 @@ def critical_force(profile: Profile, medium: Medium) -> Array:
 
     Examples
     --------
-    >>> from mdr_core import Cone, Medium, critical_force
-    >>> print(round(critical_force(Cone(slope=1.0), Medium(E_star=1.0, q_c=2.0)), 12))  # π q_c²/(2E* s)
+    >>> from mdr_core import Cone, Medium, yield_force
+    >>> print(round(yield_force(Cone(slope=1.0), Medium(E_star=1.0, q_c=2.0)), 12))  # π q_c²/(2E* s)
     6.28318530718
     """
-    yields, interval = _at_onset("critical_force", profile, medium)
+    yields, interval = _at_onset("yield_force", profile, medium)
     force = 2 * medium.E_star * integrals(profile).radius_integral(interval)
     return check.frozen(np.where(yields, force, np.inf))
 
@@ -96,7 +96,7 @@ def yield_speed(profile: Profile, medium: Medium, mass: ArrayLike) -> Array:
     Parameters
     ----------
     profile, medium
-        As for `critical_force`.
+        As for `yield_force`.
     mass : float or array_like
         Mass m (kg), positive.
 

@@ -173,6 +173,13 @@ class ChainImpact(ImpactResult):
 
     Quantities are limits for vanishing steps and elements. For a fixed number of elements, limits and
     errors are those of the steps alone.
+
+    Examples
+    --------
+    >>> from mdr_core import Medium, Paraboloid, chain_impact
+    >>> hit = chain_impact(Paraboloid(radius=1.0), Medium(E_star=1.0), mass=1.0, speed=0.1)
+    >>> print(abs(hit.restitution - 1) <= hit.errors.restitution)
+    True
     """
 
     profile: Profile

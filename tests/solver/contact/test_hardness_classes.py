@@ -175,7 +175,7 @@ class TestClosedLimits:
     def test_a_flat_cone_never_yields(self, kappa):
         cone, medium = mdr.Cone(slope=0.5), mdr.Medium(1.0, hardness=0.5 * kappa)
         assert mdr.yield_depth(cone, medium) == mdr.yield_speed(cone, medium, 1.0) == np.inf
-        assert mdr.critical_force(cone, medium) == np.inf
+        assert mdr.yield_force(cone, medium) == np.inf
         assert (
             mdr.indent(cone, medium, 1.0).plastic_depth
             == mdr.impact(cone, medium, 1.0, 1.0).plastic_work
@@ -317,7 +317,7 @@ class TestFallingForce:
     def test_a_path_by_force_jumps(self):
         depth = np.linspace(0.01, 1.5, 6000)
         force = mdr.indent(self.cone, self.medium, depth[:, None]).force[:, 0]
-        onset = mdr.critical_force(self.cone, self.medium)
+        onset = mdr.yield_force(self.cone, self.medium)
         later = depth > mdr.yield_depth(self.cone, self.medium)
         assert force[later].min() == approx(0.978 * onset, rel=1e-3)
         for share in (0.5, 0.999, 1.001, 1.02):
@@ -330,7 +330,7 @@ class TestFallingForce:
             assert all("95.43 mm to beyond" in sentence for sentence in jumps)
 
     def test_a_part_of_a_path_says_that_the_path_jumps(self):
-        onset = mdr.critical_force(self.cone, self.medium)
+        onset = mdr.yield_force(self.cone, self.medium)
         path = mdr.indent_to_force(self.cone, self.medium, np.array([0.5, 1.02]) * onset)
         for part in (path, path[1:], path[1]):
             assert "jump" in [limit.what for limit in part.limits]
@@ -338,7 +338,7 @@ class TestFallingForce:
     def test_the_largest_force_of_an_impact_may_be_that_at_the_onset(self):
         speed = 1.5 * mdr.yield_speed(self.cone, self.medium, 1.0)
         hit = mdr.impact(self.cone, self.medium, 1.0, [speed, 9 * speed])
-        assert hit.max_force[0] == approx(mdr.critical_force(self.cone, self.medium), rel=1e-12)
+        assert hit.max_force[0] == approx(mdr.yield_force(self.cone, self.medium), rel=1e-12)
         assert hit.turning_point.force[0] < 0.99 * hit.max_force[0]
         assert hit.max_force[1] == hit.turning_point.force[1]
 

@@ -56,7 +56,7 @@ class TestCone:
         assert just.plastic_radius[0] == 0.0
         assert 0 < just.plastic_radius[1] < 1e-11 * just.contact_radius[1]
 
-    def test_eq_20_critical_force(self):
+    def test_eq_20_yield_force(self):
         expected = math.pi * MEDIUM.q_c**2 / (2 * MEDIUM.E_star * self.slope)
         assert mdr.indent(self.cone, MEDIUM, D_C).force == approx(expected, rel=1e-15)
 

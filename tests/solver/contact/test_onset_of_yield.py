@@ -12,10 +12,10 @@ MEDIUM = mdr.Medium(E_star=1e9, q_c=10.0)
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
-def test_critical_force_is_that_at_the_critical_depth(shape):
+def test_yield_force_is_that_at_the_critical_depth(shape):
     state = mdr.indent(shape, MEDIUM, MEDIUM.critical_depth)
     # Both are the same closed form or table, to rounding.
-    assert mdr.critical_force(shape, MEDIUM) == approx(state.force, rel=1e-13)
+    assert mdr.yield_force(shape, MEDIUM) == approx(state.force, rel=1e-13)
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
@@ -31,7 +31,7 @@ def test_johnsons_sphere():
     """m v_y²/2 = (8/15) E* √R d_c^(5/2), and F_c = (4/3) E* √R d_c^(3/2), of a paraboloid."""
     radius, mass, d_c = 1e-3, 1e-6, MEDIUM.critical_depth
     force = 4 / 3 * MEDIUM.E_star * radius**0.5 * d_c**1.5
-    assert mdr.critical_force(mdr.Paraboloid(radius), MEDIUM) == approx(force, rel=1e-14)
+    assert mdr.yield_force(mdr.Paraboloid(radius), MEDIUM) == approx(force, rel=1e-14)
     energy = 8 / 15 * MEDIUM.E_star * radius**0.5 * d_c**2.5
     speed = mdr.yield_speed(mdr.Paraboloid(radius), MEDIUM, mass)
     assert mass * speed**2 / 2 == approx(energy, rel=1e-14)
@@ -39,7 +39,7 @@ def test_johnsons_sphere():
 
 def test_a_flat_punch_yields_all_at_once():
     """π q_c b, the force of Eq. (11) of a contact that has yielded everywhere."""
-    force = mdr.critical_force(mdr.FlatPunch(1e-6), MEDIUM)
+    force = mdr.yield_force(mdr.FlatPunch(1e-6), MEDIUM)
     assert force == approx(np.pi * MEDIUM.q_c * 1e-6, rel=1e-14)
 
 
@@ -49,13 +49,13 @@ def test_arrays_broadcast_and_what_never_yields_is_infinite():
     assert speed.shape == (3, 2)
     assert speed[1, 0] == mdr.yield_speed(mdr.Cone(0.2), MEDIUM, 1e-9)
     assert np.all(np.isinf(speed[:, 1]))
-    assert mdr.critical_force(mdr.Cone(0.2), mdr.Medium(1e9)) == np.inf
+    assert mdr.yield_force(mdr.Cone(0.2), mdr.Medium(1e9)) == np.inf
 
 
 def test_a_profile_that_ends_before_the_critical_depth_is_refused():
     tip = mdr.Sampled([0.0, 1e-9], [0.0, 1e-10])
     with pytest.raises(ValueError, match="deeper than"):
-        mdr.critical_force(tip, MEDIUM)
+        mdr.yield_force(tip, MEDIUM)
 
 
 def test_medium_from_the_critical_depth():

@@ -402,7 +402,7 @@ def test_errors_cover_what_more_modes_change():
 
 def test_a_scene_with_modes_is_kept_as_json_and_as_python():
     beam = mdr.Structure.beam(0.3, 50.0, 0.4, modes=3, damping=0.01, thickness=0.01)
-    scene = mdr.Scene(BALL, SOFT, mdr.FreeImpact(0.05, 1.0, structure=beam))
+    scene = mdr.Scene(BALL, SOFT, mdr.scene.FreeImpact(0.05, 1.0, structure=beam))
     assert mdr.Scene.from_json(scene.to_json()) == scene
     names = {}
     exec(scene.to_python(), names)

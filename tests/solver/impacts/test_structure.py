@@ -592,7 +592,7 @@ def test_a_scene_keeps_its_structure():
         mdr.Structure.plate(4e-3, 50e9, 0.3, 1600.0, edge=0.1),
         mdr.Structure(stiffness=1e7),
     ):
-        scene = mdr.Scene(BALL, YIELDING, mdr.FreeImpact(MASS, SPEED, structure=structure))
+        scene = mdr.Scene(BALL, YIELDING, mdr.scene.FreeImpact(MASS, SPEED, structure=structure))
         again = mdr.Scene.from_json(scene.to_json())
         assert again == scene
         assert again.drive.structure == structure
@@ -605,13 +605,13 @@ def test_a_scene_keeps_its_structure():
 
 def test_models_of_a_scene():
     def models(medium, **drive):
-        return mdr.Scene(BALL, medium, mdr.FreeImpact(MASS, SPEED, **drive)).models
+        return mdr.Scene(BALL, medium, mdr.scene.FreeImpact(MASS, SPEED, **drive)).models
 
     plate, support = mdr.Structure(346.0), mdr.Structure(stiffness=1e7)
     assert models(YIELDING, structure=plate) == ("scalar ODE", "chain")
     assert models(YIELDING, structure=support) == ("closed form", "scalar ODE", "chain")
     assert models(mdr.Medium(E, eta=1.0), structure=plate) == ("chain",)
-    scene = mdr.Scene(BALL, YIELDING, mdr.FreeImpact(MASS, SPEED, structure=support))
+    scene = mdr.Scene(BALL, YIELDING, mdr.scene.FreeImpact(MASS, SPEED, structure=support))
     exact, in_time = scene.solve(), scene.solve("scalar ODE")
     # The steps of the second have 10⁻⁷ between their nodes.
     assert in_time.restitution == approx(exact.restitution, rel=1e-10)

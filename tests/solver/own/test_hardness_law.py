@@ -98,7 +98,7 @@ class TestALawThatWritesTheSumOut:
                 np.testing.assert_allclose(one, other, rtol=1e-11, atol=1e-12 * scale)
             one, other = (each[i].stress(r[1:3], 2e-7).zz for each in (states, others))
             np.testing.assert_allclose(one, other, rtol=1e-10)
-        for quantity in (mdr.yield_depth, mdr.critical_force, lambda *pair: mdr.yield_speed(*pair, 1e-9)):
+        for quantity in (mdr.yield_depth, mdr.yield_force, lambda *pair: mdr.yield_speed(*pair, 1e-9)):
             assert quantity(shape, law) == approx(quantity(shape, constants), rel=1e-12, abs=0)
 
     @pytest.mark.parametrize("shape", [CONE, mdr.Sphere(radius=1e-5), BLUNT], ids=["cone", "ball", "blunt"])
@@ -311,7 +311,7 @@ class TestAForceThatFalls:
         medium = mdr.Medium(1.0, hardness=law)
         speed = 1.5 * mdr.yield_speed(shape, medium, 1.0)
         hit = mdr.impact(shape, medium, 1.0, [speed, 9 * speed])
-        assert hit.max_force[0] == approx(mdr.critical_force(shape, medium), rel=1e-12)
+        assert hit.max_force[0] == approx(mdr.yield_force(shape, medium), rel=1e-12)
         assert hit.turning_point.force[0] < 0.99 * hit.max_force[0]
         assert hit.max_force[1] == hit.turning_point.force[1]
 
@@ -551,13 +551,13 @@ class TestTheMedium:
         assert mdr.impact(CONE, medium, 1e-12, 1.0).motion().plot() is not None
 
     def test_a_scene_is_solved(self):
-        scene = mdr.Scene(CONE, mdr.Medium(E, hardness=self.law), mdr.FreeImpact(1e-12, 10.0))
+        scene = mdr.Scene(CONE, mdr.Medium(E, hardness=self.law), mdr.scene.FreeImpact(1e-12, 10.0))
         assert {str(model) for model in scene.models} == {"closed form", "scalar ODE", "chain"}
         assert scene.solve("scalar ODE").restitution == approx(scene.solve().restitution, abs=1e-9)
 
 
 COPPER = mdr.Medium(E, hardness=SIZE)
-SCENE = mdr.Scene(CONE, COPPER, mdr.DepthPath(1e-7))
+SCENE = mdr.Scene(CONE, COPPER, mdr.scene.DepthPath(1e-7))
 
 
 @pytest.mark.parametrize(

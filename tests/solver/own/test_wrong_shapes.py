@@ -73,7 +73,7 @@ CALLS = {
     "path in time": lambda shape: mdr.indent_in_time(shape, VISCOUS, [0.0, DEPTH], [0.0, 1e-6]).force,
     "creep": lambda shape: mdr.creep(shape, VISCOUS, [0.0, 6e-6], [0.0, 1e-6]).depth,
     "adhesion": lambda shape: mdr.indent(shape, mdr.Medium(1e9, work_of_adhesion=1e-3), DEPTH).force,
-    "yield": lambda shape: mdr.critical_force(shape, mdr.Medium(1e8, q_c=10.0)),
+    "yield": lambda shape: mdr.yield_force(shape, mdr.Medium(1e8, q_c=10.0)),
 }
 
 

@@ -100,7 +100,7 @@ def test_heights_count_from_the_first_sample():
 
 
 def test_scene_holds_a_sampled_tip():
-    scene = mdr.Scene(mdr.Sampled([0, 1e-6, 3e-6], [0, 1e-7, 7e-7]), MEDIUM, mdr.ForcePath(1e-6))
+    scene = mdr.Scene(mdr.Sampled([0, 1e-6, 3e-6], [0, 1e-7, 7e-7]), MEDIUM, mdr.scene.ForcePath(1e-6))
     assert mdr.Scene.from_json(scene.to_json()) == scene
 
 

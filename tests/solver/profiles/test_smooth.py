@@ -84,7 +84,7 @@ def test_known_radius_is_respected():
     with pytest.raises(ValueError, match="must be a function"):
         mdr.Smooth(0.3)
     with pytest.raises(ValueError, match="a Smooth cannot be written as JSON"):
-        mdr.Scene(mdr.Smooth(slope), MEDIUM, mdr.DepthPath(1e-9)).to_json()
+        mdr.Scene(mdr.Smooth(slope), MEDIUM, mdr.scene.DepthPath(1e-9)).to_json()
 
 
 def test_a_fractional_power_of_the_radius():

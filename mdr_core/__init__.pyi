@@ -1,0 +1,64 @@
+"""Public names, and the modules that they are in: `__init__.py` reads them here."""
+
+from . import abel as abel
+from . import scene as scene
+from . import sweep as sweep
+from .base.errors import MDRError as MDRError
+from .base.motions import Motion as Motion
+from .base.remark import Remark as Remark
+from .base.remark import Remedy as Remedy
+from .base.results import Limit as Limit
+from .measurements.fit.hardness import HardnessFit as HardnessFit
+from .measurements.fit.hardness import fit_hardness as fit_hardness
+from .measurements.fit.indentation import fit_indentation as fit_indentation
+from .measurements.fit.quoted import Quoted as Quoted
+from .measurements.fit.result import IndentationFit as IndentationFit
+from .measurements.measured_curve import MeasuredCurve as MeasuredCurve
+from .measurements.measured_curve import MeasuredCurves as MeasuredCurves
+from .measurements.reading import UnknownColumns as UnknownColumns
+from .measurements.reading import read_curve as read_curve
+from .measurements.reading import read_curves as read_curves
+from .measurements.unloading.oliver_pharr import oliver_pharr as oliver_pharr
+from .measurements.unloading.oliver_pharr_result import OliverPharr as OliverPharr
+from .scenes.scene import Scene as Scene
+from .solver.contact.creep import creep as creep
+from .solver.contact.indentation import Indentation as Indentation
+from .solver.contact.loading import indent as indent
+from .solver.contact.loading import indent_to_force as indent_to_force
+from .solver.contact.onset_of_yield import yield_depth as yield_depth
+from .solver.contact.onset_of_yield import yield_force as yield_force
+from .solver.contact.onset_of_yield import yield_speed as yield_speed
+from .solver.foundation.chain_impact import ChainImpact as ChainImpact
+from .solver.foundation.chain_impact import chain_impact as chain_impact
+from .solver.foundation.depth_path import TimedIndentation as TimedIndentation
+from .solver.foundation.depth_path import indent_in_time as indent_in_time
+from .solver.foundation.foundation import Foundation as Foundation
+from .solver.impacts.adhesive import capture_speeds as capture_speeds
+from .solver.impacts.impact import impact as impact
+from .solver.impacts.result import Impact as Impact
+from .solver.impacts.scaling import ScalingLaw as ScalingLaw
+from .solver.impacts.scaling import hardness_class as hardness_class
+from .solver.medium.hardness import HardnessLaw as HardnessLaw
+from .solver.medium.medium import Medium as Medium
+from .solver.medium.structure import Structure as Structure
+from .solver.oblique.ball import Ball as Ball
+from .solver.oblique.ball import at_angle as at_angle
+from .solver.oblique.oblique_impact import ObliqueImpact as ObliqueImpact
+from .solver.oblique.oblique_impact import oblique_impact as oblique_impact
+from .solver.profiles.power import Cone as Cone
+from .solver.profiles.power import FlatPunch as FlatPunch
+from .solver.profiles.power import Paraboloid as Paraboloid
+from .solver.profiles.power import PowerLaw as PowerLaw
+from .solver.profiles.profile import Profile as Profile
+from .solver.profiles.rounded import Hyperboloid as Hyperboloid
+from .solver.profiles.rounded import ParabolicPunch as ParabolicPunch
+from .solver.profiles.rounded import RoundedCone as RoundedCone
+from .solver.profiles.rounded import Sphere as Sphere
+from .solver.profiles.sampled import Sampled as Sampled
+from .solver.profiles.smooth import Smooth as Smooth
+from .solver.profiles.truncated import RoundedPunch as RoundedPunch
+from .solver.profiles.truncated import TruncatedCone as TruncatedCone
+from .solver.profiles.truncated import TruncatedParaboloid as TruncatedParaboloid
+
+__all__: list[str]
+__version__: str
