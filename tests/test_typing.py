@@ -44,7 +44,7 @@ def test_version_is_that_of_the_project():
     assert mdr.__version__ == project["project"]["version"]
 
 
-def test_first_calls_need_no_package_of_scipy_for_a_trifle():
+def test_first_calls_need_no_package_of_scipy_for_a_trifle(tmp_path):
     """A trapezoid or a polynomial is not worth half a second, or a download in a browser."""
     calls = (
         "import sys, numpy as np, mdr_core as mdr; "
@@ -52,9 +52,14 @@ def test_first_calls_need_no_package_of_scipy_for_a_trifle():
         "depth = np.append(np.linspace(1e-8, 1e-6, 60), np.linspace(1e-6, 9e-7, 30)); "
         "force = mdr.indent(tip, medium, depth).force; "
         "mdr.impact(tip, medium, 1e-9, 0.1).restitution; mdr.fit_indentation(tip, depth, force); "
-        "print([n for n in ('integrate', 'interpolate') if 'scipy.' + n in sys.modules])"
+        "plate = mdr.Structure.beam(0.3, 50.0, 0.4, modes=5); "
+        "mdr.impact(mdr.Paraboloid(8e-3), mdr.Medium(1e10), 0.05, 1.0, structure=plate).contacts; "
+        "open(sys.argv[1], 'w').write('h (nm), F (mN)\\n0, 0\\n10, 1\\n20, 4\\n'); "
+        "mdr.read_curve(sys.argv[1]); "
+        "heavy = 'integrate', 'interpolate', 'ndimage', 'optimize'; "
+        "print([n for n in heavy if 'scipy.' + n in sys.modules])"
     )
-    assert run("-c", calls).stdout.strip() == "[]"
+    assert run("-c", calls, str(tmp_path / "run.csv")).stdout.strip() == "[]"
 
 
 def test_heavy_parts_of_scipy_wait_until_they_are_needed():

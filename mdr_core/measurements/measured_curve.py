@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from typing import Any, Self, overload
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from ..base.check import Array, frozen, number, positive_number
@@ -224,12 +223,24 @@ def segments_of(depth, force, time=None):
             extreme, sign = i, -sign
     passed = np.searchsorted(turns, np.arange(depth.size))
     width = max(_FEW, int(_HOLD * depth.size)) | 1
-    largest, smallest = scipy.ndimage.maximum_filter1d, scipy.ndimage.minimum_filter1d
     still = force > force.min() + _PRESSED * np.ptp(force)
     for part in (depth, force):
-        still &= largest(part, width) - smallest(part, width) < _STILL * np.ptp(part)
-    holds = largest(still, width)
+        still &= _running_max(part, width) + _running_max(-part, width) < _STILL * np.ptp(part)
+    holds = _running_max(still, width) > 0
     return frozen(np.where(holds, "hold", np.array(["approach", "retract"])[passed % 2]))
+
+
+def _running_max(values, width):
+    """Largest value within half an odd width on either side of each sample.
+
+    Each window ends in one of two blocks of its width, of which it has the end and the beginning (van
+    Herk, Pattern Recognit. Lett. 13, 1992, 517).
+    """
+    half, rest = width // 2, -(values.size + width - 1) % width
+    blocks = np.pad(values.astype(float), (half, half + rest), constant_values=-np.inf).reshape(-1, width)
+    ends = np.maximum.accumulate(blocks[:, ::-1], axis=1)[:, ::-1].ravel()
+    beginnings = np.maximum.accumulate(blocks, axis=1).ravel()
+    return np.maximum(ends[: values.size], beginnings[width - 1 :][: values.size])
 
 
 def named_segments(words):
