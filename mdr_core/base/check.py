@@ -347,6 +347,12 @@ class Parameters:
                 f"others by name: {', '.join(by_name)}"
             )
 
+    def __str__(self) -> str:
+        return lazy.quantities.described(self)
+
+    def _repr_html_(self) -> str:
+        return lazy.report.parameters_as_html(self)
+
     def __getstate__(self):
         # Cached results are not pickled; some hold functions.
         return {field.name: getattr(self, field.name) for field in fields(self)}

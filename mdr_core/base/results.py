@@ -133,6 +133,18 @@ class Limit:
         return "beyond" if self.severe and self.concerns == "result" else "note"
 
 
+class Limits(tuple[Limit, ...]):
+    """Limits of a result: a tuple that is printed with a line for each."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{each.what} ({each.level}): {each.sentence}" for each in self)
+
+    def _repr_html_(self) -> str:
+        return lazy.report.limits_as_html(self)
+
+
 class Record:
     """Base class of results with quantities by name, which are arrays of one shape.
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..base import check
-from ..base.results import Limit
+from ..base.results import Limit, Limits
 from ..solver.impacts.scaling import MAX_ERROR, depth_in_fast_limit
 from ..solver.own.law import law_numbers
 from ..solver.profiles.power import Cone
@@ -46,7 +46,7 @@ def contact_limits(profile, medium, radius, *, slow=False):
     limits.extend(_critical_depth_limit(medium))
     limits.extend(_hardness_limit(medium))
     limits.extend(_flow_limit(profile, medium, radius))
-    return (*limits, *_tabor_limit(profile, medium), *_facet_limit(profile, medium))
+    return Limits((*limits, *_tabor_limit(profile, medium), *_facet_limit(profile, medium)))
 
 
 def _slope_limit(profile, radius):
@@ -294,19 +294,19 @@ def speed_limit(speed, medium, density):
 def path_limits(path):
     """Limits of the states of an `Indentation`."""
     limits = contact_limits(path.profile, path.medium, path.contact_radius, slow=not path.in_time)
-    return (*limits, *jump_limits(path.jumps))
+    return Limits((*limits, *jump_limits(path.jumps)))
 
 
 def impact_limits(hit):
     """Limits of an `Impact`, that of the fast limit (23), (24) included."""
     limits = contact_limits(hit.profile, hit.medium, hit.contact_radius)
-    return (*limits, *structure_limits(hit), *how_fast(hit))
+    return Limits((*limits, *structure_limits(hit), *how_fast(hit)))
 
 
 def chain_limits(hit):
     """Limits of a `ChainImpact`."""
     limits = contact_limits(hit.profile, hit.medium, hit.contact_radius)
-    return (*limits, *structure_limits(hit))
+    return Limits((*limits, *structure_limits(hit)))
 
 
 def how_fast(hit):

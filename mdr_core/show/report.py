@@ -17,6 +17,8 @@ _MANY = 1000
 #: Lines of a result's `repr`.
 _MOST_LINES = 12
 #: Quantities that are given, not computed.
+#: Limits that are exceeded in every scene of some tips and media.
+_USUAL = {"slope", "flow"}
 _GIVEN = {"depth", "time", "mass", "speed", "tangential_speed", "friction", "tangential_mass"}
 
 
@@ -61,7 +63,9 @@ def table(result):
     columns. Array-valued parameters of indenter and medium have columns of their own.
     """
     pandas = imported("pandas", "to_pandas()")
-    values = result.to_dict() | _parameters(result)
+    absent = _absent(result)
+    values = {name: value for name, value in result.to_dict().items() if name not in absent}
+    values |= _parameters(result)
     columns = {name: np.broadcast_to(v, result.shape).ravel() for name, v in values.items()}
     if len(result.shape) > 1:
         index = pandas.MultiIndex.from_product(map(range, result.shape), names=dimensions(result))
@@ -73,6 +77,18 @@ def table(result):
     names = {name: quantity.long_name for name, quantity in named.items()}
     table.attrs.update(attributes(result), units=units, long_names=names)
     return table
+
+
+def _absent(result):
+    """Names of quantities that are 0 because medium and structure lack what they are of."""
+    source = Presentation(result).source
+    if source is None:
+        return set()
+    names = set() if np.any(source.medium.eta) else {"viscous_work"}
+    names |= set() if np.any(source.medium.work_of_adhesion) else {"adhesive_work"}
+    if len(owners(source)) < 3:
+        names |= {"structure_work", "support_energy", "deflection", "max_deflection"}
+    return names
 
 
 def dataset(result):
@@ -154,10 +170,12 @@ def limit_rows(result, most):
     if np.prod(result.shape) > _MANY:
         return
     limits = [x for x in Presentation(result).limits if x.exceeded and x.concerns == "result"]
-    first = limits if len(limits) <= most else limits[: max(most - 1, 0)]
+    # A pyramid always exceeds the usual ones: others are seen first.
+    rare = [limit for limit in limits if limit.severe or limit.what not in _USUAL]
+    first = rare if len(rare) <= most - (len(rare) < len(limits)) else rare[: max(most - 1, 0)]
     yield from (("limit", limit.sentence) for limit in first)
-    if others := limits[len(first) :]:
-        yield "limits", f"{', '.join(limit.what for limit in others)}: see .limits"
+    if others := [limit.what for limit in limits if limit not in first]:
+        yield "limits", f"{', '.join(others)}: see .limits"
 
 
 def text(result):
@@ -180,6 +198,23 @@ def table_of_text(result):
         for label, text in (*rows(result), *limit_rows(result, _MOST_LINES))
     )
     return f"<table><caption>{html.escape(title(result))}</caption>{cells}</table>"
+
+
+def parameters_as_html(thing):
+    """The parameters of a profile, a medium or a structure, but for defaults, as a table in HTML."""
+    kind, *given = described(thing).split(", ")
+    cells = "".join(f"<tr><td style='text-align:left'>{html.escape(each)}</td></tr>" for each in given)
+    return f"<table><caption>{html.escape(kind)}</caption>{cells}</table>"
+
+
+def limits_as_html(limits):
+    """Limits of a result as a table in HTML."""
+    cells = "".join(
+        f"<tr><th style='text-align:left'>{html.escape(each.what)}</th><td>{each.level}</td>"
+        f"<td style='text-align:left'>{html.escape(each.sentence)}</td></tr>"
+        for each in limits
+    )
+    return f"<table><caption>Limits</caption>{cells}</table>"
 
 
 def foundation_text(foundation):

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...base import check, lazy
 from ...base.check import Array, ArrayLike
-from ...base.results import Entries, Limit, Model, Result, check_single
+from ...base.results import Entries, Limit, Limits, Model, Result, check_single
 from ..applicability import check_pair, refuse_adhesion, shape_with
 from ..contact.yielding import yield_rule
 from ..impacts.impact import impact
@@ -219,7 +219,7 @@ class ObliqueImpact(Entries, Result):
         the tangential motion have been measured.
         """
         limits = (x for x in self.normal.limits if x.concerns == "result")
-        return (*limits, *lazy.limits.friction_limits(self.medium), *self._stick_limits())
+        return Limits((*limits, *lazy.limits.friction_limits(self.medium), *self._stick_limits()))
 
     def _stick_limits(self):
         sticks, surface = ~np.asarray(self.slips_throughout), self._surface
