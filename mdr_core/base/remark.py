@@ -121,9 +121,9 @@ class Remark(str):
     Examples
     --------
     >>> from mdr_core import Remark, Remedy
-    >>> remark = Remark("q_c is at its bound", "bound", Remedy("hold", "q_c"))
+    >>> remark = Remark("q_c is at its bound", "undetermined", Remedy("hold", "q_c"))
     >>> print(remark, remark.kind, remark.remedy[0].action, sep=" | ")
-    q_c is at its bound; hold q_c | bound | hold
+    q_c is at its bound; hold q_c | undetermined | hold
     """
 
     __slots__ = ("kind", "remedy", "text", "together")

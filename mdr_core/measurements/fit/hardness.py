@@ -227,9 +227,9 @@ class HardnessFit(Fit):
     Examples
     --------
     >>> from mdr_core import Cone, fit_hardness
-    >>> fit = fit_hardness(Cone(slope=0.3), [1e-6, 2e-6], [2e9, 2e9], E_star=70e9)
+    >>> fit = fit_hardness(Cone(slope=0.3), [1e-6, 2e-6, 4e-6], [2e9, 1e9, 5e8], E_star=70e9, q_c=None)
     >>> print(fit.hardness_class, f"{fit.slope:.1f}")
-    a 0.0
+    b -1.0
     """
 
     standard_errors: dict[str, float]

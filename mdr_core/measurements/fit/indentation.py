@@ -46,55 +46,39 @@ def fit_indentation(
 ) -> IndentationFit:
     """Fit a medium to a measured force–depth curve by least squares: the inverse of `indent`.
 
-    Parameters that are None are free, numbers are held. If the medium yields, the unloading determines E*
-    and the loading the hardness. If it is elastic, `q_c=inf`, an approach is enough. The model is the force
-    of the contact with a background F₀ + F₁ z + ζ ż, where z is the measured depth.
+    A parameter that is None is free, and a number holds it. The model is the force of the contact with a
+    background F₀ + F₁ z + ζ ż, z being the measured depth. The page *What a fit does* describes the model,
+    its errors and remarks, and what is not in it.
 
     Parameters
     ----------
     profile : Profile
         The indenter, one for all curves.
     depth, force : array_like
-        Measured depths (m) and forces (N) in the order of time, of the same shape: one curve (N,), or many
-        (R, N) with one indenter, each on a virgin medium; or lists of R arrays of different lengths.
-        Samples with NaN are left out. A drift and frame compliance are subtracted before, by
-        `MeasuredCurve.minus_drift` and `minus_frame`. With `q_c=inf`, without `time` and without adhesion
-        the order does not matter. In the place of depth and force a `MeasuredCurve`, as of `read_curve`, or
-        `MeasuredCurves`, whose remarks come first in those of the fit.
+        Measured depths (m) and forces (N) in the order of time: one curve (N,), many (R, N), or lists of R
+        arrays. Samples with NaN are left out. Instead of both, a `MeasuredCurve` or `MeasuredCurves`.
     time : array_like, optional
-        Increasing times (s) of the samples, of the same shape; needed for `eta` and `drag`, and for remarks
-        on drag and drift that are left out. The rate ż is the central difference of the depths, so that a
-        noisy depth makes a noisy rate: average neighbouring samples first. Where the rate jumps from one
-        sample to the next, the sample has no weight. Those of a `MeasuredCurve` are taken unless this is
-        None.
+        Increasing times (s), needed for `eta` and `drag`. A `MeasuredCurve` has its own; None ignores them.
     E_star : float, optional
         Effective modulus (Pa).
     q_c, hardness, f_c : float, optional
-        Constants of the hardness σ_c(a) = hardness + q_c/a + f_c/a² (N/m, Pa, N) as in `Medium`: those that
-        are not given are 0, and if none is given q_c is free. Give `hardness=None` for a glass or a metal,
-        class (a), and `q_c=None, hardness=None` for a hardness with a size effect. With `q_c=inf` the
-        medium is elastic. `hardness` and `f_c` are not fitted together with `eta` or `work_of_adhesion`.
-        For a `HardnessLaw` take `scipy.optimize.curve_fit` over `indent`: the gallery has an example.
+        Constants of the hardness σ_c = hardness + q_c/a + f_c/a² (N/m, Pa, N). By default q_c is free and
+        the others are 0. `hardness=None` is for a glass or a metal, `q_c=np.inf` for an elastic medium.
     eta : float, optional
-        Viscosity η (Pa·s) of the medium, 0 by default; see Notes.
+        Viscosity η (Pa·s) of the medium, 0 by default. Not with `hardness` or `f_c`.
     contact_point : float, optional
-        Measured depth z₀ (m) at first contact, searched over the record and 30 of its ranges below.
+        Measured depth z₀ (m) at first contact.
     baseline, tilt, drag : float, optional
-        Background: force F₀ (N) without contact, its slope F₁ (N/m) over depth, and the drag ζ (N·s/m) of
-        a liquid, which shifts approach and retract apart. 0 by default.
+        Force F₀ (N) without contact, its slope F₁ (N/m), and the drag ζ (N·s/m) of a liquid; 0 by default.
     work_of_adhesion : float, optional
-        Work of adhesion w (J/m²) of an elastic medium, 0 by default; see Notes.
+        Work of adhesion w (J/m²) of an elastic medium, 0 by default. Not with `eta` or `depth_noise`.
     depth_noise : float, optional
-        Standard deviation (m) of the measured depth. Without it noise is taken for new largest depths, and
-        E* is biased.
+        Standard deviation (m) of the measured depth. Without it, noise counts as new largest depths.
     force_noise : float or array_like, optional
-        Standard deviation (N) of the measured force, for all samples or for each sample; samples are
-        weighted by its inverse. None estimates it from the residuals, or with `depth_noise` from third
-        differences of the force, which requires fine sampling.
+        Standard deviation (N) of the measured force; None estimates it from the residuals.
     invalid : {"raise", "nan"}
-        If one of many curves cannot be fitted, "raise" raises an error, and "nan" gives NaN as its results;
-        `fit.invalid` has the reasons by the numbers of these curves. If no curve can be fitted, the first
-        reason is raised.
+        What to do with a curve that cannot be fitted: raise an error, or give NaN and a reason in
+        `fit.invalid`.
 
     Returns
     -------
@@ -102,69 +86,9 @@ def fit_indentation(
 
     Raises
     ------
-    ValueError
+    MDRError
         If data are infinite, of different shapes, have no force above the baseline, or fewer samples than
-        free parameters; if `eta` or `drag` are not 0 and `time` is missing or does not increase; if
-        `hardness` or `f_c` is not 0 and `eta` or `work_of_adhesion` is not, or `hardness` is not 0 and the
-        shape is not convex, or is a law.
-
-    Notes
-    -----
-    **Viscosity.** For ḋ ≥ 0, F = 2E* ∫ a(s) ds + 8η a(d) ḋ with the integral from d_p to d. For ḋ < 0
-    elements are released at d + τḋ, τ = 4η/E*, and F = 2E* ∫ a(s) ds ends at this depth. This is the force
-    of `indent_in_time` (Popov (2015), Eq. (1)) on an approach, a hold and a retract, and on a second
-    indentation after all elements have relaxed.
-
-    A solid whose modulus relaxes by E₁ in a time t₁ much shorter than the record has nearly the same force:
-    E* is then the relaxed modulus, and η = E₁ t₁/4. With E₁ = E* and t₁ equal to a twentieth of the loading
-    time, E* is 2 to 6 % too large without a remark; with a fifth it is 12 to 36 % too large, and most
-    records have a remark.
-
-    **Holds.** With `time`, a hold at constant depth (m) stays in the record: ḋ is 0 there, and from its
-    first sample on only the springs contribute to the force (N). A force that goes on falling, or a depth
-    that creeps, is a relaxation that the model does not describe: cut these samples out of all arrays,
-    ``keep = (time < start) | (time > stop)`` (s) with ``depth[keep], force[keep], time=time[keep]``. Rates
-    at the edges of the gap are computed from the nearer samples.
-
-    **Adhesion** is fitted for an elastic medium only, `q_c=inf`, because the retract from a medium that
-    yields does not determine it. The states are computed as by `indent`; the record must extend from before
-    contact to after the pull-off. E*, w and z₀ follow from the forces in contact. The samples in contact
-    are found from the data, because a soft cantilever loses contact earlier than the model, in which the
-    depth is prescribed; a remark gives the difference in depth. The samples next to a jump into or out of
-    contact have no weight; `path` and `residuals` have the jumps of the model. Adhesion cannot be fitted
-    together with `eta` or `depth_noise`.
-
-    **Classes.** Glass, metals and ceramics have a constant hardness, class (a); composites, PDMS and gold
-    at the nanoscale q_c/a, class (b); a hardness that is larger when the contact is small is the sum of
-    both. `fit.classes` has the fits of each class alone, and the report of one curve those that its samples
-    do not rule out. This assumes a known tip, one loading without pop-ins and one unloading. A curve often
-    does not distinguish two free constants; a remark reports this.
-
-    E* and the hardness belong to the model, whose contact radius on loading has the sink-in of an elastic
-    contact. Plastic flow has less sink-in: on fused silica E* is 82.7 GPa, by Oliver and Pharr 69.6 GPa.
-    The hardness is the mean pressure of a fully yielded contact, 14.3 GPa. The mean pressure of the contact
-    in the model, whose rim is elastic, is 10.9 GPa. Oliver and Pharr's hardness, which instruments report,
-    refers to a larger contact and is 9.1 GPa. The report gives all three.
-
-    **Not in the model**: relaxation over more than one time, adhesion that changes between approach and
-    retract, poroelastic flow, layers, finite thickness. Residuals are then systematic; a remark reports
-    them if they exceed 5 % of the force, or 1 % if the medium yields. A tilt, a drag, a drift of the depth
-    and a force that is different on unloading (creep, hysteresis) are reported with the change of E* where
-    they would lower the residuals in contact clearly, or change E* by more than its error at 3.3 standard
-    deviations; drag and drift only if `time` is given. Such a remark is made on 0.3 % of clean curves. If
-    the medium yields, the drift is measured in a hold; without a hold it is not seen, and 0.1 nm/s over two
-    minutes changes the E* of a metal by some per cent. If E* is held, or with adhesion, these effects are
-    not tested. The report has the numbers of Oliver and Pharr if the model fits the curve, without
-    viscosity and adhesion.
-
-    **Standard errors** come from the Jacobian at the solution, with the variance σ_F² + (S σ_d)², S the
-    slope. In simulated curves deviations over errors have standard deviations of 0.9 to 1.2; with depth
-    noise above 1/15 of the depth or above the critical depth 1.5 to 3, and E* is wrong by a sixth. Where
-    neighbouring residuals are correlated, errors are computed from block-wise sums of the score (Newey &
-    West, Econometrica 55, 1987, 703); the report states this, and `block_length` is the number of samples
-    in a block. Remarks name outliers, too few samples in contact, and too few blocks. `assets/fits.md`
-    lists how often E* is within its errors on curves that deviate from the model, and the deviations that
-    no test finds.
+        free parameters; if times are missing or do not increase; if parameters are not fitted together.
 
     Examples
     --------
@@ -175,32 +99,6 @@ def fit_indentation(
     >>> fit = fit_indentation(Cone(slope=0.3), d + 3e-9, F)
     >>> print(f"{fit.medium.E_star:.6g} {fit.medium.q_c:.6g} {fit.contact_point:.6g}")
     1e+10 100 3e-09
-
-    A viscous medium in a liquid, from approach, hold and retract:
-
-    >>> from mdr_core import indent_in_time
-    >>> t = np.linspace(0.0, 1.0, 161)
-    >>> d = np.interp(t, [0.0, 0.4, 0.6, 1.0], [-10e-9, 50e-9, 50e-9, -10e-9])
-    >>> F = indent_in_time(Cone(slope=0.3), Medium(E_star=10e9, eta=1e8), d, t).force
-    >>> F = F + 2.0 * np.gradient(d, t)
-    >>> fit = fit_indentation(Cone(slope=0.3), d, F, time=t, q_c=np.inf, eta=None, drag=None)
-    >>> print(f"{fit.medium.E_star:.3g} {fit.medium.eta:.3g} {fit.drag:.3g}")
-    1e+10 1e+08 2
-
-    A medium with adhesion, from before contact to after the pull-off:
-
-    >>> d = np.append(np.linspace(-10e-9, 60e-9, 100), np.linspace(60e-9, -20e-9, 120))
-    >>> F = indent(Cone(slope=0.3), Medium(E_star=1e9, work_of_adhesion=0.2), d).force
-    >>> fit = fit_indentation(Cone(slope=0.3), d, F, q_c=np.inf, work_of_adhesion=None)
-    >>> print(f"{fit.medium.E_star:.6g} {fit.medium.work_of_adhesion:.6g}")
-    1e+09 0.2
-
-    A map with a curve that cannot be fitted:
-
-    >>> F = np.stack([F, 0 * F])
-    >>> fit = fit_indentation(Cone(slope=0.3), [d, d], F, q_c=np.inf, invalid="nan")
-    >>> print(fit.invalid[1][:28], fit.medium.E_star[1])
-    not fitted: largest force[0] nan
     """
     check_pair(profile, Medium(1.0), "a fit")
     check.one_of("invalid", invalid, ("raise", "nan"))

@@ -40,35 +40,31 @@ def oliver_pharr(
 ) -> "OliverPharr":
     """Compute modulus and hardness from the unloadings of a force–depth curve by Oliver and Pharr (1992).
 
-    F = α (h − h_f)^m is fitted to the upper half of the unloading: samples after the largest depth, from
-    the last one with 99 % of the force, so that a hold is left out, to the first one below half of it. F
-    and its slope S at the largest depth h give the contact depth h_c = h − ε F/S. With the radius a of the
-    profile at that height, z(a) = h_c, and A = π a², E* = S √π/(2β √A) and H = F/A.
+    F = α (h − h_f)^m is fitted to the upper half of the unloading. F and its slope S at the largest depth h
+    give the contact depth h_c = h − ε F/S. With the radius a of the profile at that height, z(a) = h_c, and
+    A = π a², E* = S √π/(2β √A) and H = F/A. The page *What a fit does* describes first contact, the
+    correction for creep, and the quantities of ISO 14577.
 
     Parameters
     ----------
     profile : Profile
         The indenter.
     depth, force : array_like
-        Depths (m) and forces (N), (N,), in the order of time. Samples with NaN are left out. Where the
-        record begins in the air first contact and the force without contact are found and subtracted;
-        else depths count from first contact and forces from the baseline. See Notes. In the place of depth
-        and force a `MeasuredCurve`, as of `read_curve`.
+        Depths (m) and forces (N), (N,), in the order of time. Samples with NaN are left out. First contact
+        is subtracted if the record begins in the air. Instead of both, a `MeasuredCurve`.
     time : array_like, optional
-        Increasing times (s) of the samples, (N,): the stiffness is corrected for creep. See Notes. Those of
-        a `MeasuredCurve` are taken unless this is None.
+        Increasing times (s): the stiffness is corrected for creep in a hold. A `MeasuredCurve` has its own;
+        None ignores them.
     stiffness : array_like or True, optional
-        Measured contact stiffness S (N/m) at each sample, (N,), of a continuous measurement; NaN where
-        there is none; True for that of a `MeasuredCurve`. Results are then those of each sample. Not with
-        `time` or `cycles`.
+        Measured contact stiffness S (N/m) at each sample, (N,), NaN where there is none; True for that of a
+        `MeasuredCurve`. Results are then those of each sample. Not with `time` or `cycles`.
     epsilon : float, optional
         Constant ε: 1 for a flat punch, 3/4 for a paraboloid, 2 − 4/π for a cone.
     beta : float, optional
         Correction β of the stiffness, 1 for axisymmetric indenters.
     cycles : bool, optional
-        Whether each unloading has an entry, in the order of time: where the force falls by a tenth of a
-        peak and more, before it rises again by as much. Those that follow no power law are left out, with
-        a remark. Otherwise the unloading after the largest depth is taken.
+        Whether each unloading has an entry, in the order of time. Those that follow no power law are left
+        out, with a remark. By default the unloading after the largest depth is taken.
 
     Returns
     -------
@@ -77,44 +73,10 @@ def oliver_pharr(
 
     Raises
     ------
-    ValueError
-        If there are no five samples of the upper half of an unloading, or they follow no power law; if the
-        contact depth is not positive, or the profile is not known to it; if times do not increase; if no
+    MDRError
+        If the upper half of an unloading has fewer than five samples, or follows no power law; if the
+        contact depth is not positive or the profile is not known there; if times do not increase; if no
         sample has a positive stiffness.
-
-    Notes
-    -----
-    For an elastic contact and the ε of its shape E* is exact. A yielded cone in a medium of this package
-    has z(a) = 2d/π, and here z(a) → d: E* is up to π/2 times smaller than the medium's, H (π/2)² times.
-
-    **First contact.** A record begins in the air where the force of its first 5 samples and more is noise
-    about a constant, over 2 % of the largest depth or more. A power law of the depth from first contact on
-    is then fitted to the beginning of the loading. Its z₀ is `contact_point`, whose error is included in
-    the errors of the results, with a remark. So it is in the air after a preload, from which the indenter
-    is lifted off. Otherwise depths are taken as given and `contact_point` is 0. If the first depth is 0
-    where the force is 1 % of the largest one or more, a remark has E* and H of both readings: of a depth
-    that was set to 0 in contact, and of a force with an offset.
-
-    **Creep** at the start of an unloading makes S too large. With `time`, and a hold of the force before
-    the unloading, the depth of the unloading is reduced by creep at the rate ḣ of the end of the hold: at
-    the start of the unloading 1/S = 1/S_measured − ḣ/Ṗ, where Ṗ < 0 is the rate of the force (Feng and
-    Ngan, J. Mater. Res. 17, 2002, 660). `uncorrected` has the results without it. For simulated records
-    with −ḣ/Ṗ of 20 % of 1/S, E* is then within 1 % instead of 14 or 15 % too large, where the unloading
-    takes no longer than the hold; where it takes four times as long, and the rate falls meanwhile, E* is
-    up to 3 % too small. A remark gives the length of the hold. It is the time between straight lines
-    through the force before and after, at the force that is held, so that the tip of a triangle is no
-    hold. Without `time` creep shows in m: a remark says where it is larger than that of the tip's elastic
-    contact, or than 1.7 where more than half of the depth remains, or different by 0.2 and more in parts
-    of the unloading, each beyond the scatter. Where m is above 1.5 and a fourth of the depth remains, the
-    errors are as large as the results of parts down to 20 % of the force deviate.
-
-    **ISO 14577.** `elastic_work_ratio` is n_IT = W_elast/W_total, of the work of the unloading, and of the
-    loading and the hold before it. Below the last sample the unloading is continued by its power law, not
-    from above 20 % of the largest force; a hold after the unloading is no part of it. `indentation_creep`
-    is C_IT = (h₂ − h₁)/h₁ of the depths at both ends of a hold, `martens_hardness` HM = F/(26.43 h²) at
-    the end of the loading, for cones of 70.2° to 70.4°, which stand for Berkovich and Vickers pyramids.
-    Those that a record lacks are None, and NaN for such an unloading of several. If the force falls by less
-    than a tenth they are NaN, with a remark. Another remark names the force from which n_IT is continued.
 
     Examples
     --------
@@ -125,22 +87,6 @@ def oliver_pharr(
     >>> result = oliver_pharr(Cone(slope=0.3), d, F, epsilon=2 - 4 / np.pi)
     >>> print(f"{result.E_star:.6g} {result.hardness:.6g} {result.exponent:.6g}")  # H = E* s/2
     1e+10 1.5e+09 2
-
-    Two cycles, a table over contact depth by ``.to_pandas()``:
-
-    >>> d, F = np.append(0.5 * d, d), np.append(0.25 * F, F)
-    >>> table = oliver_pharr(Cone(slope=0.3), d, F, epsilon=2 - 4 / np.pi, cycles=True)
-    >>> print((1e9 * table.contact_depth).round(3), (1e-9 * table.E_star).round(6))
-    [19.099 38.197] [10. 10.]
-
-    E* and H over depth from a measured stiffness, as of a continuous measurement:
-
-    >>> d = np.linspace(10e-9, 60e-9, 6)
-    >>> state = indent(Cone(slope=0.3), Medium(E_star=10e9), d)
-    >>> F, S = state.force, state.stiffness
-    >>> over = oliver_pharr(Cone(slope=0.3), d, F, stiffness=S, epsilon=2 - 4 / np.pi)
-    >>> print((1e-9 * over.E_star).round(6))
-    [10. 10. 10. 10. 10. 10.]
     """
     check_pair(profile, Medium(1.0), "an unloading")
     constants = check.positive_number("epsilon", epsilon, zero=True), check.positive_number("beta", beta)
