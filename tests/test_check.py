@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.base import check
 from mdr_core.show.synonyms import SYNONYMS, plain
 
 from .approx import approx
@@ -31,6 +32,29 @@ def test_kinds_of_numbers_do_not_matter(depth):
     assert mdr.indent(cone, MEDIUM, depth).force == mdr.indent(cone, MEDIUM, 2.0**-20).force
     hit = mdr.impact(mdr.Cone(np.float32(0.25)), MEDIUM, depth, np.int8(2))
     assert hit.max_depth == mdr.impact(mdr.Cone(0.25), MEDIUM, 2.0**-20, 2.0).max_depth
+
+
+def outcome(function, value, **rules):
+    """What a check gives or refuses of a value, apart from its type and the index of an entry."""
+    try:
+        return np.ravel(function("length", value, **rules)).tolist()
+    except ValueError as error:
+        return error.text.replace("one real number", "real numbers").partition(", got")[0]
+
+
+@pytest.mark.parametrize("infinite", [False, True])
+@pytest.mark.parametrize("zero", [False, True])
+def test_a_number_is_checked_as_the_array_of_it(infinite, zero):
+    """Inside, on and beyond each bound; bool, text and integers that are no double, too."""
+    bounds = [0.0, -0.0, 1e-25, 1e25, 1e-60, 1e60, 1e140, np.inf, np.nan, 1e-26, 1e26, 1e-61, 1e61, 1e141]
+    others = (3, -3, 2**53 + 1, 10**20, 10**400, True, "1", np.float32(2))
+    for value in (*bounds, *np.negative(bounds), *others):
+        for unit in ("", "m"):
+            rules = {"unit": unit, "zero": zero, "infinite": infinite}
+            one, many = (outcome(check.positive, each, **rules) for each in (value, [value]))
+            assert one == many, value
+            one, many = (outcome(check.finite_array, each, unit=unit) for each in (value, [value]))
+            assert one == many, value
 
 
 @pytest.mark.parametrize(

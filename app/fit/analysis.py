@@ -14,7 +14,6 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.base.remark import Remark, Remedy
 from mdr_core.measurements.fit.noise import jitter
-from mdr_core.measurements.fit.quoted import unloading
 from mdr_core.measurements.reading import UnknownColumns
 from mdr_core.show.units import written
 
@@ -141,7 +140,7 @@ def fit(curve: Any, asked: dict[str, Any]) -> SimpleNamespace:
     quoted, above, below = _plausible(found.quoted, asked, arguments, curve, taken, used, part)
     of_unloading = None
     if quoted.source == "unloading":
-        of_unloading, _ = unloading(found)
+        of_unloading, _ = found.unloading
         remarks += of_unloading.remarks
         above = above or tuple(each for each in of_unloading.remarks if each.kind == "units")
     below += tuple(each for each in remarks if each.kind in _OF_THE_NUMBER.get(quoted.source, ()))

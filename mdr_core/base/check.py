@@ -56,8 +56,16 @@ def one_of(quantity, value, known):
     return value
 
 
+def _is_double(value):
+    """Whether a value is one double, or an int that is one exactly: no array is needed to look at it."""
+    kind = type(value)
+    return kind is float or kind is np.float64 or (kind is int and abs(value) <= 2**53)
+
+
 def number(quantity, value, unit=""):
     """`value` as a float, if it is one real number: no bool, no text, no array."""
+    if _is_double(value):
+        return float(value)
     value = in_unit(quantity, value, unit)
     try:
         array = np.asarray(value)
@@ -117,6 +125,11 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False, within=Non
 
     Finite numbers must lie `within` two bounds, by default those of quantities of their unit.
     """
+    least, most = within or _bounds(unit, zero)
+    if _is_double(value) and (
+        least <= value <= most or (zero and value == 0) or (infinite and value == np.inf)
+    ):
+        return float(value)
     value = in_unit(quantity, value, unit)
     many = isinstance(value, list | tuple | np.ndarray)
     what = "real numbers" if many else "one real number"
@@ -129,7 +142,6 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False, within=Non
     bound = f"must be {'' if infinite else 'finite and '}{'not negative' if zero else 'positive'}"
     advice = f"give it in SI units ({unit})" if unit else "check it"
     refuse(quantity, values, bad, bound, unit=unit, advice=advice)
-    least, most = within or _bounds(unit, zero)
     outside = (values > 0) & (values < least) | (values > most) & (values < np.inf)
     bound = f"must {'be 0 or ' if zero else ''}lie between {least:g} and {most:g}"
     refuse(quantity, values, outside, bound, unit=unit, advice=advice)
@@ -180,6 +192,8 @@ def _real_array(quantity, value, what="real numbers", unit=""):
 
 def finite_array(quantity, value, *, unit="", most=FARTHEST, missing=False):
     """A copy of `value` as a float array of numbers up to `most`, without infinity; NaN where `missing`."""
+    if _is_double(value) and -most <= value <= most:
+        return np.array(value, float)
     # A result that keeps the array must not change with the argument.
     array = _real_array(quantity, in_unit(quantity, value, unit), unit=unit).copy()
     large = np.isfinite(array) & (np.abs(array) > most)
@@ -201,7 +215,8 @@ def force(quantity, value):
 
 def refuse(quantity, array, bad, bound, *, unit="", advice="", remedy=()):
     """`array`, if no entry is `bad`; else an error that names the first one and counts the others."""
-    if np.any(bad):
+    # Of one entry it takes a third of the time of np.any.
+    if np.count_nonzero(bad):
         raise InvalidEntries(quantity, array, bad, bound, unit, advice, remedy)
     return array
 
@@ -236,6 +251,8 @@ def doubles(name, value, refused):
 
 def common_shape(what, **values):
     """Shape to which the values broadcast; else an error that names their shapes."""
+    if all(map(_is_double, values.values())):
+        return ()
     for name, value in values.items():
         if not _carries_unit(value):
             _real_array(name, value)

@@ -100,9 +100,8 @@ class InvalidEntries(InvalidArgument):
     """The error of `refuse`: `bad` says which entries of the `values` of a quantity are invalid."""
 
     def __init__(self, quantity, values, bad, bound, unit, advice, remedy=()):
-        self.values = values
-        self.bad = np.broadcast_to(bad, values.shape)
-        value = values.flat[np.argmax(self.bad)].item()
+        self.values, self.bad = np.broadcast_arrays(values, bad)
+        value = self.values.flat[np.argmax(self.bad)].item()
         super().__init__("", quantity, value, bound, unit, advice, remedy)
         # The text is composed when it is asked for; these make a copy of the error.
         self.args = quantity, values, bad, bound, unit, advice, remedy

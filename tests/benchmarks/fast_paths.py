@@ -252,6 +252,8 @@ PATHS = (
      lambda: crept(ROUND, WET)),
     ("_parameters kept, 100 cones", lambda: uncached_everywhere(check._parameters),
      lambda: [mdr.Cone(slope=0.2 + 0.01 * i) for i in range(100)]),
+    ("_is_double, 100 media", lambda: patch.object(check, "_is_double", lambda value: False),
+     lambda: [mdr.Medium(1e9, q_c=10.0 + i) for i in range(100)]),
 )  # fmt: skip
 
 

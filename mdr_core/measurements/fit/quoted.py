@@ -69,7 +69,7 @@ def quoted(fit):
             return _none(doubt)
     if fit.medium.q_c == np.inf:
         return _of_the_fit(fit)
-    result, contact = unloading(fit)
+    result, contact = fit.unloading
     if result is None:
         return _none(contact)
     reason = f"the medium yields; first contact {contact.text}"
@@ -122,13 +122,15 @@ def unloading(fit) -> tuple[OliverPharr | None, Remark]:
     # Without background the measured force is that of the contact plus the residual.
     force = fit.path.force + fit.residuals
     try:
+        if "contact_point" in fit.standard_errors and _begins_at_contact(fit.depth, force):
+            result = _evaluated(fit, fit.depth, force)
+            if "contact_point" not in result.standard_errors:
+                return result, _first("is at depth 0")
         result = _evaluated(fit, fit.path.depth, force)
         if "contact_point" in result.standard_errors:
             return result, _first("is taken from the record, which begins in the air")
         if "contact_point" not in fit.standard_errors:
             return result, _first("is held")
-        if _begins_at_contact(fit.depth, force):
-            return _evaluated(fit, fit.depth, force), _first("is at depth 0")
         if doubt := _doubt(fit, DOUBTS):
             return None, doubt.after("the model does not fit, so that first contact is not known: ")
         shift = fit.standard_errors["contact_point"]

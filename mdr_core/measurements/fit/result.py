@@ -15,7 +15,7 @@ from ...show.report import with_error
 from ...solver.contact.indentation import Indentation
 from ...solver.contact.live_interval import LiveInterval
 from ...solver.medium.medium import Medium
-from ..unloading.oliver_pharr_result import OLIVER_PHARR
+from ..unloading.oliver_pharr_result import OLIVER_PHARR, OliverPharr
 from .classes import ClassFit, HardnessVerdict, class_of_hardness, fit_again, fits_of_classes, verdict
 from .dataset import SAMPLES, dataset_of
 from .figures import plot_fit
@@ -178,6 +178,12 @@ class IndentationFit(Fit):
         return class_of_hardness(self.classes, np.count_nonzero(np.isfinite(self.residuals)))
 
     @cached_property
+    def unloading(self) -> tuple[OliverPharr | None, Remark]:
+        """Results of Oliver and Pharr for one curve, and what first contact is; or None, and why."""
+        check_single(self, "unloading")
+        return unloading(self)
+
+    @cached_property
     def quoted(self) -> Quoted:
         """The modulus of one curve that is to be quoted, and of what it is; found when first read."""
         check_single(self, "quoted")
@@ -244,7 +250,7 @@ class IndentationFit(Fit):
 
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
-        result, _ = unloading(self)
+        result, _ = self.unloading
         if result is None or {"misfit", "noise"} & {remark.kind for remark in self.remarks}:
             return
         errors = result.standard_errors

@@ -185,8 +185,7 @@ def refuse_sum(medium):
     """Refuses a `Medium` whose hardness is 0, or has an infinite q_c beside another class."""
     if isinstance(medium.hardness, HardnessLaw):
         return
-    others = np.asarray(medium.hardness) + np.asarray(medium.f_c)
-    q_c = np.broadcast_to(medium.q_c, np.broadcast_shapes(np.shape(medium.q_c), others.shape))
+    q_c, others = medium.q_c, medium.hardness + medium.f_c
     for bad, bound, advice in (
         (
             (q_c == 0) & (others == 0),
@@ -207,8 +206,8 @@ def refuse_beside_adhesion(medium):
 
     All entries of an ensemble are solved by one method, and that of adhesion has none of these.
     """
-    sticks = np.asarray(medium.work_of_adhesion) > 0
-    if not np.any(sticks):
+    sticks = medium.work_of_adhesion > 0
+    if not np.count_nonzero(sticks):
         return
     if isinstance(medium.hardness, HardnessLaw):
         raise check.MDRError(

@@ -48,6 +48,8 @@ class FlatPunch(Profile):
     def radius_at(self, depth):
         return np.zeros_like(depth) + self.radius
 
+    radius_at_height = radius_at
+
 
 @dataclass(frozen=True, eq=False)
 class Cone(Profile):
@@ -136,6 +138,9 @@ class Cone(Profile):
     def radius_at(self, depth):
         return depth / (np.pi / 2 * self.slope)
 
+    def radius_at_height(self, height):
+        return height / self.slope
+
 
 @dataclass(frozen=True, eq=False)
 class Paraboloid(Profile):
@@ -175,6 +180,9 @@ class Paraboloid(Profile):
 
     def radius_at(self, depth):
         return np.sqrt(self.radius * depth)
+
+    def radius_at_height(self, height):
+        return np.sqrt(2 * self.radius * height)
 
 
 @dataclass(frozen=True, eq=False)
@@ -226,12 +234,19 @@ class PowerLaw(Profile):
             return self.exponent * self._reduced_coefficient * x ** (self.exponent - 1)
 
     def radius_at(self, depth):
-        c, p = self._reduced_coefficient, 1 / self.exponent
-        # For large exponents d/c may underflow while its power does not.
+        return self._root(depth, self._reduced_coefficient)
+
+    def radius_at_height(self, height):
+        return self._root(height, self.coefficient)
+
+    def _root(self, height, c):
+        """Length x (m) at which c xⁿ is a height (m)."""
+        p = 1 / self.exponent
+        # For large exponents z/c may underflow while its power does not.
         if np.all(p < 0.25):
-            return depth**p / c**p
-        joint = (depth / c) ** p
-        return np.where(p < 0.25, depth**p / c**p, joint) if np.any(p < 0.25) else joint
+            return height**p / c**p
+        joint = (height / c) ** p
+        return np.where(p < 0.25, height**p / c**p, joint) if np.any(p < 0.25) else joint
 
     def _known(self, depth):
         with np.errstate(over="ignore"):

@@ -11,6 +11,9 @@ from ...base.check import Array, ArrayLike
 from ...base.remark import Remark
 from ..numerics.roots import increasing_root
 
+#: Relative distance of two radii whose heights give the slope of a search. It need not be exact.
+_APART = 1e-7
+
 #: Names that functions of a shape had before, and those that they have now.
 _FORMER = {
     "_height": "height_at",
@@ -31,12 +34,13 @@ class Profile(check.Parameters, ABC):
     A profile of your own is a frozen dataclass with the first three functions below. They are not checked:
     they take an array of lengths (m), none negative, which they must not change, and return an array of its
     shape. Besides
-    its parameters solvers ask a profile for ten names; a shape gives those that differ from the base::
+    its parameters solvers ask a profile for eleven names; a shape gives those that differ from the base::
 
         height_at(r)          height z (m) at radii r (m)
         reduced_at(x)         height g (m) of the equivalent 1D profile at x (m), which does not fall
         reduced_slope_at(x)   its slope g′, without unit; on a kink, that of the outer side
         radius_at(depth)      contact radius a (m) at depths (m), g(a) = depth; found from g if not given
+        radius_at_height(z)   radius r (m) at heights (m), z(r) = z; found from z if not given
         face_radius           radius (m) of a flat face at the tip, 0 without one
         wall                  radius (m) of a vertical wall, ∞ without one
         kinks                 depths (m) at which the edge of the contact passes a kink of g, a tuple
@@ -108,7 +112,10 @@ class Profile(check.Parameters, ABC):
                     f"{cls.__name__} gives {old}, a former name of a function of a shape: call it {new}; a "
                     f"shape gives {', '.join(_FORMER.values())}, the last one only in closed form"
                 )
-        read_only.guard_methods(cls, _FORMER.values())
+        if "height_at" in vars(cls) and "radius_at_height" not in vars(cls):
+            # That of the class it is derived from would be the inverse of another height.
+            cls.radius_at_height = Profile.radius_at_height
+        read_only.guard_methods(cls, (*_FORMER.values(), "radius_at_height"))
 
     @cached_property
     def known_depth(self):
@@ -176,6 +183,19 @@ class Profile(check.Parameters, ABC):
         )
         # A search passes a wall at which g jumps.
         return np.minimum(np.maximum(root, self.face_radius), self.wall)
+
+    def radius_at_height(self, height):
+        """Largest radius (m) with z(r) ≤ heights ≥ 0 (m), an array; ∞ where z is not known; unchecked."""
+
+        def height_and_slope(r):
+            z, inside = self.height_at(r), r * (1 - _APART)
+            # Behind a wall z is infinite: no slope, for which the search halves its bracket.
+            with np.errstate(invalid="ignore"):
+                return z, (z - self.height_at(inside)) / (r - inside)
+
+        known = np.minimum(self.wall, self.known_radius)
+        radius = increasing_root(height_and_slope, height, height, known)
+        return np.maximum(np.minimum(radius, self.wall), self.face_radius)
 
     def _of_radius(self, quantity, r, function):
         """`function` at checked radii |r| (m)."""

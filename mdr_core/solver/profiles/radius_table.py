@@ -256,6 +256,7 @@ class Tabulated(Profile):
     face_radius = property(lambda self: self.profile.face_radius)
     known_radius = property(lambda self: self.profile.known_radius)
     height_at = property(lambda self: self.profile.height_at)
+    radius_at_height = property(lambda self: self.profile.radius_at_height)
     reduced_at = property(lambda self: self.profile.reduced_at)
     reduced_slope_at = property(lambda self: self.profile.reduced_slope_at)
 

@@ -54,6 +54,10 @@ class Sphere(OneLength):
         with np.errstate(divide="ignore"):
             return np.where(u < 1, np.arctanh(np.minimum(u, 1.0)) + u / ((1 - u) * (1 + u)), np.inf)
 
+    def radius_at_height(self, height):
+        inside = np.minimum(height, self.radius)
+        return np.sqrt(inside * (2 * self.radius - inside))
+
 
 @dataclass(frozen=True, eq=False)
 class Hyperboloid(OneLength):
@@ -87,6 +91,9 @@ class Hyperboloid(OneLength):
     _Z = staticmethod(lambda u: u * (u / (np.hypot(u, 1.0) + 1)))
     _G = staticmethod(lambda u: u * np.arctan(u))
     _G_slope = staticmethod(lambda u: np.arctan(u) + u / (1 + u * u))
+
+    def radius_at_height(self, height):
+        return np.sqrt(height * (height + 2 * self._depth)) / self.slope
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,6 +142,10 @@ class RoundedCone(OneLength):
         tau = np.sqrt((v - 1) * (v + 1))
         return np.where(u <= 1, 2 * u, 2 / (v + tau) + np.arctan(tau))
 
+    def radius_at_height(self, height):
+        cone, cap = height / self.slope + self._length / 2, np.sqrt(2 * self.tip_radius * height)
+        return np.where(cone > self._length, cone, cap)[()]
+
 
 @dataclass(frozen=True, eq=False)
 class ParabolicPunch(OneLength):
@@ -174,3 +185,6 @@ class ParabolicPunch(OneLength):
     def radius_at(self, depth):
         # At the wall the radius is exactly that of the cylinder.
         return np.minimum(np.sqrt(self.radius * depth), self.cylinder_radius)
+
+    def radius_at_height(self, height):
+        return np.minimum(np.sqrt(2 * self.radius * height), self.cylinder_radius)

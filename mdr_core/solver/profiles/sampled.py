@@ -229,6 +229,9 @@ class Sampled(Profile):
         outside = np.maximum(r - self._r[-1], 0.0)
         return np.interp(r, self._r, self._z) + self._slope[-1] * outside
 
+    def radius_at_height(self, height):
+        return np.maximum(np.interp(height, self._z, self._r, right=np.inf), self.face_radius)
+
     def reduced_at(self, x):
         return self._reduced_and_slope(x)[0]
 

@@ -54,6 +54,9 @@ class TruncatedCone(_FlatFaced):
         with np.errstate(divide="ignore"):
             return np.where(u < 1, 0.0, np.arctan(tau) + 1 / tau)
 
+    def radius_at_height(self, height):
+        return self.flat_radius + height / self.slope
+
 
 @dataclass(frozen=True, eq=False)
 class TruncatedParaboloid(_FlatFaced):
@@ -92,6 +95,9 @@ class TruncatedParaboloid(_FlatFaced):
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.where(u < 1, 0.0, tau + u * (u / tau))
 
+    def radius_at_height(self, height):
+        return np.hypot(self.flat_radius, np.sqrt(2 * self.radius * height))
+
 
 @dataclass(frozen=True, eq=False)
 class RoundedPunch(_FlatFaced):
@@ -128,6 +134,9 @@ class RoundedPunch(_FlatFaced):
     def _G_slope(u):
         tau = _tau(u)
         return _arctan_gap(tau) + tau
+
+    def radius_at_height(self, height):
+        return self.flat_radius + np.sqrt(2 * self.edge_radius * height)
 
 
 def _tau(u):

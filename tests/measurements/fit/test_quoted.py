@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.measurements.fit import result
 
 from ...approx import approx
 from ..unloading.test_creep import record
@@ -55,8 +56,18 @@ def test_it_is_that_of_one_curve():
 
 def test_it_is_computed_only_when_it_is_read():
     fit = mdr.fit_indentation(CONE, DEPTH, force(mdr.Medium(E, hardness=1.5e9)), hardness=None)
-    assert "quoted" not in vars(fit)
+    assert not {"quoted", "unloading"} & set(vars(fit))
     assert fit.quoted is fit.quoted
+
+
+def test_the_unloading_is_evaluated_once(monkeypatch):
+    """For the number to quote, and for the row of the report."""
+    calls, evaluate = [], result.unloading
+    monkeypatch.setattr(result, "unloading", lambda fit: calls.append(fit) or evaluate(fit))
+    fit = mdr.fit_indentation(CONE, DEPTH, force(mdr.Medium(E, hardness=1.5e9)), hardness=None)
+    assert fit.quoted.value == fit.unloading[0].E_star
+    assert "Oliver and Pharr" in str(fit)
+    assert calls == [fit]
 
 
 def test_silica_with_the_contact_of_its_file():

@@ -60,6 +60,53 @@ def test_contact_radius_inverts_the_reduced_profile(shape):
     assert np.all(np.diff(a) >= 0)
 
 
+class TestRadiusAtHeight:
+    """z(r) = h, for arrays of any shape: the largest such radius."""
+
+    @pytest.mark.parametrize("shape", EXTREMES, ids=name)
+    def test_inverts_the_height(self, shape):
+        deepest = shape.radius if isinstance(shape, mdr.Sphere) else np.inf
+        h = np.append(0.0, np.geomspace(1e-14, 1e-6, 59)).reshape(3, 20)
+        r = shape.radius_at_height(np.minimum(h, deepest))
+        assert r.shape == h.shape
+        assert np.all(np.diff(r.ravel()) >= 0)
+        # At the edge of a flat face, and at a wall, z amplifies the rounding of r: it is bracketed.
+        outer = np.minimum(r * (1 + 4e-15), shape.known_radius)
+        assert np.all(shape.height_at(r * (1 - 4e-15)) <= h * (1 + 1e-15))
+        assert np.all(shape.height_at(outer) >= h * (1 - 1e-15))
+        assert shape.radius_at_height(h[1, 3]) == r[1, 3]
+
+    @pytest.mark.parametrize("shape", EXTREMES, ids=name)
+    def test_closed_forms_are_what_a_search_finds(self, shape):
+        h = np.geomspace(1e-12, 1e-6, 40)
+        expected = mdr.Profile.radius_at_height(shape, h)
+        np.testing.assert_allclose(shape.radius_at_height(h), expected, rtol=1e-14)
+
+    def test_known_forms(self):
+        h = 3e-6
+        assert mdr.Cone(0.3).radius_at_height(h) == approx(1e-5, rel=1e-15)
+        assert mdr.Sphere(1e-5).radius_at_height(h) == approx(np.sqrt(51) * 1e-6, rel=1e-15)
+        assert mdr.Sphere(1e-5).radius_at_height(2e-5) == 1e-5
+        assert mdr.FlatPunch(1e-6).radius_at_height([0.0, h]).tolist() == [1e-6, 1e-6]
+        assert mdr.ParabolicPunch(1e-5, 1e-6).radius_at_height(h) == 1e-6
+        # From the cap to the cone at z = s²R/2.
+        rounded = mdr.RoundedCone(1e-6, 0.3).radius_at_height(np.array([2e-8, 4.5e-8, 1e-6]))
+        np.testing.assert_allclose(rounded, [2e-7, 3e-7, 1e-6 / 0.3 + 1.5e-7], rtol=1e-15)
+
+    def test_of_many_indenters(self):
+        h = np.array([[1e-7], [1e-6]])
+        for many in (mdr.Cone([0.1, 0.3]), mdr.Sphere([1e-5, 2e-5]), mdr.RoundedCone([1e-7, 1e-6], 0.3)):
+            expected = np.hstack([many.entries(i).radius_at_height(h) for i in range(2)])
+            np.testing.assert_allclose(many.radius_at_height(h), expected, rtol=1e-15)
+
+    def test_a_shape_with_another_height_does_not_inherit_the_inverse(self):
+        class Steeper(mdr.Cone):
+            def height_at(self, r):
+                return 2 * self.slope * r
+
+        assert Steeper(0.3).radius_at_height(3e-6) == approx(0.5e-5, rel=1e-14)
+
+
 @pytest.mark.parametrize("shape", EXTREMES, ids=name)
 def test_reduced_slope_is_the_derivative(shape):
     """Against a difference of 45 digits of the textbook's g."""

@@ -99,6 +99,13 @@ def test_heights_count_from_the_first_sample():
     assert mdr.Sampled(r, [5.0, 5.25, 5.75]) == mdr.Sampled(r, [0.0, 0.25, 0.75])
 
 
+def test_radius_at_the_height_of_a_polygon():
+    """On its facets, at the edge of a flat face, and ∞ where it is not known."""
+    tip = mdr.Sampled([0.0, 1e-6, 2e-6, 4e-6], [0.0, 0.0, 1e-7, 7e-7])
+    radius = tip.radius_at_height(np.array([0.0, 5e-8, 1e-7, 4e-7, 7e-7, 7.1e-7]))
+    np.testing.assert_allclose(radius, [1e-6, 1.5e-6, 2e-6, 3e-6, 4e-6, np.inf], rtol=1e-15)
+
+
 def test_scene_holds_a_sampled_tip():
     scene = mdr.Scene(mdr.Sampled([0, 1e-6, 3e-6], [0, 1e-7, 7e-7]), MEDIUM, mdr.scene.ForcePath(1e-6))
     assert mdr.Scene.from_json(scene.to_json()) == scene

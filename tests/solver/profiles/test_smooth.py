@@ -29,6 +29,8 @@ def test_same_as_the_closed_form(pair, history):
     np.testing.assert_allclose(smooth.profile.reduced(x), exact.reduced(x), rtol=1e-13)
     np.testing.assert_allclose(smooth.profile.height(x), exact.height(x), rtol=1e-13)
     assert smooth.contact_radius == approx(closed.contact_radius, rel=1e-14)
+    height = exact.height(x)
+    np.testing.assert_allclose(smooth.profile.radius_at_height(height), x, rtol=1e-13)
     for field in ("force", "stored_energy", "plastic_work"):
         assert getattr(smooth, field) == approx(getattr(closed, field), rel=2e-13), field
     # The derivative of the Chebyshev series has lost two or three digits.
