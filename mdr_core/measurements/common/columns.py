@@ -8,7 +8,7 @@ import numpy as np
 
 from ...base import check
 from ...base.check import ArrayLike
-from ...base.remark import MeasurementError, Remark
+from ...base.remark import Remark
 from ..measured_curve import MeasuredCurve, MeasuredCurves
 
 #: What is given as times: ... is those of the curve.
@@ -89,62 +89,36 @@ def _of_many(curves, time, skip):
     )
 
 
-def remarks_of_one(remarks):
-    """The remarks of one curve that was read from a file."""
-    if len(remarks) > 1:
-        raise check.MDRError(
-            f"oliver_pharr takes one curve, got {len(remarks)}: give one of them, as in curves[0]"
-        )
-    return remarks[0] if remarks else ()
+def padded(name, values, unit):
+    """An array, or the arrays of a list with NaN up to the longest; NaN is a missing sample."""
+    if np.ma.is_masked(values):
+        raise check.MDRError(f"{name} has masked samples: leave them out of depth and force")
+    if not isinstance(values, list | tuple) or not any(map(np.ndim, values)):
+        return check.finite_array(name, values, unit=unit, most=check.LONGEST, missing=True)
+    rows = [padded(f"{name}[{i}]", row, unit) for i, row in enumerate(values)]
+    if any(row.ndim != 1 for row in rows):
+        raise check.MDRError(f"{name} as a list must have one array (N,) for each curve")
+    result = np.full((len(rows), max(row.size for row in rows)), np.nan)
+    for target, row in zip(result, rows, strict=True):
+        target[: row.size] = row
+    return result
 
 
-def measured_stiffness(given, stiffness):
-    """The measured stiffness that is given, or that of a curve."""
-    if stiffness is not True:
-        return None if stiffness is False else stiffness
-    if given.stiffness is None:
-        raise check.MDRError(
-            "stiffness = True takes that of a MeasuredCurve, and there is none: give its values, or leave "
-            "it out to evaluate the unloading"
-        )
-    return given.stiffness
+def arrays_of(given, *, single=False):
+    """Arrays of the same shape by name, from pairs of values and a unit, and the lengths of curves.
 
-
-def finite_columns(depth, force, time, stiffness):
-    """Arrays by name of the samples in which all that is given is finite, but the stiffness."""
-    given = {
-        "depth": (depth, "m"),
-        "force": (force, "N"),
-        "time": (time, "s"),
-        "stiffness": (stiffness, "N/m"),
-    }
-    arrays = {
-        name: check.finite_array(name, values, unit=unit, most=check.LONGEST, missing=True)
-        for name, (values, unit) in given.items()
-        if values is not None
-    }
-    shapes = {array.shape for array in arrays.values()}
-    if len(shapes) > 1 or arrays["depth"].ndim != 1:
-        shown = " and ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise check.MDRError(f"{shown} must have the same shape, (N,) for one curve")
-    used = np.logical_and.reduce(
-        [np.isfinite(array) for name, array in arrays.items() if name != "stiffness"]
-    )
-    arrays = {name: array[used] for name, array in arrays.items()}
-    if not arrays["depth"].size:
-        text = "depth and force have no samples: an unloading needs five or more"
-        raise MeasurementError(Remark(text, "no unloading"))
-    if arrays["depth"].size > 1 and not np.ptp(arrays["depth"]):
-        text = f"range of depth = 0 m: the depth is {arrays['depth'][0]:g} m throughout; check its column"
-        raise MeasurementError(Remark(text, "no unloading"))
-    if "time" in arrays:
-        if arrays["time"].size > 1 and not np.ptp(arrays["time"]):
-            time = arrays["time"][0]
-            raise check.MDRError(
-                f"range of time = 0 s: the time is {time:g} s throughout; check its column, or leave it out"
-            )
-        # Segments of a file may share the time at which one ends and the next begins.
-        back = np.diff(arrays["time"], prepend=-np.inf) < 0
-        advice = "sort the samples by time"
-        check.refuse("time", arrays["time"], back, "does not increase", unit="s", advice=advice)
-    return arrays
+    One curve is (N,). Unless it must be a `single` one, many are (R, N), or lists of R arrays.
+    """
+    given = {name: pair for name, pair in given.items() if pair[0] is not None}
+    arrays = {name: padded(name, *pair) for name, pair in given.items()}
+    shapes, ndim = {name: array.shape for name, array in arrays.items()}, arrays["depth"].ndim
+    lengths = [tuple(map(np.size, rows)) for rows, _ in given.values()] if ndim > 1 else [shapes["depth"]]
+    if len(set(shapes.values())) > 1 or len(set(lengths)) > 1 or not 1 <= ndim <= 2 - single:
+        for i, counts in enumerate(zip(*lengths, strict=False) if ndim == 2 and not single else ()):
+            if len(set(counts)) > 1:
+                shown = ", ".join(f"{name}[{i}] {n}" for name, n in zip(given, counts, strict=True))
+                raise check.MDRError(f"curve {i}: {shown} samples must be the same number")
+        shown = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+        many = "" if single else " or (R, N) for many"
+        raise check.MDRError(f"{shown} must have the same shape, (N,) for one curve{many}")
+    return arrays, lengths[0]

@@ -14,7 +14,7 @@ from ..measured_curve import MODALITIES, MeasuredCurves
 from .cantilever import Cantilever
 from .curve import curve_of
 from .hdf5 import refuse_outside
-from .packed import refuse_large
+from .packed import is_binary, refuse_large
 from .table import Table
 
 # Without a handler its errors would be printed beside the refusals.
@@ -74,17 +74,6 @@ def export_of(suffix):
     """Sentence on what to export in place of a file with a suffix; empty if nothing is known."""
     known = next((text for pattern, text in _EXPORTS.items() if re.fullmatch(pattern, suffix)), "")
     return f". Use {known}" if known else ""
-
-
-def is_binary(data):
-    """Whether the bytes are no text: zeros, which only UTF-16 has, or other control characters."""
-    head = data[:4096]
-    marked = head.startswith((b"\xff\xfe", b"\xfe\xff"))
-    utf16 = marked or (b"\0" in head[:2] and head[:200].count(b"\0") > 0.4 * len(head[:200]))
-    if utf16:
-        return bool(re.search(rb"\0\0\0", head))
-    controls = sum(byte < 9 or 13 < byte < 32 for byte in head)
-    return b"\0" in data or controls > 0.02 * len(head)
 
 
 def is_afm_text(text):

@@ -5,7 +5,7 @@ from math import inf
 
 from ...base.remark import MeasurementError, Remark, Remedy
 from .names import normal, parted
-from .question import CONSTANTS, UnknownColumns, constants_needed
+from .question import CONSTANTS, WORDS_OF_CONSTANTS, constants_needed, lacks_constants
 from .table import LONGEST_HEADER
 from .units import is_deflection, is_voltage, size_of, unit_alone
 
@@ -22,8 +22,6 @@ _NAMES = {
 }  # fmt: skip
 #: Names that stand in JPK's text without a unit, N/m and m/V.
 _OF_JPK = "springconstant", "sensitivity"
-#: The names of the constants in a sentence.
-_WORDS = {"spring_constant": "the spring constant of the cantilever", "sensitivity": "its sensitivity"}
 
 
 @dataclass(frozen=True)
@@ -54,7 +52,7 @@ def constants(table, name, layout, given, asked):
         own = constant(table.header, kind, names)
         if own is None or (each == "sensitivity" and not needed[each]):
             continue
-        text, words = f"{own:.6g} {CONSTANTS[each]}", _WORDS[each]
+        text, words = f"{own:.6g} {CONSTANTS[each]}", WORDS_OF_CONSTANTS[each]
         if known.get(each) is None:
             known[each] = own
             if needed[each]:
@@ -65,7 +63,7 @@ def constants(table, name, layout, given, asked):
             remarks.append(Remark(words, "taken"))
     lacking = [each for each in needed if needed[each] and known.get(each) is None]
     if lacking:
-        _ask(table, name, layout, lacking, deflection, asked)
+        raise lacks_constants(table, name, layout, lacking, deflection, asked)
     return Cantilever(known.get("spring_constant"), known.get("sensitivity"), tuple(remarks))
 
 
@@ -83,28 +81,6 @@ def _refuse_unused(name, given, needed, deflection, unit):
             else f"the forces of {name} are already in units of force"
         )
         raise MeasurementError(f"{what}: leave out the sensitivity")
-
-
-def _ask(table, name, layout, lacking, deflection, asked):
-    head = table.heads[layout["force" if deflection else "piezo"][0]]
-    what = (
-        f"{head!r} is a deflection in {layout['force'][1]}"
-        if deflection
-        else f"{head!r} is the position of a piezo, from which the deflection F/k is subtracted"
-    )
-    hint = "" if deflection else ', or columns={"depth": …} if it is the depth of the tip'
-    words = "" if deflection else ", or choose it as the depth of the tip if it is"
-    give = " and ".join(f"{each}= ({CONSTANTS[each]})" for each in lacking)
-    said = " and ".join(f"{_WORDS[each]} ({CONSTANTS[each]})" for each in lacking)
-    raise UnknownColumns(
-        what,
-        table,
-        name.removesuffix(f", {table.name}") if table.name else name,
-        asked,
-        hint=f": give {give}{hint}",
-        text=f"{what}: give {said}{words}",
-        remedy=tuple(Remedy("give", each) for each in lacking),
-    )
 
 
 def constant(header, kind, names):

@@ -1,5 +1,6 @@
 """Bounds on packed files, whose contents may be a thousand times larger."""
 
+import re
 import zipfile
 
 from ...base.errors import MDRError
@@ -37,3 +38,14 @@ def refuse_large(path, sheets=None):
     count = sum(each.filename.startswith("xl/worksheets/") for each in inside)
     if sheets is not None and count > sheets:
         raise MDRError(f"{path.name} has {count} sheets: at most {sheets} are read")
+
+
+def is_binary(data):
+    """Whether the bytes are no text: zeros, which only UTF-16 has, or other control characters."""
+    head = data[:4096]
+    marked = head.startswith((b"\xff\xfe", b"\xfe\xff"))
+    utf16 = marked or (b"\0" in head[:2] and head[:200].count(b"\0") > 0.4 * len(head[:200]))
+    if utf16:
+        return bool(re.search(rb"\0\0\0", head))
+    controls = sum(byte < 9 or 13 < byte < 32 for byte in head)
+    return b"\0" in data or controls > 0.02 * len(head)

@@ -10,6 +10,11 @@ from .units import is_deflection, is_voltage
 _SHOWN, _WORDS = 14, 3
 #: Constants of a cantilever by the names of arguments, and their units.
 CONSTANTS = {"spring_constant": "N/m", "sensitivity": "m/V"}
+#: The names of the constants in a sentence.
+WORDS_OF_CONSTANTS = {
+    "spring_constant": "the spring constant of the cantilever",
+    "sensitivity": "its sensitivity",
+}
 
 
 class NoCurve(MDRError):
@@ -144,3 +149,26 @@ def as_python(columns):
         name = f'"{which}"' if isinstance(which, str) else which
         pairs.append(f'"{each}": None' if column is None else f'"{each}": ({name}, "{unit}")')
     return "{" + ", ".join(pairs) + "}"
+
+
+def lacks_constants(table, name, layout, lacking, deflection, asked):
+    """The question for constants of a cantilever that lack."""
+    head = table.heads[layout["force" if deflection else "piezo"][0]]
+    what = (
+        f"{head!r} is a deflection in {layout['force'][1]}"
+        if deflection
+        else f"{head!r} is the position of a piezo, from which the deflection F/k is subtracted"
+    )
+    hint = "" if deflection else ', or columns={"depth": …} if it is the depth of the tip'
+    words = "" if deflection else ", or choose it as the depth of the tip if it is"
+    give = " and ".join(f"{each}= ({CONSTANTS[each]})" for each in lacking)
+    said = " and ".join(f"{WORDS_OF_CONSTANTS[each]} ({CONSTANTS[each]})" for each in lacking)
+    return UnknownColumns(
+        what,
+        table,
+        name.removesuffix(f", {table.name}") if table.name else name,
+        asked,
+        hint=f": give {give}{hint}",
+        text=f"{what}: give {said}{words}",
+        remedy=tuple(Remedy("give", each) for each in lacking),
+    )

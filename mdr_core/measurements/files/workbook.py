@@ -6,8 +6,7 @@ from dataclasses import replace
 
 from ...base.errors import MDRError
 from ...show.report import imported
-from .afm import is_binary
-from .packed import refuse_large
+from .packed import is_binary, refuse_large
 from .several import curves_of_tables
 from .table import read_tables
 

@@ -17,9 +17,9 @@ from ...solver.impacts.scaling import class_of
 from ...solver.medium.medium import Medium, yield_constant
 from ...solver.numerics.roots import increasing_root
 from ...solver.profiles.profile import Profile
+from ..common.doubts import doubts_of_measured
 from ..common.errors import covariances
 from ..common.least_squares import least_squares
-from ..common.materials import doubts_of_measured
 from .parameters import CLASSES, hardness_by_default, held_values, symbols
 from .report import Fit
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...base import check
 from ...solver.numerics.blocks import chunks
+from ..common.columns import arrays_of, padded
 
 #: A rate jumps where it changes by this share of the largest one, and so many times as much as two samples
 #: before and after.
@@ -54,47 +55,22 @@ class Measurement:
 
 def measurement(depth, force, time, force_noise):
     """A `Measurement` of arrays, one curve (N,) or many (R, N), or of lists of arrays, one each."""
-    given = {"depth": (depth, "m"), "force": (force, "N")}
-    given |= {} if time is None else {"time": (time, "s")}
-    values = {name: _padded(name, *pair) for name, pair in given.items()}
-    shapes = {name: array.shape for name, array in values.items()}
-    ndim = len(shapes["depth"])
-    lengths = [tuple(map(np.size, rows)) for rows, _ in given.values()] if ndim > 1 else [shapes["depth"]]
-    if len(set(shapes.values())) > 1 or len(set(lengths)) > 1 or not 1 <= ndim <= 2:
-        for i, counts in enumerate(zip(*lengths, strict=False) if ndim == 2 else ()):
-            if len(set(counts)) > 1:
-                shown = ", ".join(f"{name}[{i}] {n}" for name, n in zip(given, counts, strict=True))
-                raise check.MDRError(f"curve {i}: {shown} samples must be the same number")
-        shown = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-        raise check.MDRError(f"{shown} must have the same shape, (N,) for one curve or (R, N) for many")
+    given = {"depth": (depth, "m"), "force": (force, "N"), "time": (time, "s")}
+    values, lengths = arrays_of(given)
+    shape = values["depth"].shape
     if not values["depth"].size:
         raise check.MDRError("depth and force are empty: a curve needs more samples than free parameters")
     if force_noise is not None:
-        force_noise = _padded("force_noise", force_noise, "N")
+        force_noise = padded("force_noise", force_noise, "N")
         check.common_shape("fit_indentation", depth=values["depth"], force_noise=force_noise)
         check.refuse("force_noise", force_noise, force_noise <= 0, "must be positive", unit="N")
-        values["force_noise"] = np.broadcast_to(force_noise, shapes["depth"])
+        values["force_noise"] = np.broadcast_to(force_noise, shape)
     values = {name: np.atleast_2d(array) for name, array in values.items()}
     values = {name: values.get(name) for name in ("depth", "force", "time", "force_noise")}
-    measured = Measurement(**values, lengths=np.array(lengths[0]), single=ndim == 1)
+    measured = Measurement(**values, lengths=np.array(lengths), single=len(shape) == 1)
     if not measured.used.any():
         raise check.MDRError("no sample of depth and force has finite values of both")
     return measured
-
-
-def _padded(name, values, unit):
-    """An array, or the arrays of a list with NaN up to the longest; NaN is a missing sample."""
-    if np.ma.is_masked(values):
-        raise check.MDRError(f"{name} has masked samples: leave them out of depth and force")
-    if not isinstance(values, list | tuple) or not any(map(np.ndim, values)):
-        return check.finite_array(name, values, unit=unit, most=check.LONGEST, missing=True)
-    rows = [_padded(f"{name}[{i}]", row, unit) for i, row in enumerate(values)]
-    if any(row.ndim != 1 for row in rows):
-        raise check.MDRError(f"{name} as a list must have one array (N,) for each curve")
-    padded = np.full((len(rows), max(row.size for row in rows)), np.nan)
-    for target, row in zip(padded, rows, strict=True):
-        target[: row.size] = row
-    return padded
 
 
 def rates(depth, time):

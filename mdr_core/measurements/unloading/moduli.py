@@ -1,8 +1,12 @@
-"""E* and H by force, stiffness and contact depth, and what remains of the depth."""
+"""E* and H by force, stiffness and contact depth: of unloadings, and over depth."""
 
 import numpy as np
 
+from ...base import check
 from ...base.remark import MeasurementError, Remark
+from ..common.doubts import doubts, of_ideal_tip
+from ..common.errors import roughness
+from .oliver_pharr_result import OverDepth
 
 
 def moduli(profile, contact_depth, force, stiffness, beta):
@@ -22,3 +26,49 @@ def not_from_contact(text):
     """The error of depths and forces that may count from elsewhere."""
     text = f"{text}: depths must count from first contact, and forces from the baseline"
     return MeasurementError(Remark(text, "no unloading"))
+
+
+def over_depth(profile, depth, force, stiffness, constants, contact, found):
+    """`OverDepth` of samples with a measured stiffness; `found` are remarks on first contact."""
+    values, errors, remarks = _values_and_errors(profile, depth, force, stiffness, constants, contact)
+    # Near first contact single samples may be far off.
+    middle = [np.nanmedian(values[name]) for name in ("E_star", "hardness")]
+    remarks = (*remarks, *found, *doubts(*middle), *profile.remarks)
+    remarks = (*remarks, *of_ideal_tip(profile, values["contact_depth"]))
+    return OverDepth(profile=profile, **values, standard_errors=errors, remarks=remarks)
+
+
+def _values_and_errors(profile, depth, force, stiffness, constants, contact):
+    """Values and errors by name at each sample with a measured stiffness, and remarks."""
+    epsilon, beta = constants
+    with np.errstate(divide="ignore", invalid="ignore"):
+        contact_depth = depth - epsilon * force / stiffness
+    used = (stiffness > 0) & (force > 0) & (contact_depth > 0)
+    used &= contact_depth < profile.known_depth
+    if not used.any():
+        raise not_from_contact(
+            "no sample has a positive stiffness (N/m), force and contact depth h − ε F/S"
+        )
+
+    def at(shift):
+        h = np.where(used, np.maximum(contact_depth + shift, 0.0), np.nan)
+        E, H = np.full((2, depth.size), np.nan)
+        E[used], H[used] = moduli(profile, h[used], force[used], stiffness[used], beta)
+        return {"contact_depth": h, "E_star": E, "hardness": H}
+
+    values, shifted = at(0.0), at(-contact.depth_error)
+    errors = {
+        name: np.hypot(roughness(value[used][None])[0, 0], shifted[name] - value)
+        for name, value in values.items()
+    }
+    noise = np.where(used, roughness(stiffness[used][None])[0, 0], np.nan)
+    values = {"depth": depth, "stiffness": np.where(used, stiffness, np.nan), **values}
+    values["contact_point"] = np.full(depth.size, contact.depth)
+    without = np.count_nonzero(~used)
+    text = f"{without} of {used.size} samples have no contact or no stiffness, and no results"
+    remarks = [Remark(text, "left out")] if without else []
+    frozen = {name: check.frozen(value) for name, value in values.items()}
+    errors = {"stiffness": noise} | errors
+    if contact.depth_error:
+        errors["contact_point"] = np.full(depth.size, contact.depth_error)
+    return frozen, {name: check.frozen(error) for name, error in errors.items()}, remarks

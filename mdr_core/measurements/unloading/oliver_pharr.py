@@ -9,18 +9,17 @@ from ...base.check import ArrayLike
 from ...base.remark import MeasurementError, Remark, Remedy
 from ...show.quantities import engineering
 from ...solver.applicability import check_pair
+from ...solver.contact.integrals import integrals
+from ...solver.contact.live_interval import LiveInterval
 from ...solver.medium.medium import Medium
 from ...solver.profiles.profile import Profile
-from ..common.columns import Times, columns_of, finite_columns, measured_stiffness, remarks_of_one
-from ..common.materials import doubts
-from ..common.order import apart, out_of_order
-from ..common.tip import of_ideal_tip
+from ..common.columns import Times, arrays_of, columns_of
+from ..common.doubts import apart, doubts, of_ideal_tip, out_of_order
 from ..measured_curve import MeasuredCurve
 from . import creep as creeping
-from .continuous import over_depth
-from .exponent import doubt
+from .first_contact import elastic_exponents
 from .iso_14577 import iso_numbers, remark_on_beginning
-from .moduli import moduli, not_from_contact, remaining
+from .moduli import moduli, not_from_contact, over_depth, remaining
 from .oliver_pharr_result import ISO_14577, OliverPharr
 from .unloading import last_at_top, laws_of, parts_of
 from .zero import zero_of
@@ -92,11 +91,11 @@ def oliver_pharr(
     constants = check.positive_number("epsilon", epsilon, zero=True), check.positive_number("beta", beta)
     given = columns_of(depth, force, None if stiffness is not None and time is ... else time)
     time = given.time
-    read = remarks_of_one(given.remarks)
-    stiffness = measured_stiffness(given, stiffness)
+    read = _remarks_of_one(given.remarks)
+    stiffness = _measured_stiffness(given, stiffness)
     if stiffness is not None and (time is not None or cycles):
         raise check.MDRError("stiffness is measured at each sample: give it without time and cycles")
-    columns = finite_columns(given.depth, given.force, time, stiffness)
+    columns = _finite_columns(given.depth, given.force, time, stiffness)
     path = columns["depth"], columns["force"]
     read = (*read, *apart(*path))
     if stiffness is None:
@@ -166,7 +165,7 @@ def _with_creep(profile, depth, force, time, constants, contact):
     if creep is None:
         if rise:
             notes.append(creeping.of_rise(rise, time is not None))
-        elif remark := doubt(profile, depth.max(), laws, time is not None):
+        elif remark := _doubt(profile, depth.max(), laws, time is not None):
             notes.append(remark)
         if time is not None:
             notes.append(creeping.no_hold(depth, force, time))
@@ -180,7 +179,7 @@ def _with_creep(profile, depth, force, time, constants, contact):
     share = creeping.share_of_compliance(creep.rate, corrected[0, 0], force, time, creep.end)
     if rise or share > creeping.COUNTS:
         notes.append(creeping.of_share(share))
-    if remark := doubt(profile, depth.max(), laws[0], True):
+    if remark := _doubt(profile, depth.max(), laws[0], True):
         notes.append(remark)
     notes.append(creeping.of_hold(creep.length))
     return (corrected, uncorrected), notes
@@ -256,3 +255,105 @@ def _with_other_readings(result, read, in_contact, constants):
     # One number of several unloadings or samples.
     remark = in_contact.remark(*(tuple(float(np.nanmedian(each)) for each in pair) for pair in pairs))
     return replace(result, remarks=(*read, remark, *result.remarks))
+
+
+#: Exponent that unloadings do not have after which more than a share of the largest depth remains.
+_STEEP, _REMAINS = 1.7, 0.5
+#: Least half-range of m over parts of the unloading that counts.
+_VARIES = 0.1
+#: Standard deviations of the scatter about the power law that m and its half-range exceed.
+_BEYOND = 3.0
+#: Least difference of exponents that is not one of the arithmetic, and samples of an elastic unloading.
+_ROUNDING, _SAMPLES = 1e-6, 100
+
+
+def _doubt(profile, depth, laws, in_time):
+    """A `Remark` on an exponent m that no elastic unloading from a depth (m) has, or None.
+
+    F = α (h − h_f)^m has the m of an elastic contact where nothing has yielded, and a smaller one where the
+    imprint fits the tip: 1.2 to 1.6 of most materials. Creep of the depth makes the beginning of the
+    unloading steeper, so that m is larger, and another one in each part.
+    """
+    m, error = laws.exponent, _BEYOND * laws.scatter
+    _, elastic = elastic_exponents(profile, depth)
+    if m > elastic + error + _ROUNDING:
+        elastic = max(elastic, _of_elastic_unloading(profile, depth))
+    least, most = laws.exponents
+    remaining = laws.remaining(depth)
+    steep = _STEEP * max(elastic / 2, 1.0)
+    if m > elastic + error + _ROUNDING:
+        text = (
+            f"no elastic unloading of this tip has m = {m:.3g}, above {elastic:.3g}: E* is not that of a "
+            "half-space, or the depth creeps"
+        )
+    elif remaining > _REMAINS and m > steep + error:
+        text = (
+            f"m = {m:.3g} is too large for an unloading after which {100 * remaining:.2g} % of the depth "
+            "remain: the depth creeps, so that the stiffness is too large"
+        )
+    elif (most - least) / 2 > max(_VARIES, error):
+        text = (
+            f"the unloading is no power law: m is between {least:.3g} and {most:.3g} by the part of "
+            "it: the depth creeps, so that the stiffness is too large"
+        )
+    else:
+        return None
+    return Remark(text, "creep", *[Remedy("give", "time")] * (not in_time))
+
+
+def _of_elastic_unloading(profile, depth):
+    """Largest exponent of the parts of an elastic unloading from a depth (m), whose h_f is fitted, too.
+
+    It is that of a cone where the tip is a truncated one.
+    """
+    depths = np.linspace(min(depth, profile.known_depth), 0.0, _SAMPLES)
+    force = integrals(profile).radius_integral(LiveInterval.elastic(depths))
+    return laws_of(depths, force).exponents[1]
+
+
+def _remarks_of_one(remarks):
+    """The remarks of one curve that was read from a file."""
+    if len(remarks) > 1:
+        raise check.MDRError(
+            f"oliver_pharr takes one curve, got {len(remarks)}: give one of them, as in curves[0]"
+        )
+    return remarks[0] if remarks else ()
+
+
+def _measured_stiffness(given, stiffness):
+    """The measured stiffness that is given, or that of a curve."""
+    if stiffness is not True:
+        return None if stiffness is False else stiffness
+    if given.stiffness is None:
+        raise check.MDRError(
+            "stiffness = True takes that of a MeasuredCurve, and there is none: give its values, or leave "
+            "it out to evaluate the unloading"
+        )
+    return given.stiffness
+
+
+def _finite_columns(depth, force, time, stiffness):
+    """Arrays by name of the samples in which all that is given is finite, but the stiffness."""
+    given = {"depth": (depth, "m"), "force": (force, "N"), "time": (time, "s")}
+    arrays, _ = arrays_of(given | {"stiffness": (stiffness, "N/m")}, single=True)
+    used = np.logical_and.reduce(
+        [np.isfinite(array) for name, array in arrays.items() if name != "stiffness"]
+    )
+    arrays = {name: array[used] for name, array in arrays.items()}
+    if not arrays["depth"].size:
+        text = "depth and force have no samples: an unloading needs five or more"
+        raise MeasurementError(Remark(text, "no unloading"))
+    if arrays["depth"].size > 1 and not np.ptp(arrays["depth"]):
+        text = f"range of depth = 0 m: the depth is {arrays['depth'][0]:g} m throughout; check its column"
+        raise MeasurementError(Remark(text, "no unloading"))
+    if "time" in arrays:
+        if arrays["time"].size > 1 and not np.ptp(arrays["time"]):
+            time = arrays["time"][0]
+            raise check.MDRError(
+                f"range of time = 0 s: the time is {time:g} s throughout; check its column, or leave it out"
+            )
+        # Segments of a file may share the time at which one ends and the next begins.
+        back = np.diff(arrays["time"], prepend=-np.inf) < 0
+        advice = "sort the samples by time"
+        check.refuse("time", arrays["time"], back, "does not increase", unit="s", advice=advice)
+    return arrays
