@@ -3,6 +3,8 @@
 They may follow a curve, have outliers, be correlated over a large part of the curve, or be few.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from ...base.remark import Remark, Remedy
@@ -11,10 +13,15 @@ from ..common.errors import SIGNIFICANT, autocorrelation, roughness
 from .parameters import BACKGROUND, CLASSES, symbols
 
 #: Size of the residuals of the arithmetic, as a share of the range of force.
-_EXACT = 1e-7
+EXACT = 1e-7
 #: Root mean square of correlated residuals over the range of force above which the model does not fit, of
 #: elastic media and of those that yield, whose unloading is a small part of the curve.
 _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
+#: The same of elastic media where residuals are so many times the noise of neighbours and so correlated, as
+#: on a layer or beyond the range of a sensor. Interference of light stays below.
+_SYSTEMATIC, _ABOVE_NOISE, _CORRELATED = 0.003, 5.0, 0.9
+#: Least number of samples in the lower half of the depth by which E* of the whole is judged.
+_HALF = 10
 #: Standard deviations from the neighbours, by their lower quartile, from which on a sample is an outlier,
 #: and least number of samples for it; the quartile of absolute normal deviations is 0.3186.
 _OUTLIER, _ENOUGH = 6.0, 30
@@ -36,7 +43,7 @@ def tests_of_noise(solved, i):
         yield from check(solved, i)
     size = np.sqrt(np.mean(solved.deviation[i] ** 2))
     # Smaller ones are those of the arithmetic.
-    if size > _EXACT * solved.curves.load[i, 0]:
+    if size > EXACT * solved.curves.load[i, 0]:
         yield from _outliers(solved, i)
         yield from _blocks(solved, i)
 
@@ -77,6 +84,10 @@ def _misfit(solved, i):
     correlation = autocorrelation(residual[solved.orders[i]])
     size = np.sqrt(np.mean(solved.deviation[i] ** 2)) / curves.load[i, 0]
     largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
+    systematic = curves.held_elastic and not curves.adhesive and size > _SYSTEMATIC
+    if systematic and correlation > _CORRELATED:
+        noise = roughness(solved.deviation[[i]])[0, 0] / curves.load[i, 0]
+        largest = min(largest, max(_SYSTEMATIC, _ABOVE_NOISE * noise))
     if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
         letters = [letter for letter, name in CLASSES.items() if name in curves.constants]
         of_class = f"of class {' + '.join(f'({letter})' for letter in letters)}"
@@ -87,13 +98,33 @@ def _misfit(solved, i):
         )
         timeless = curves.time is None and not curves.adhesive
         remedy = *_other_class(solved, i, letters), *[Remedy("give", "time")] * timeless
-        yield Remark(f"{text}{', or there is a drag or a drift' * timeless}", "misfit", *remedy)
-    elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > _EXACT:
+        text += ", or there is a drag or a drift" * timeless
+        if ratio := _whole_over_lower_half(solved, i):
+            text += f". E* of the whole is {ratio:.3g} times that of the lower half of the depth"
+        yield Remark(text, "misfit", *remedy)
+    elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > EXACT:
         text = (
             f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
             "larger than the given noise"
         )
         yield Remark(text, "noise")
+
+
+def _whole_over_lower_half(solved, i):
+    """E* of an elastic medium over that of the samples up to half of the depth; None if it is not known."""
+    curves = solved.curves.rows([i])
+    if not curves.held_elastic or curves.adhesive or curves.depth_noise or "E_star" not in curves.free:
+        return None
+    values = curves.values(solved.minimum.x[[i]])
+    begin = values["contact_point"][0, 0]
+    part = curves.depth[0] <= (begin + curves.top[0, 0]) / 2
+    if np.count_nonzero(part & (curves.depth[0] > begin)) < _HALF:
+        return None
+    columns = {name: getattr(curves, name)[:, part] for name in ("depth", "force", "sigma", "rate")}
+    time = None if curves.time is None else curves.time[:, part]
+    lower = replace(curves, **columns, time=time)
+    found = lower.values(lower.search(lower.scaled(values)).x)
+    return float((values["E_star"] / found["E_star"])[0, 0])
 
 
 def _other_class(solved, i, letters):

@@ -8,10 +8,11 @@ import numpy as np
 from ...base.errors import MDRError
 from ...base.remark import Remark, Remedy
 from ...show.report import with_error
-from ..common.errors import SIGNIFICANT, roughness
+from ..common.errors import SIGNIFICANT, autocorrelation, roughness
 from ..unloading.creep import COUNTS
 from ..unloading.oliver_pharr import oliver_pharr
 from ..unloading.oliver_pharr_result import OliverPharr
+from .noise import EXACT
 from .remarks import DOUBTS
 
 #: Remarks that say that a model which is elastic does not describe the curve, or that E* is not determined.
@@ -20,6 +21,8 @@ NOT_COMPARABLE = DOUBTS | {"unloading", "outliers"}
 OF_THE_FORCE = {"units", "no contact", "tilt", "drag", "drift"}
 #: Share of the largest depth and force, below which those of the first sample are those of first contact.
 _SMALL = 1e-3
+#: Residuals over the noise of neighbours, and their correlation, up to which a model describes a curve.
+_NOISE, _CORRELATED = 1.5, 0.3
 #: Words for the sources of a number.
 _SOURCES = {"fit": "by the fit", "unloading": "by Oliver and Pharr"}
 
@@ -28,9 +31,9 @@ _SOURCES = {"fit": "by the fit", "unloading": "by Oliver and Pharr"}
 class Quoted:
     """The modulus of one curve that is comparable with tables and other instruments: `fit.quoted`.
 
-    Of a medium that yields it is that of its unloading by Oliver and Pharr, of an elastic one that of the
-    fit. Where neither holds `value`, `standard_error` and `source` are None, `reason` says why, without
-    names of Python, and `kind` and `remedy` are as those of a `Remark`.
+    If the medium is elastic, or the model describes the curve to its noise, it is that of the fit. If not,
+    it is that of the unloading by Oliver and Pharr. Without either, `value`, `standard_error` and `source`
+    are None, `reason` says why, and `kind` and `remedy` are as those of a `Remark`.
 
     Examples
     --------
@@ -68,7 +71,11 @@ def quoted(fit):
         if doubt := _doubt(fit, {kind}):
             return _none(doubt)
     if fit.medium.q_c == np.inf:
-        return _of_the_fit(fit)
+        return _of_the_fit(fit, "the medium is elastic")
+    if _describes(fit) and not _doubt(fit, NOT_COMPARABLE):
+        found = _of_the_fit(fit, "the model describes the curve to its noise")
+        if found.source:
+            return found
     result, contact = fit.unloading
     if result is None:
         return _none(contact)
@@ -82,8 +89,17 @@ def _none(doubt):
     return Quoted("E_star", None, None, None, doubt.text, doubt.kind, doubt.remedy)
 
 
-def _of_the_fit(fit):
-    """`Quoted` of a medium that is elastic."""
+def _describes(fit):
+    """Whether the residuals are noise, or that of the arithmetic."""
+    residual = fit.residuals[np.isfinite(fit.residuals)]
+    size, noise = np.sqrt(np.mean(residual**2)), roughness(residual[None])[0, 0]
+    if size <= EXACT * np.ptp(fit.path.force):
+        return True
+    return size <= _NOISE * noise and autocorrelation(residual) < _CORRELATED
+
+
+def _of_the_fit(fit, reason):
+    """`Quoted` of a medium that is elastic, or whose model describes the curve."""
     if doubt := _doubt(fit, NOT_COMPARABLE):
         model = next((name for _, name in _others(fit)), "elastic")
         return _none(doubt.after(f"the {model} model does not fit: "))
@@ -92,7 +108,7 @@ def _of_the_fit(fit):
     value, error = float(fit.medium.E_star), float(fit.standard_errors["E_star"])
     if not error < np.inf:
         return _none(Remark("the data do not determine E*", "undetermined", Remedy("hold", "E_star")))
-    return Quoted("E_star", value, error, "fit", "the medium is elastic")
+    return Quoted("E_star", value, error, "fit", reason)
 
 
 def _others(fit):

@@ -243,10 +243,8 @@ class IndentationFit(Fit):
         if classes := self.classes:
             yield from fit_again(classes, self.class_of_hardness, self.standard_errors)
         if quote.source == "unloading":
-            yield (
-                "the model's",
-                "its contact sinks in elastically, and is smaller: E* and hardness are larger",
-            )
+            value = self._text("E_star", self.medium.E_star, "Pa")
+            yield "E* of the model", f"{value}: its contact sinks in elastically, and is smaller"
 
     def _unloading(self):
         """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
