@@ -8,13 +8,23 @@ from ...base.remark import Remark
 from ...show.quantities import engineering
 from ...show.report import with_error
 from ..common.errors import SIGNIFICANT, roughness
-from .first_contact import LEAST_LENGTH, LEAST_SAMPLES, FirstContact, contact_before, first_contact
+from .first_contact import (
+    LEAST_LENGTH,
+    LEAST_SAMPLES,
+    FirstContact,
+    contact_before,
+    elastic_exponents,
+    first_contact,
+)
 from .unloading import parts_of
 
 #: First contact of depths that are taken as they are given.
 GIVEN = FirstContact(0.0, 0.0, 0.0, 0.0)
-#: Least force where the depth is 0, as a share of the largest one, and largest depth that is 0.
-_LEAST_FORCE, _ZERO = 0.01, 1e-3
+#: Least force where the depth is 0, as a share of the largest one, by which a cone has 1.4 % less depth;
+#: largest depth that is 0.
+_LEAST_FORCE, _ZERO = 2e-4, 1e-3
+#: Largest force of an indenter that is lifted off, and least force of a contact, as shares of the largest.
+_LOST, _SEEN = 0.01, 1e-3
 #: Largest force of a preload before the indenter is lifted off, as a share of the largest one.
 _PRELOAD = 0.25
 
@@ -32,30 +42,41 @@ class InContact:
         given, first, offset = (
             f"E* {engineering(E, 'Pa')} and H {engineering(H, 'Pa')}" for E, H in (given, first, offset)
         )
-        share = f"{100 * self.force / self.largest:.2g} %"
+        share = self.force / self.largest
         return Remark(
-            f"the depth is 0 at {share} of the largest force, {engineering(self.force, 'N')}. If it was "
-            f"set in contact, first contact is {engineering(-self.depth, 'm')} before, by the power law of "
-            f"the loading: {first}, in place of {given}. If the force has an offset: {offset}. Give the "
-            "depth from first contact on",
+            f"the depth is 0 at {100 * share:.2g} % of the largest force, {engineering(self.force, 'N')}: "
+            f"a cone has {100 * np.sqrt(share):.2g} % of its depth there. If it was set to 0 in contact, "
+            f"first contact is {engineering(-self.depth, 'm')} before, by the power law of the loading: "
+            f"{first}, instead of {given}. If the force has an offset: {offset}. Give the depth from first "
+            "contact on",
             "zero",
         )
 
 
 def begin_of(depth, force):
-    """Index of the first sample after a preload from which the indenter is lifted off; else 0.
+    """Index of the sample at which the last approach begins, after a preload; else 0.
 
-    Such a record goes back from its first samples on, until the force is lost, and only then deeper.
+    The loading that counts leads to the largest depth. Before it the indenter is in the air. There it may
+    have been pressed before, held at a small force or loaded from 0.
     """
-    deeper = np.flatnonzero(depth > depth[0] + LEAST_LENGTH * np.ptp(depth))
-    if not deeper.size:
-        return 0
-    begin = int(np.argmin(depth[: deeper[0]]))
-    noise, largest = SIGNIFICANT * roughness(force[None])[0, 0], force.max()
-    before, after = force[: begin + 1], force[begin:]
-    retreats = depth[0] - depth[begin] > LEAST_LENGTH * np.ptp(depth) / 2
-    lost = before[-1] <= after[: int(np.argmax(after)) + 1].min() + max(noise, _LEAST_FORCE * largest)
-    return begin if retreats and lost and before.max() - before[-1] < _PRELOAD * largest else 0
+    top = int(np.argmax(depth))
+    before, noise, largest = force[: top + 1], SIGNIFICANT * roughness(force[None])[0, 0], force.max()
+    pressed = before > before.min() + max(2 * noise, _SEEN * largest)
+    last = int(np.flatnonzero(~pressed)[-1])
+    begin = int(np.flatnonzero(np.append(True, pressed[:last]))[-1])
+    air = depth[begin : last + 1]
+    if air.size >= LEAST_SAMPLES and np.ptp(air) > LEAST_LENGTH * np.ptp(depth) / 2:
+        begin += int(np.argmin(air))
+    else:
+        begin = 0
+    if not pressed[:begin].any():
+        # A preload that is not seen: the record goes back from its first samples on.
+        deeper = np.flatnonzero(depth > depth[0] + LEAST_LENGTH * np.ptp(depth))
+        begin = int(np.argmin(depth[: deeper[0]])) if deeper.size else 0
+        retreats = depth[0] - depth[begin] > LEAST_LENGTH * np.ptp(depth) / 2
+        lost = force[begin] <= force[begin : top + 1].min() + max(noise, _LOST * largest)
+        begin = begin if retreats and lost else 0
+    return begin if before[: begin + 1].max() - force[begin] < _PRELOAD * largest else 0
 
 
 def zero_of(profile, depth, force):
@@ -84,12 +105,16 @@ def _in_contact(profile, depth, force, loading):
     """`InContact` of a record whose first depth is 0 at a force, else None."""
     top = loading.start + int(np.argmax(force[loading]))
     largest, noise = force[top], SIGNIFICANT * roughness(force[None])[0, 0]
-    if abs(depth[0]) >= _ZERO * depth[top] or force[0] < max(_LEAST_FORCE * largest, noise):
+    if abs(depth[0]) >= _ZERO * depth[top]:
+        return None
+    # Of a flat face the depth of the first sample may be this force.
+    elastic = largest * (max(depth[0], 0.0) / depth[top]) ** elastic_exponents(profile, depth[top])[0]
+    if force[0] < max(_LEAST_FORCE * largest, noise, 2 * elastic):
         return None
     # After a preload from where the depth is again that of the first sample.
     start = loading.start + int(np.flatnonzero(depth[loading.start : top] <= depth[0])[-1:].sum())
     contact = contact_before(profile, depth[start : top + 1], force[start : top + 1])
-    return InContact(contact.depth, float(force[0]), float(largest))
+    return InContact(contact.depth, float(force[0]), float(force.max()))
 
 
 def _rounded(values, value, error):

@@ -92,7 +92,7 @@ def test_a_depth_that_is_0_at_a_force_is_said_with_both_numbers(share, noise):
     assert result.E_star > 1.05 * expected.E_star
     (remark,) = (each for each in result.remarks if each.kind == "zero")
     before, first_E, first_H = re.search(
-        r"contact is ([\d.]+) nm before, .*: E\* ([\d.]+) GPa and H ([\d.]+) GPa, in place of", remark
+        r"contact is ([\d.]+) nm before, .*: E\* ([\d.]+) GPa and H ([\d.]+) GPa, instead of", remark
     ).groups()
     # Of the noise: it is that of first contact, and twice its share in H.
     assert float(before) == approx(1e9 * depth[start], rel=1e-3 + 40 * noise)
@@ -100,6 +100,21 @@ def test_a_depth_that_is_0_at_a_force_is_said_with_both_numbers(share, noise):
     assert float(first_H) == approx(expected.hardness / 1e9, rel=1e-3 + 20 * noise)
     assert "give" not in remark.text
     assert ("zero" in kinds(mdr.oliver_pharr(TIP, depth, force))) is False
+
+
+@pytest.mark.parametrize("share", [5e-4, 1e-3, 4e-3])
+def test_a_depth_that_is_0_at_a_small_force_is_said_with_the_depth_that_it_hides(share):
+    """At 0.1 % of the force H is a tenth too large: a cone has 3 % of its depth there."""
+    depth, force = pressed(TIP, mdr.Medium(E, hardness=8e9))
+    expected = mdr.oliver_pharr(TIP, depth, force)
+    hidden = np.sqrt(share) * depth.max()
+    later = depth[: np.argmax(depth)] > hidden
+    start = int(np.argmax(later))
+    result = mdr.oliver_pharr(TIP, depth[start:] - depth[start], force[start:])
+    (remark,) = (each for each in result.remarks if each.kind == "zero")
+    told = float(re.search(r"a cone has ([\d.]+) % of its depth", remark)[1])
+    assert told == approx(100 * depth[start] / depth.max(), rel=0.2)
+    assert result.hardness > (1 + 1.5 * np.sqrt(share)) * expected.hardness
 
 
 def test_an_offset_of_the_force_is_the_other_reading():
@@ -145,6 +160,23 @@ def test_air_after_a_preload_is_used(share):
     assert "is in the air after its first" in str(result.remarks)
     # The preload is no unloading.
     assert mdr.oliver_pharr(TIP, d, F, cycles=True).unloading.tolist() == [1]
+
+
+@pytest.mark.parametrize("preload", [30e-9, 100e-9])
+@pytest.mark.parametrize("noise", [0.0, 1e-4])
+@pytest.mark.parametrize("shift", [0.0, 60e-9])
+def test_a_small_loading_before_a_new_approach_is_left_out(preload, noise, shift):
+    """It rises from 0 and is lifted off; the loading that leads to the largest depth counts."""
+    medium, last = mdr.Medium(E, hardness=8e9), [-50e-9, 300e-9, 150e-9]
+    legs = [np.linspace(*ends, 80) for ends in ((-60e-9, preload), (preload, -50e-9))]
+    first, second = np.concatenate(legs), np.append(*(np.linspace(*e, 250) for e in (last[:2], last[1:])))
+    depth = np.append(first, second)
+    force = np.append(*(mdr.indent(TIP, medium, part).force for part in (first, second)))
+    force = force + noise * force.max() * np.random.default_rng(3).normal(size=force.size)
+    expected = mdr.oliver_pharr(TIP, second, mdr.indent(TIP, medium, second).force)
+    result = mdr.oliver_pharr(TIP, depth + shift, force)
+    assert abs(result.E_star - expected.E_star) <= 4 * result.standard_errors["E_star"] + 1e-3 * E
+    assert result.contact_point == approx(shift, abs=3e-9)
 
 
 def test_real_steel_is_lifted_off_before_its_loading():
