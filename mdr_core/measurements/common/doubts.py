@@ -5,6 +5,7 @@ import numpy as np
 from ...base.remark import Remark, Remedy
 from ...show.quantities import engineering
 from ...solver.profiles.power import Cone
+from .errors import roughness
 
 #: Moduli E* (Pa) of materials, from the softest gels to diamond (1.15 TPa), with a margin.
 MODULI = 1.0, 2e12
@@ -69,6 +70,9 @@ def _short(value):
 #: has; least share of samples at which depths turn, and least median step, as a share of their range, of a
 #: record without order; least number of samples that tell it.
 _REVERSED, _TURNS, _STEPS, _FEW = 0.05, 0.4, 0.1, 10
+#: Share of the range of depth, and standard deviations of its noise, within which the depth stays; rise of
+#: the force there that no contact has, as a share of its range.
+_STAYS, _NOISE, _RISES = 5e-4, 3.0, 0.05
 #: Least distance of a sample from both neighbours that no path has, as a share of the range of the middle
 #: four fifths; least number of samples that tell it.
 _APART, _PATH = 0.5, 20
@@ -86,6 +90,23 @@ def out_of_order(depth, force):
     elif _rise_after(depth, force) > _REVERSED * np.ptp(force):
         text = "forces are larger after the largest depth than before it, as in a reversed record"
         yield Remark(f"{text}: give the samples in the order in which they were measured", "order")
+
+
+def saturated(depth, force):
+    """Yields a remark on a force that rises at the largest depth, as where the depth is at its limit."""
+    if depth.size < _FEW:
+        return
+    width = max(_STAYS * np.ptp(depth), _NOISE * roughness(depth[None])[0, 0])
+    top = np.flatnonzero(depth >= depth.max() - width)
+    rise = force[top].max() - force[top[0]]
+    # A contact has less over a tenth of the depths before.
+    before = force[top[0]] - force[np.argmax(depth >= depth.max() - 10 * width)]
+    if rise > max(_RISES * np.ptp(force), before):
+        share, place = 100 * rise / np.ptp(force), engineering(depth.max(), "m")
+        text = f"the force rises by {share:.2g} % while the depth stays at {place}, which no contact does"
+        yield Remark(
+            f"{text}: the depth is at the limit of its sensor", "misfit", Remedy("part", "loading")
+        )
 
 
 def _rise_after(depth, force):

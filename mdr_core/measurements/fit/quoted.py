@@ -23,6 +23,8 @@ OF_THE_FORCE = {"units", "no contact", "tilt", "drag", "drift"}
 _SMALL = 1e-3
 #: Residuals over the noise of neighbours, and their correlation, up to which a model describes a curve.
 _NOISE, _CORRELATED = 1.5, 0.3
+#: Misfit of the best class of hardness above which the curve is none of a contact.
+_NO_CLASS = 0.05
 #: Words for the sources of a number.
 _SOURCES = {"fit": "by the fit", "unloading": "by Oliver and Pharr"}
 
@@ -79,6 +81,12 @@ def quoted(fit):
     result, contact = fit.unloading
     if result is None:
         return _none(contact)
+    if doubt := next((each for each in result.remarks if each.kind == "misfit"), None):
+        return _none(doubt)
+    if fit.classes and min(float(each.misfit) for each in fit.classes.values()) > _NO_CLASS:
+        return _none(
+            _doubt(fit, {"misfit"}) or Remark("no class of hardness describes the curve", "misfit")
+        )
     reason = f"the medium yields; first contact {contact.text}"
     value, error = float(result.E_star), float(result.standard_errors["E_star"])
     return Quoted("E_star", value, error, "unloading", reason)

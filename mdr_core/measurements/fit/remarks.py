@@ -6,7 +6,7 @@ import numpy as np
 
 from ...base.remark import KINDS, Remark, Remedy
 from ...show.quantities import engineering
-from ..common.doubts import UNITS, is_modulus, of_ideal_tip, out_of_order
+from ..common.doubts import UNITS, is_modulus, of_ideal_tip, out_of_order, saturated
 from ..common.errors import SIGNIFICANT, roughness
 from .nested import nested_tests
 from .noise import tests_of_noise
@@ -37,7 +37,8 @@ _PULL_OFF = 0.02
 def remarks_of(solved):
     """Remarks on each curve of a `Solution`."""
     checks = (
-        _units, _order, _ambiguous, _adhesion, of_tension, _undetermined, tests_of_noise, nested_tests, _tip
+        _units, _order, _saturated, _ambiguous, _adhesion, of_tension, _undetermined, tests_of_noise,
+        nested_tests, _tip,
     )  # fmt: skip
     return [
         _consistent([*chain(*(check(solved, i) for check in checks))], _not_at_all(solved, i))
@@ -149,6 +150,11 @@ def _order(solved, i):
     curves = solved.curves
     if not curves.held_elastic or curves.adhesive:
         yield from out_of_order(curves.depth[i], curves.force[i])
+
+
+def _saturated(solved, i):
+    """A depth at the limit of its sensor."""
+    return saturated(solved.curves.depth[i], solved.curves.force[i])
 
 
 def _shares_of_others(depth, force):

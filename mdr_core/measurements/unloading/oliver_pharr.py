@@ -14,7 +14,7 @@ from ...solver.contact.live_interval import LiveInterval
 from ...solver.medium.medium import Medium
 from ...solver.profiles.profile import Profile
 from ..common.columns import Times, arrays_of, columns_of
-from ..common.doubts import apart, doubts, of_ideal_tip, out_of_order
+from ..common.doubts import apart, doubts, of_ideal_tip, out_of_order, saturated
 from ..measured_curve import MeasuredCurve
 from . import creep as creeping
 from .first_contact import elastic_exponents
@@ -97,7 +97,7 @@ def oliver_pharr(
         raise check.MDRError("stiffness is measured at each sample: give it without time and cycles")
     columns = _finite_columns(given.depth, given.force, time, stiffness)
     path = columns["depth"], columns["force"]
-    read = (*read, *apart(*path))
+    read = (*read, *apart(*path), *saturated(*path))
     if stiffness is None:
         read = (*read, *out_of_order(*path))
     first, contact, found, in_contact = zero_of(profile, *path)
@@ -234,9 +234,45 @@ def _collected(profile, results, iso, contact, epsilon, numbers, remarks):
             values[name] = check.frozen(each)
     S, h_c, E, H, m = (values[name] for name in names)
     remains = remaining(profile, h_c, S, H, m, epsilon)
-    remarks = [*remarks, *doubts(E, H, remains), *profile.remarks]
-    remarks += of_ideal_tip(profile, values["contact_depth"])
+    remarks = [*remarks, *_impossible(profile, values, errors, epsilon), *doubts(E, H, remains)]
+    remarks += [*profile.remarks, *of_ideal_tip(profile, values["contact_depth"])]
     return OliverPharr(profile=profile, **values, standard_errors=errors, remarks=tuple(remarks))
+
+
+def _impossible(profile, values, errors, epsilon):
+    """Yields remarks on an exponent, or a hardness over the modulus, that no contact of the tip has."""
+    h_c, E, H, m = (np.ravel(values[name]) for name in ("contact_depth", "E_star", "hardness", "exponent"))
+    share = np.hypot(*(np.ravel(errors[name]) / each for name, each in (("E_star", E), ("hardness", H))))
+    margin = _CERTAIN * np.ravel(errors["exponent"])
+    least = 0.0 if np.all(profile.face_radius > 0) else 1.0
+    most = 2 * max(elastic_exponents(profile, h_c.max())[1], 2.0)
+    bad = (m + margin < least) | (m - margin > most)
+    if bad.any():
+        text = (
+            f"no unloading of this tip has an exponent m = {m[bad][0]:.3g}: it is {least:g} to {most:.2g}"
+        )
+        yield Remark(f"{text}. Depth and force are not those of one unloading", "misfit")
+    elastic = _elastic_ratio(profile, h_c, epsilon)
+    bad = H / E * (1 - _CERTAIN * share) > (1 + _ROUNDING) * elastic
+    if bad.any():
+        text = (
+            f"H/E* = {(H / E)[bad][0]:.3g} is more than that of an elastic contact, {elastic[bad][0]:.3g}"
+        )
+        yield Remark(
+            f"{text}: the tip or the zero of the depth is wrong", "misfit", Remedy("give", "profile")
+        )
+
+
+def _elastic_ratio(profile, contact_depth, epsilon):
+    """H/E* of elastic contacts of a tip at contact depths (m) by this method, such as 0.509 s of cones."""
+    depth, known = contact_depth, profile.known_depth
+    for _ in range(_ITERATIONS):
+        interval = LiveInterval.elastic(np.minimum(depth, known))
+        # F/E* and S/E* are twice these.
+        force = integrals(profile).radius_integral(interval)
+        stiffness = profile.radius_at(interval.upper)
+        depth = contact_depth + epsilon * force / stiffness
+    return 2 * force / (np.pi * profile.radius_at_height(contact_depth) * stiffness)
 
 
 def _with_other_readings(result, read, in_contact, constants):
@@ -258,6 +294,8 @@ def _with_other_readings(result, read, in_contact, constants):
 
 
 #: Exponent that unloadings do not have after which more than a share of the largest depth remains.
+#: Standard deviations beyond which a number is impossible; steps to the depth of an elastic contact.
+_CERTAIN, _ITERATIONS = 3.0, 100
 _STEEP, _REMAINS = 1.7, 0.5
 #: Least half-range of m over parts of the unloading that counts.
 _VARIES = 0.1

@@ -263,3 +263,38 @@ def test_records_of_few_samples_are_refused_in_words(count, sign):
     for time in (None, np.arange(count)):
         with pytest.raises(ValueError, match="unloading"):
             mdr.oliver_pharr(TIP, depth, force, time=time)
+
+
+@pytest.mark.parametrize("share", [0.6, 0.9, 0.97])
+@pytest.mark.parametrize("noise", [0.0, 2e-4])
+def test_a_depth_at_the_limit_of_its_sensor_has_no_number(share, noise):
+    """The force goes on rising, while the depth stays at a share of the largest one."""
+    depth, force = pressed(TIP, mdr.Medium(E, hardness=8e9))
+    depth = np.minimum(depth, share * depth.max())
+    depth = depth + noise * depth.max() * np.random.default_rng(4).normal(size=depth.size)
+    try:
+        assert "misfit" in kinds(mdr.oliver_pharr(TIP, depth, force))
+    except mdr.MDRError as error:
+        assert error.kind == "no unloading"
+    fit = mdr.fit_indentation(TIP, depth, force, hardness=None, depth_noise=noise * depth.max())
+    assert fit.quoted.source is None
+
+
+@pytest.mark.parametrize("tip", [TIP, mdr.Paraboloid(1e-6), mdr.RoundedCone(0.358, 60e-9)])
+def test_more_hardness_than_of_an_elastic_contact_is_impossible(tip):
+    """Of a tip that is blunter than the one that is given; an elastic contact itself is none."""
+    blunt = mdr.Sphere(3e-6)
+    for real, wrong in ((tip, False), (blunt, True)):
+        depth, force = pressed(real, mdr.Medium(E))
+        sharp = mdr.Cone(0.05) if wrong else tip
+        assert ("misfit" in kinds(mdr.oliver_pharr(sharp, depth, force))) == wrong
+
+
+def test_an_exponent_that_no_unloading_has_is_said():
+    """F ∝ (h − h_f)^m with m = 0.8, and with m = 12, as of a tip that is withdrawn from a liquid."""
+    u = np.linspace(1.0, 0.02, 200)
+    for m, bad in ((0.8, True), (1.4, False), (12.0, True)):
+        h, F = 200e-9 + 100e-9 * u, 1e-3 * u**m
+        depth = np.append(np.linspace(0, h[0], 200), h)
+        force = np.append(F[0] * np.linspace(0, 1, 200) ** 2, F)
+        assert ("misfit" in kinds(mdr.oliver_pharr(TIP, depth, force))) == bad
