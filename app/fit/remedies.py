@@ -44,6 +44,9 @@ def remedy_button(remedy: Remedy, page: Any) -> Any:
             return button(f"Give the {NUMBERS[what].label}", partial(set_number, si=value))
         case "give" if what in NUMBERS:
             return _leading(page, f"Give the {NUMBERS[what].label}", what)
+        case "subtract" if page.curve is not None and page.curve.time is not None:
+            drift = written(value, "speed", 3)
+            return button(f"Subtract a drift of {drift}", partial(set_number, si=value))
         case "give" if what == "profile":
             return _leading(page, "Choose another tip", "profile")
         case "give" | "unit" if page.table is not None and not page.is_afm:

@@ -33,8 +33,8 @@ KINDS = {
     "left out": "samples, columns, tables, unloadings or quantities that are left out",
 }
 #: What a `Remedy` does: fit a parameter, hold one, give what is missing, look at a unit, take a part of the
-#: curve, choose another class of hardness.
-ACTIONS = "free", "hold", "give", "unit", "part", "class"
+#: curve, choose another class of hardness, subtract a drift from the depth.
+ACTIONS = "free", "hold", "give", "unit", "part", "class", "subtract"
 
 
 #: What a user of the library does, where names are not enough: classes of hardness, parts, and units.
@@ -63,7 +63,7 @@ class Remedy:
     ----------
     action : str
         "free" or "hold" a parameter, "give" what is missing, look at a "unit", evaluate a "part" of the
-        curve, or choose another "class" of hardness.
+        curve, choose another "class" of hardness, or "subtract" a drift (m/s).
     what : str
         A name of the public interface: a parameter or argument, as "drag" or "spring_constant", a column,
         as "depth", a part of the curve, as "loading", or a class, as "a".
@@ -96,6 +96,8 @@ class Remedy:
             return f"hold {self.what}" + ("" if self.value is None else f" = {self.value:g}")
         if self.action == "part":
             return f"fit the {self.what} alone"
+        if self.action == "subtract":
+            return f"give curve.minus_drift({self.value:.3g})"
         return f"give {self.what}=" + ("…" if self.value is None else f"{self.value!r}")
 
 

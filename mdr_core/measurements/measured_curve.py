@@ -148,26 +148,19 @@ class MeasuredCurve(Record):
         """
         time = self._times()
         if hold is None:
-            edges = np.flatnonzero(np.diff(self.segment == "hold", prepend=False, append=False))
-            holds = [slice(start, stop) for start, stop in edges.reshape(-1, 2).tolist()]
-            force, peak = self.force, np.argmax(self.force)
-            low = [
-                part for part in holds if part.start > peak and np.mean(force[part]) < _LOW * force[peak]
-            ]
-            if not low:
-                raise MDRError(
-                    f"{self.name} has no hold after the largest force and below a fifth of it: give the "
-                    "samples of one, as in curve.drift(slice(800, 900)), or the rate itself"
-                )
-            hold = low[-1]
+            hold = last_hold(self.segment, self.force)
+        if hold is None:
+            raise MDRError(
+                f"{self.name} has no hold after the largest force and below a fifth of it: give the "
+                "samples of one, as in curve.drift(slice(800, 900)), or the rate itself"
+            )
         if not isinstance(hold, slice):
             raise MDRError(f"hold = {hold!r:.60} must be a slice of samples, as in slice(800, 900)")
-        time, depth = time[hold], self.depth[hold]
-        if time.size < 3:
-            raise MDRError(f"{hold} has {time.size} samples of {self.name}: a hold needs three or more")
-        thin = max(1, time.size // _SLOPES)
-        steps, rises = (np.subtract.outer(each[::thin], each[::thin]) for each in (time, depth))
-        return float(np.median(rises[steps > 0] / steps[steps > 0]))
+        if time[hold].size < 3:
+            raise MDRError(
+                f"{hold} has {time[hold].size} samples of {self.name}: a hold needs three or more"
+            )
+        return rate_in(time[hold], self.depth[hold])
 
     def minus_drift(self, rate: float) -> Self:
         """The curve without a drift: depth minus rate times time, from the first sample on.
@@ -208,6 +201,21 @@ class MeasuredCurve(Record):
     def _minus(self, depth, text):
         remarks = (*self.remarks, Remark(f"depth: {text} is subtracted", "changed"))
         return replace(self, depth=frozen(self.depth - depth), remarks=remarks)
+
+
+def last_hold(segment, force):
+    """The last hold after the largest force, with a mean force below a fifth of it, as a slice; or None."""
+    edges = np.flatnonzero(np.diff(segment == "hold", prepend=False, append=False))
+    holds, peak = [slice(*ends) for ends in edges.reshape(-1, 2).tolist()], np.argmax(force)
+    low = [part for part in holds if part.start > peak and np.mean(force[part]) < _LOW * force[peak]]
+    return low[-1] if low else None
+
+
+def rate_in(time, depth):
+    """Rate (m/s) of the depth: the median of the slopes between samples."""
+    thin = max(1, time.size // _SLOPES)
+    steps, rises = (np.subtract.outer(each[::thin], each[::thin]) for each in (time, depth))
+    return float(np.median(rises[steps > 0] / steps[steps > 0]))
 
 
 def segments_of(depth, force, time=None):

@@ -151,7 +151,9 @@ class _Trial(NamedTuple):
         what = f"{test.what.format(engineering(self.size, test.unit))} would "
         if self.factor > _LOWERED:
             what += f"lower the misfit in contact by a factor of {self.factor:.3g} and "
-        remedy = (each for each in test.remedy if each.what not in free)
+        remedy = [each for each in test.remedy if each.what not in free]
+        if self.name == "drift":
+            remedy = [Remedy("subtract", "drift", float(f"{self.size:.4g}"))]
         return Remark(
             f"{what}change E* by {self.change:+.1f} standard errors", test.kind, *remedy, together=True
         )

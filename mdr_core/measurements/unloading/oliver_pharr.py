@@ -15,7 +15,8 @@ from ...solver.medium.medium import Medium
 from ...solver.profiles.profile import Profile
 from ..common.columns import Times, arrays_of, columns_of
 from ..common.doubts import apart, doubts, of_ideal_tip, out_of_order, saturated
-from ..measured_curve import MeasuredCurve
+from ..common.errors import roughness
+from ..measured_curve import MeasuredCurve, last_hold, rate_in, segments_of
 from . import creep as creeping
 from .first_contact import elastic_exponents
 from .iso_14577 import iso_numbers, remark_on_beginning
@@ -100,6 +101,8 @@ def oliver_pharr(
     read = (*read, *apart(*path), *saturated(*path))
     if stiffness is None:
         read = (*read, *out_of_order(*path))
+    if "time" in columns:
+        read = (*read, *_drift(columns["time"], *path))
     first, contact, found, in_contact = zero_of(profile, *path)
     columns = {name: values[first:] for name, values in columns.items()}
     depth, force = columns["depth"] - contact.depth, columns["force"] - contact.baseline
@@ -239,6 +242,22 @@ def _collected(profile, results, iso, contact, epsilon, numbers, remarks):
     return OliverPharr(profile=profile, **values, standard_errors=errors, remarks=tuple(remarks))
 
 
+def _drift(time, depth, force):
+    """Yields a remark on a drift of the depth in a hold after the unloading, if it counts."""
+    hold = last_hold(segments_of(depth, force), force)
+    if hold is None or time[hold].size < _FEWEST:
+        return
+    rate, top = rate_in(time[hold], depth[hold]), int(np.argmax(force))
+    noise, change = roughness(depth[None])[0, 0], rate * np.ptp(time[hold])
+    share = rate * (time[top] - time[0]) / np.ptp(depth[: top + 1])
+    if abs(share) > _DRIFTS and abs(change) > _CERTAIN * noise:
+        text = (
+            f"the depth changes by {engineering(rate, 'm/s')} in the hold after the unloading: since the "
+            f"first sample such a drift is {100 * share:.2g} % of the depth"
+        )
+        yield Remark(text, "drift", Remedy("subtract", "drift", rate))
+
+
 def _impossible(profile, values, errors, epsilon):
     """Yields remarks on an exponent, or a hardness over the modulus, that no contact of the tip has."""
     h_c, E, H, m = (np.ravel(values[name]) for name in ("contact_depth", "E_star", "hardness", "exponent"))
@@ -294,6 +313,8 @@ def _with_other_readings(result, read, in_contact, constants):
 
 
 #: Exponent that unloadings do not have after which more than a share of the largest depth remains.
+#: Drift since the first sample, as a share of the depth, that counts, and samples of a hold that tell it.
+_DRIFTS, _FEWEST = 0.003, 10
 #: Standard deviations beyond which a number is impossible; steps to the depth of an elastic contact.
 _CERTAIN, _ITERATIONS = 3.0, 100
 _STEEP, _REMAINS = 1.7, 0.5
