@@ -134,7 +134,7 @@ def test_columns_of_nova_are_known_by_the_constants_that_are_given(tmp_path):
     rows = [f"{1e9 * h:.6f}\t{1e9 * i:.6f}\t{1e9 * i:.6f}" for h, i in zip(HEIGHT, current, strict=False)]
     path = tmp_path / "run.txt"
     path.write_text("\n".join(rows[::-1]).replace(".", ","), encoding="utf-8")
-    with pytest.raises(ValueError, match="NT-MDT's files need spring_constant="):
+    with pytest.raises(mdr.UnknownColumns):
         mdr.read_curve(path)
     read = mdr.read_curve(path, spring_constant=STIFFNESS, sensitivity=SENSITIVITY)
     # Six decimals of nm and nA; the package leaves out samples of one deflection at the beginning.

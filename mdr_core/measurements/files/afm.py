@@ -90,8 +90,18 @@ def _refused(errors, path):
     except (Exception, errors.AFMFileFormatError, errors.MissingMetaDataError) as error:
         export = export_of(path.suffix.lower())
         cure, remedy = _CURES.get(type(error).__name__, (export, ()))
-        text = f"{path.name} cannot be read by afmformats: {error}{cure}"
+        text = f"{path.name} cannot be read by afmformats: {_in_words(error, errors)}{cure}"
         raise MeasurementError(Remark(text, "invalid", *remedy, together=True)) from None
+
+
+def _in_words(error, errors):
+    """What an error of `afmformats` says, and of others what they mean."""
+    if isinstance(error, KeyError):
+        return f"it lacks {error}"
+    own = errors.AFMFileFormatError, errors.MissingMetaDataError, NotImplementedError, UnicodeDecodeError
+    if not isinstance(error, own):
+        return f"it is not as its format says ({type(error).__name__})"
+    return re.sub(r"<_io\.\w+ name='?(?:[^'>]*[/\\\\])?([^'/>]*)'?[^>]*>", r"\1", str(error))
 
 
 def from_afm(path, given):

@@ -40,9 +40,9 @@ def taken(table, file, given, stiffness=None):
         results = guess.scatters(table, likely) if likely else not _may_be_curve(table)
         if results and likely:
             why += " Depth and force go to and fro: a table of results is no curve"
-        hint = " NT-MDT's files need spring_constant= (N/m) and sensitivity= (m/A)"
-        hint = "" if any(table.heads.values()) else hint
-        raise UnknownColumns(why, table, file, _merged(suggestion, given), hint=hint, results=results)
+        # Of a table that may be one of results nothing is suggested.
+        suggestion = {} if results else _merged(suggestion, given)
+        raise UnknownColumns(why, table, file, suggestion, results=results)
     columns = given | {
         each: (k[0], table.unit(k[0])) for each, k in found.items() if len(k) == 1 and each not in given
     }
@@ -184,7 +184,7 @@ def ask_for_results(table, file, columns):
     why = "are the rows samples of one test, or is this a table of results?"
     why += " Depth and force go to and fro." * (not path)
     why += f" It has {others[0]!r}." if others else ""
-    raise UnknownColumns(why, table, file, _with_by(table, columns), results=not path)
+    raise UnknownColumns(why, table, file, _with_by(table, columns) if path else {}, results=not path)
 
 
 def _may_be_curve(table):

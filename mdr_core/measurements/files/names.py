@@ -6,7 +6,7 @@ unit has no exact name: "Max Load (mN)", "Depth*10 (nm)" and "Load (mN) [x0.1]" 
 
 from functools import lru_cache
 
-from .units import cleaned, unit_alone
+from .units import IN_BRACKETS, cleaned, unit_alone
 
 #: Longest header that is looked at.
 _LONGEST = 80
@@ -68,7 +68,8 @@ def _ended(text):
     for sign in ("/", ",", ":", "_", " "):
         name, found, last = text.rpartition(sign)
         unit = unit_alone(last)
-        if found and unit and not (sign == "/" and _is_compound(name.split())):
+        compound = sign == "/" and _is_compound(name.split())
+        if found and unit and unit[1] not in IN_BRACKETS and not compound:
             return name, sign, unit
     return text, "", ("", "")
 

@@ -18,6 +18,8 @@ _MEET = 0.3
 _NEXT, _STILL = 0.1, 0.02
 #: Turns of the depth over its range, per row, above which it is scatter; and least one.
 _SCATTER, _TURNS = 0.15, 3.0
+#: Share of the values at each end that may be outliers.
+_EXTREMES = 0.02
 #: Range, as a share of the largest value, and rows below which the numbers are those of repeated tests.
 _SAME, _MANY = 0.3, 100
 #: Fewest rows of a curve.
@@ -56,7 +58,7 @@ def restarts(depth):
 def is_path(depth, force):
     """Whether depth and force go along a path, as those of one test, and are not scattered."""
     known = np.isfinite(depth) & np.isfinite(force)
-    depth, force = depth[known], force[known]
+    depth, force = (_without_extremes(each[known]) for each in (depth, force))
     # A dead curve of a map has no force, and is one.
     moving = [each for each in (depth, force) if each.size and np.ptp(each)]
     if depth.size < 3 or not moving:
@@ -64,6 +66,14 @@ def is_path(depth, force):
     same = all(np.ptp(each) < _SAME * np.abs(each).max() for each in (depth, force))
     turns = max(np.abs(np.diff(each)).sum() / np.ptp(each) for each in moving)
     return not (same and depth.size < _MANY) and turns <= max(_TURNS, _SCATTER * depth.size)
+
+
+def _without_extremes(values):
+    """Values within their range but for a fiftieth at each end, as outliers; all if the rest has none."""
+    if values.size < FEWEST:
+        return values
+    low, high = np.quantile(values, [_EXTREMES, 1 - _EXTREMES])
+    return np.clip(values, low, high) if low < high else values
 
 
 def has_path(table):

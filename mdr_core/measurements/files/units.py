@@ -15,8 +15,9 @@ def _sizes(kind, *names):
 
 #: Sizes (SI) of the units that a column of a file may have, by their kind.
 COLUMN_UNITS = {
-    "length": LENGTHS,
-    "force": _sizes("force", "kN", "N", "mN", "µN", "nN", "pN", "MN"),
+    "length": LENGTHS | {"in": 0.0254},
+    "force": _sizes("force", "kN", "N", "mN", "µN", "nN", "pN", "MN")
+    | {"g": 9.80665e-3, "gf": 9.80665e-3, "kgf": 9.80665, "lb": 4.4482216, "lbf": 4.4482216},
     "time": {"min": 60.0} | _sizes("time", "s", "ms", "µs") | {"h": 3600.0},
     "voltage": {"V": 1.0, "mV": 1e-3},
     "stiffness": {
@@ -27,6 +28,8 @@ COLUMN_UNITS = {
 }  # fmt: skip
 _PREFIXES = {"": "", "pico": "p", "nano": "n", "micro": "µ", "milli": "m", "kilo": "k"}
 _NOUNS = {"meter": "m", "meters": "m", "metre": "m", "metres": "m", "newton": "N", "newtons": "N"}
+#: Units that are words or letters of names, too: understood in brackets and in a row of units alone.
+IN_BRACKETS = {"in", "g", "lb"}
 #: English words of units, in small letters without blanks and hyphens.
 _WORDS = {
     "micron": "µm", "microns": "µm", "angstrom": "Å", "angstroms": "Å", "centimeter": "cm",

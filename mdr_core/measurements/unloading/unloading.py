@@ -134,8 +134,8 @@ def _power_law(h, force):
     minimum = least_squares(function, start, _LOWER, _UPPER)
     if minimum.at_bound.any():
         text = (
-            "the upper half of the unloading does not follow a power law: the depth creeps, or the samples "
-            "are not in the order of time"
+            "the upper half of the unloading does not follow a power law: the depth creeps, or the force "
+            "is not that of a contact"
         )
         raise MeasurementError(Remark(text, "no unloading"))
     _, s, vt = np.linalg.svd(minimum.jacobian[0], full_matrices=False)

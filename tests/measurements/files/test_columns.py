@@ -60,8 +60,8 @@ def test_mu_is_known_as_other_encodings_leave_it(write, encoding):
         "Load x10 (mN)",
         "Load (0.1 mN)", "Load 100 mN", "Load (10^-3 N)", "Load (tenths of mN)", "log Load (mN)",
         "Load (mN)^2",
-        "kForce (mN)", "Force m(N)", "Force (m N)", "Load (% of 10 mN)", "Load (kgf)",
-        "Load (lbf)", "Load (?N)",
+        "kForce (mN)", "Force m(N)", "Force (m N)", "Load (% of 10 mN)", "Load g",
+        "Load (ozf)", "Load (?N)",
         "Load (\ufffdN)", "LOAD (MN)", "F_N", "Load", "Load (mN/s)", "half Load (mN)",
     ],
 )  # fmt: skip
@@ -410,3 +410,34 @@ def test_of_columns_that_are_nearly_as_likely_two_are_a_choice_and_three_are_cur
     columns = error.suggestion["columns"]
     columns = columns if isinstance(columns, list) else [columns]
     assert [(each["depth"][0], each["force"][0]) for each in columns] == pairs
+
+
+@pytest.mark.parametrize(
+    ("unit", "newton"),
+    [("g", 9.80665e-3), ("gf", 9.80665e-3), ("kgf", 9.80665), ("lb", 4.4482216), ("lbf", 4.4482216)],
+)
+def test_units_of_scales_and_of_inches(tmp_path, unit, newton):
+    """In brackets and in a row of units: "Depth in nm" is in nm."""
+    path = tmp_path / "run.csv"
+    for head in (f"Depth (in), Load ({unit})", f"Depth, Load\nin, {unit}"):
+        path.write_text(f"{head}\n0, 0\n0.1, 2\n0.2, 8\n", encoding="utf-8")
+        curve = mdr.read_curve(path)
+        np.testing.assert_allclose(curve.depth, [0, 0.00254, 0.00508])
+        np.testing.assert_allclose(curve.force, [0, 2 * newton, 8 * newton])
+    path.write_text(f"Depth in nm, Load ({unit})\n0, 0\n1, 2\n2, 8\n", encoding="utf-8")
+    np.testing.assert_allclose(mdr.read_curve(path).depth, [0, 1e-9, 2e-9])
+
+
+def test_outliers_make_no_path_of_a_table_of_results(tmp_path):
+    """Two outliers in 300 tests: nothing is suggested that would read them as curves."""
+    rng = np.random.default_rng(0)
+    depth, load = rng.normal(200, 20, 300), rng.normal(5, 0.5, 300)
+    depth[[40, 200]], load[[40, 200]] = 4000, 90
+    rows = "".join(f"{h:.3f},{F:.4f}\n" for h, F in zip(depth, load, strict=True))
+    path = tmp_path / "results.csv"
+    for head in ("Depth (nm),Load (mN)", "hmax (nm),Pmax (mN)"):
+        path.write_text(f"{head}\n{rows}", encoding="utf-8")
+        with pytest.raises(mdr.UnknownColumns) as error:
+            mdr.read_curve(path)
+        assert error.value.results
+        assert not error.value.suggestion

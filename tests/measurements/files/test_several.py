@@ -215,7 +215,7 @@ def test_tables_below_each_other_are_curves(write):
 
 def test_one_table_that_is_asked_about_does_not_stop_the_others(write):
     """What is told holds for the tables with its heads alone: here not for the first and the last."""
-    tables = [HEAD, "Depth (nm),Load (kgf)\n", "Load (mN),Depth (nm)\n", "Depth (nm),Load (kgf)\n"]
+    tables = [HEAD, "Depth (nm),Load (ozf)\n", "Load (mN),Depth (nm)\n", "Depth (nm),Load (ozf)\n"]
     columns = [(NM, MN), (NM, 2 * MN), (3 * MN, NM), (NM, 4 * MN)]
     path = write("\n".join(head + rows(*each) for head, each in zip(tables, columns, strict=True)))
     curves = mdr.read_curves(path)
@@ -298,9 +298,9 @@ def test_a_sheet_that_is_asked_about_is_not_left_out(tmp_path):
     """It is asked about when it is taken, with its name; what is told of one holds for its heads alone."""
     sheets = {
         "Test 1": TEST,
-        "Test 2": sheet(["Depth (nm)", "Load (kgf)"], NM, 2 * MN),
+        "Test 2": sheet(["Depth (nm)", "Load (ozf)"], NM, 2 * MN),
         "Test 3": sheet(["Zeit (s)", "Tiefe (nm)", "Kraft (mN)"], TIME, NM, 3 * MN),
-        "Test 4": sheet(["Depth (nm)", "Load (kgf)"], NM, 4 * MN),
+        "Test 4": sheet(["Depth (nm)", "Load (ozf)"], NM, 4 * MN),
     }
     path = workbook(tmp_path, sheets)
     curves = mdr.read_curves(path)
