@@ -37,10 +37,10 @@ def curves_of_text(text, file, options):
 def curves_of_tables(tables, file, options):
     """Functions that make the curves of tables, read plainly, as told, or asked about when they are taken.
 
-    What is told holds for the tables with the heads and units of the one that is asked about: the first one
-    that is not plain, or the first one that has the columns that are told by their names. Tables of results
-    and settings are left out, with a remark. Plain tables come first, so that an unclear one keeps its
-    number after its columns are given.
+    What is told holds for the tables with the heads and units of the one that is asked about (`_asked`), or
+    of the first one that has the columns that are told by their names. Tables of results and settings are
+    left out, with a remark. Plain tables come first, or without any the one that is asked about, so that an
+    unclear one keeps its number after its columns are given.
     """
     columns, by, given = options["columns"], options["by"], options["given"]
     plain = [_tried(table, file, None, None, given) for table in tables]
@@ -53,8 +53,10 @@ def curves_of_tables(tables, file, options):
         ]
     left, makers, doubtful = [], [], []
     wanted = [not _no_curve(outcome) for outcome in found]
-    first = _asked(plain)
-    for table, outcome, before in zip(tables, found, plain, strict=True):
+    first = _asked(tables, plain)
+    none = not any(isinstance(each, list) for each in plain)
+    for i in sorted(range(len(tables)), key=lambda i: none and i != first):
+        table, outcome, before = tables[i], found[i], plain[i]
         if isinstance(outcome, list):
             (makers if isinstance(before, list) else doubtful).extend(outcome)
         elif any(wanted) and _no_curve(outcome):
@@ -79,10 +81,22 @@ def _no_curve(outcome):
     return isinstance(outcome, NoCurve) or getattr(outcome, "results", False)
 
 
-def _asked(plain):
-    """Number of the first table that is asked about, or of the first one with a curve."""
-    asked = (i for i, each in enumerate(plain) if isinstance(each, UnknownColumns) and not each.results)
-    return next(asked, next((i for i, each in enumerate(plain) if not _no_curve(each)), 0))
+def _asked(tables, plain):
+    """Number of the table that is asked about, or of the first one with a curve.
+
+    Without a plain one it is that with a length, a force and the most rows: others are of a motor, say.
+    """
+
+    def rank(i):
+        kinds = {tables[i].parted(k)[1] for k in tables[i].heads}
+        return len(kinds & {"length", "force"}), len(tables[i].lines)
+
+    asked = [i for i, each in enumerate(plain) if isinstance(each, UnknownColumns) and not each.results]
+    if asked and not any(isinstance(each, list) for each in plain):
+        return max(asked, key=rank)
+    if asked:
+        return asked[0]
+    return next((i for i, each in enumerate(plain) if not _no_curve(each)), 0)
 
 
 def _key_of_told(tables, plain, columns):
@@ -96,7 +110,7 @@ def _key_of_told(tables, plain, columns):
             for part in parts:
                 told(table, "", part)
             return table.key
-    return tables[_asked(plain)].key
+    return tables[_asked(tables, plain)].key
 
 
 def _for_pasting(error, table, tables, first):

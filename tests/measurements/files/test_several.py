@@ -361,3 +361,17 @@ def test_a_stiffness_goes_with_a_suggestion(asked, write):
         **error.suggestion,
     )
     assert_curve(curve, DEPTH, SMALL)
+
+
+def test_the_table_with_a_length_a_force_and_the_most_rows_is_asked_about(write):
+    """Not that of a motor's approach, nor that of a drift, which come first in the file."""
+    motor = "Piezo (V),Path (µm)\n" + "".join(f"{k},{2 * k}\n" for k in range(40))
+    drift = "Tiefe (nm),Last (mN)\n" + "".join(f"{0.1 * k},0.01\n" for k in range(12))
+    test = "Tiefe (nm),Last (mN),Zeit (s)\n" + rows(NM, MN, np.arange(NM.size))
+    path = write("\n".join((motor, drift, test)))
+    with pytest.raises(mdr.UnknownColumns) as error:
+        mdr.read_curve(path)
+    assert "Zeit" in str(error.value.table.heads)
+    assert error.value.table.name in str(error.value)
+    curve = mdr.read_curve(path, **error.value.suggestion)
+    assert_curve(curve)
