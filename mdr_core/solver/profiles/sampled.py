@@ -131,7 +131,13 @@ class Sampled(Profile):
     @classmethod
     @check.keywords_explained
     def from_area_function(
-        cls, coefficients: ArrayLike, height: float, samples: int = 400, *, unit: str = "m"
+        cls,
+        coefficients: ArrayLike,
+        height: float,
+        samples: int = 400,
+        *,
+        unit: str = "m",
+        from_depth: float | None = None,
     ) -> "Sampled":
         """Profile with the cross-section A(h) = C₀h² + C₁h + C₂h^(1/2) + C₃h^(1/4) + … at a height h.
 
@@ -150,13 +156,17 @@ class Sampled(Profile):
             Number of vertices, denser towards the tip, from 10⁻⁴ of the height on.
         unit : {"m", "mm", "um", "µm", "nm", "pm", "Å"}, optional
             Unit of the coefficients; instruments give them in nm. The height is in m.
+        from_depth : float, optional
+            Contact depth (m) from which the function is used, at most half of the height. Below, the tip is
+            a cone. Functions with negative terms may be convex at larger depths alone.
 
         Raises
         ------
         ValueError
             If the area does not grow, or the tip is concave by more than 3 %; if the radius there is
             more than 100 times the height or less than a hundredth, as of coefficients in another unit;
-            if the height is above 10⁶ of a unit that is given, as a height that is not in m.
+            if the height is above 10⁶ of a unit that is given, as a height that is not in m. The error
+            names the least `from_depth` that helps.
 
         Examples
         --------
@@ -168,7 +178,7 @@ class Sampled(Profile):
         >>> print(round(profile.height(1e-6) / 1e-6, 6))
         0.35809
         """
-        r, z, remarks = area_samples(coefficients, height, samples, _MOST_SAMPLES, unit)
+        r, z, remarks = area_samples(coefficients, height, samples, _MOST_SAMPLES, unit, from_depth)
         profile = cls(r, z)
         check.store(profile, remarks=remarks)
         return profile

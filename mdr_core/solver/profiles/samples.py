@@ -117,10 +117,11 @@ def _correlation(residual):
     return np.mean([np.dot(residual[lag:], residual[:-lag]) ** 2 for lag in _LAGS])
 
 
-def area_samples(coefficients, height, samples, limit, unit):
+def area_samples(coefficients, height, samples, limit, unit, from_depth=None):
     """Radii and heights (m) of a profile with A(h) = Σ Cᵢ h^(2/2ⁱ), A in unit², h in a unit, and remarks.
 
-    The remarks say where the profile is another one than that of the area function.
+    Below a depth (m), if one is given, the tip is a cone. The remarks say where the profile is another one
+    than that of the area function.
     """
     coefficients = check.finite_array("area coefficients", coefficients).ravel()
     height = check.positive_number("height", height, unit="m")
@@ -133,14 +134,22 @@ def area_samples(coefficients, height, samples, limit, unit):
         )
     if not 2 <= samples <= limit or samples % 1:
         raise check.MDRError(f"samples = {samples:g} must be a whole number from 2 to {limit}")
+    if from_depth is not None:
+        from_depth = check.positive_number("from_depth", from_depth, unit="m")
+        bad, depth = from_depth > height / 2, np.asarray(from_depth)
+        check.refuse("from_depth", depth, bad, f"is above half of the height, {height:g} m", unit="m")
     h = height * np.geomspace(1e-4, 1.0, int(samples) - 1)
     powers = 2.0 / 2.0 ** np.arange(coefficients.size)
     area = size**2 * ((h[:, None] / size) ** powers @ coefficients)
     advice = f"A must be positive and grow with h: check the coefficients and their unit, {unit}"
     back = (np.diff(area, prepend=0.0) <= 0) | (area <= 0)
-    check.refuse("area A(h)", area, back & (h > _BLUNT * height), "does not grow", unit="m²", advice=advice)
+    least = _BLUNT * height if from_depth is None else from_depth
+    first = int(np.searchsorted(h, from_depth)) if from_depth else 0
     # Below its calibration a function may fall: from there to the axis the tip is a cone.
-    first = int(np.flatnonzero(back)[-1]) + 1 if back.any() else 0
+    first = max(first, int(np.flatnonzero(back)[-1]) + 1 if back.any() else 0)
+    falls, every = back & (h > least), (h, area)
+    advice += _usable_from(*every) if falls.any() else ""
+    check.refuse("area A(h)", area, falls, "does not grow", unit="m²", advice=advice)
     h, radius = h[first:], np.sqrt(area[first:] / np.pi)
     wide = radius[-1] / height
     if not 1 / _WIDEST < wide < _WIDEST:
@@ -150,18 +159,42 @@ def area_samples(coefficients, height, samples, limit, unit):
             f"the coefficients, {unit}"
         )
     r, h = np.append(0.0, radius), np.append(0.0, h)
-    slopes = scipy.optimize.isotonic_regression(np.diff(h) / np.diff(r), weights=np.diff(r)).x
-    z = np.append(0.0, np.cumsum(slopes * np.diff(r)))
-    far = np.abs(z - h) > 0.03 * np.maximum(h, 0.1 * height)
+    z = _convex(r, h)
+    far = _is_far(z, h)
     bound = "is where the tip is concave by more than 3 %"
-    advice = "the contact would not be compact"
+    advice = "the contact would not be compact" + (_usable_from(*every) if far.any() else "")
     check.refuse("area function: height", h, far, bound, unit="m", advice=advice)
     remarks = [_repaired(z, h)] if np.any(np.abs(z - h) > _REPAIRED * h[-1]) else []
     if first:
         below = _in_words(h[1])
-        text = f"the area function does not grow below a height of {below}: the tip is a cone there"
+        why = "is not used" if from_depth else "does not grow"
+        text = f"the area function {why} below a height of {below}: the tip is a cone there"
         remarks.append(Remark(text, "changed"))
     return r, z, tuple(remarks)
+
+
+def _convex(r, h):
+    """Heights (m) of the convex profile that is nearest to heights at radii (m)."""
+    slopes = scipy.optimize.isotonic_regression(np.diff(h) / np.diff(r), weights=np.diff(r)).x
+    return np.append(0.0, np.cumsum(slopes * np.diff(r)))
+
+
+def _is_far(z, h):
+    """Whether heights z (m) of a profile differ by more than 3 % from those of an area function."""
+    return np.abs(z - h) > 0.03 * np.maximum(h, 0.1 * h[-1])
+
+
+def _usable_from(h, area):
+    """Words for the least height (m) from which areas (m²) are those of a convex tip; none without one."""
+    for k in range(0, int(np.searchsorted(h, h[-1] / 2)), max(1, h.size // 200)):
+        radius = np.sqrt(np.maximum(area[k:], 0.0) / np.pi)
+        if radius[0] > 0 and np.all(np.diff(radius) > 0):
+            z = np.append(0.0, h[k:])
+            if not _is_far(_convex(np.append(0.0, radius), z), z).any():
+                return (
+                    f"; from_depth={h[k]:.3g} uses it from the least contact depth (m) that it is good for"
+                )
+    return ""
 
 
 def _repaired(z, h):
