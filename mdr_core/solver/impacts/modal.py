@@ -16,7 +16,7 @@ from ..contact.live_interval import LiveInterval
 from ..contact.yielding import yield_rule
 from ..medium.modes import Modes
 from .modal_motion import TOLERANCE, ModalMotion
-from .oscillators import NODES, SLOPE, WAYS, WHOLE, at
+from .oscillators import DISPLACEMENTS, NODES, SLOPE, WHOLE, at
 from .result import Impact
 
 
@@ -169,7 +169,7 @@ def _motion(hit, motion, n):
         time=time, depth=p + y, velocity=found["free_velocity"] / softer, force=found["force"],
         contact_radius=states.contact_radius * (live > 0), plastic_radius=states.plastic_radius,
         plastic_depth=plastic, live_depth=live, kinetic_energy=kinetic, stored_energy=stored,
-        plastic_work=work, viscous_work=np.zeros(n), deflection=found["way"] - p - y,
+        plastic_work=work, viscous_work=np.zeros(n), deflection=found["position"] - p - y,
         body_velocity=found["body_velocity"], structure_work=found["damping_work"],
         support_energy=found["structure_energy"], states=states, impact=hit,
     )  # fmt: skip
@@ -190,20 +190,20 @@ def _at(motion, part, t):
     begun = motion.energy_of(part.z, part.v, 0.0 if part.force is None else part.force[0])
     if part.force is None:
         z, v, x, force, work = np.exp(s.root * t) * part.z, part.v, part.x + part.v * t, 0.0, 0.0
-        penetration = -np.sum(x) - np.sum(s.ways(z)) - imprint
+        penetration = -np.sum(x) - np.sum(s.displacements(z)) - imprint
     else:
         # Of the part up to there, in its own nodes.
         there = at(t / h * NODES)
         forces, penetrations = there @ part.force, there @ part.penetration
         force, penetration = forces[-1], penetrations[-1]
         z, v = s.after(part.z, t, forces), part.v + t * (WHOLE @ forces) / s.free_mass
-        x = part.x[0] + part.v[0] * t * NODES + t * t / motion.mass * (WAYS @ forces)
+        x = part.x[0] + part.v[0] * t * NODES + t * t / motion.mass * (DISPLACEMENTS @ forces)
         work = WHOLE @ (forces * (SLOPE @ (-x - penetrations)))
         x = x[-1:]
     energy = motion.energy_of(z, v, force)
     damped += work + begun - energy if motion.damped else 0.0
     return {
         "force": force, "penetration": penetration, "imprint": imprint, "yields": part.yields,
-        "free_velocity": -np.sum(v) - np.sum(s.rates(z)), "way": -x[0], "body_velocity": -v[0],
+        "free_velocity": -np.sum(v) - np.sum(s.rates(z)), "position": -x[0], "body_velocity": -v[0],
         "structure_energy": energy, "damping_work": damped,
     }  # fmt: skip

@@ -1,7 +1,7 @@
 """The motion of one body on a structure with modes: waves come back, and a body may hit several times.
 
 The body and each mode are linear oscillators under the contact force, which over a step is a polynomial
-(`oscillators`). With the ways x of free masses, the body's upward among them, and those of the modes, q,
+(`oscillators`). With the displacements x of free masses, the body's upward among them, and q of the modes,
 
     d = −Σ x − Σ q − r F(d)
 
@@ -23,10 +23,10 @@ from ..numerics.roots import sign_change
 from .energy_balance import dry_impact
 from .oscillators import (
     DEGREE,
+    DISPLACEMENTS,
     NODES,
     SLOPE,
     TO_LEGENDRE,
-    WAYS,
     WHOLE,
     Oscillators,
     at,
@@ -94,7 +94,7 @@ class ContactLaw:
 class Part:
     """A step of a contact, or a flight: what it begins with, and forces and penetrations at its nodes.
 
-    Free masses have the ways `x` (m) and velocities `v` (m/s), the modes the complex `z` (m/s). Damping has
+    Free masses have the displacements `x` (m) and velocities `v` (m/s), the modes the complex `z` (m/s). Damping has
     taken `damping_work` (J) before.
     """
 
@@ -292,9 +292,9 @@ class ModalMotion:
         _, turned, weights = s.step(h)
         self.parts.append(Part(*self._begun(h), self.law.yields, force, y))
         before, impulse = self.energy if self.damped else 0.0, h * WHOLE @ force
-        ways = -self.x[0] - self.v[0] * h * NODES - h * h / self.mass * (WAYS @ force)
-        deflection = ways - y - imprint
-        self.x = self.x + self.v * h + h * h * (WAYS[-1] @ force) / s.free_mass
+        displacements = -self.x[0] - self.v[0] * h * NODES - h * h / self.mass * (DISPLACEMENTS @ force)
+        deflection = displacements - y - imprint
+        self.x = self.x + self.v * h + h * h * (DISPLACEMENTS[-1] @ force) / s.free_mass
         self.v = self.v + impulse / s.free_mass
         self.z = turned[-1] * self.z + weights[-1] @ force
         self.time, self.force = self.time + h, float(force[-1])
@@ -312,16 +312,16 @@ class ModalMotion:
         s, swing = self.system, self.z / self.system.root.imag
         if len(self.hits) >= _CONTACTS:
             raise MDRError(f"the body has hit the structure {_CONTACTS} times; {_CHECK}")
-        drift, way = -np.sum(self.v), -np.sum(self.x) - self.law.plastic_depth
+        drift, position = -np.sum(self.v), -np.sum(self.x) - self.law.plastic_depth
 
         def gap(t):
             """Overlap (m) after times t (s), negative in flight, and its rate (m/s)."""
             turned = np.exp(np.multiply.outer(t, s.root)) * swing
-            return way + drift * t - turned.imag.sum(-1), drift - (turned * s.root).imag.sum(-1)
+            return position + drift * t - turned.imag.sum(-1), drift - (turned * s.root).imag.sum(-1)
 
         # Farther away than all amplitudes together the modes do not reach the body.
         amplitude = np.abs(swing)
-        far, last = way + amplitude.sum(), self.longest - self.time
+        far, last = position + amplitude.sum(), self.longest - self.time
         leaves = drift < 0 and far <= -drift * last
         last = max(far, 0.0) / -drift if leaves else last
         order = np.argsort(s.omega)
@@ -355,7 +355,9 @@ class ModalMotion:
         before = self.energy
         times = np.linspace(0.0, t, int(np.ceil(4 * t / interval)) + 1)[:, None]
         turned = np.exp(times * self.system.root) * self.z
-        deflection = np.sum(self.x[1:] + self.v[1:] * times, axis=1) + self.system.ways(turned).sum(axis=1)
+        deflection = np.sum(self.x[1:] + self.v[1:] * times, axis=1) + self.system.displacements(
+            turned
+        ).sum(axis=1)
         self.max_deflection = max(self.max_deflection, deflection.max())
         self.x, self.z = self.x + self.v * t, np.exp(self.system.root * t) * self.z
         self.time += t

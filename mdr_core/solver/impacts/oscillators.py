@@ -94,7 +94,7 @@ def _convolved(rate, i):
 
 
 #: ∫₀^c (c − τ) ℓ_j dτ and the derivative at the nodes c, and ∫₀¹ ℓ_j dτ.
-WAYS, SLOPE, WHOLE = integral_at(NODES, 2), slope_at(NODES), integral_at([1.0])[0]
+DISPLACEMENTS, SLOPE, WHOLE = integral_at(NODES, 2), slope_at(NODES), integral_at([1.0])[0]
 
 
 class Oscillators:
@@ -110,17 +110,20 @@ class Oscillators:
         self.root = self.omega * (-zeta + 1j * np.sqrt(1 - zeta**2))
         self._steps = {}
 
-    def ways(self, z):
+    def displacements(self, z):
         """Displacements q (m) of the modes."""
         return z.imag / self.root.imag
 
     def rates(self, z):
         """Rates q′ (m/s) of the modes."""
-        return z.real + self.ways(z) * self.root.real
+        return z.real + self.displacements(z) * self.root.real
 
     def energies(self, z):
         """Energy (J) of the modes."""
-        return np.sum(self.mass * (self.rates(z) ** 2 + (self.omega * self.ways(z)) ** 2), axis=-1) / 2
+        return (
+            np.sum(self.mass * (self.rates(z) ** 2 + (self.omega * self.displacements(z)) ** 2), axis=-1)
+            / 2
+        )
 
     def step(self, h):
         """Matrices of a step of duration h (s).
@@ -134,7 +137,9 @@ class Oscillators:
             weights = np.array([_convolved(self.root * h, i) for i in range(DEGREE + 1)])
             weights *= h / self.mass[:, None]
             compliance = np.einsum("ikj,k->ij", weights.imag, 1 / self.root.imag)
-            compliance += h * h * np.sum(1 / self.free_mass) * WAYS + self.residual * np.eye(DEGREE + 1)
+            compliance += h * h * np.sum(1 / self.free_mass) * DISPLACEMENTS + self.residual * np.eye(
+                DEGREE + 1
+            )
             turned = np.exp(np.multiply.outer(NODES * h, self.root))
             self._steps[h] = compliance, turned, weights
         return self._steps[h]
