@@ -94,8 +94,8 @@ class ContactLaw:
 class Part:
     """A step of a contact, or a flight: what it begins with, and forces and penetrations at its nodes.
 
-    Free masses have the displacements `x` (m) and velocities `v` (m/s), the modes the complex `z` (m/s). Damping has
-    taken `damping_work` (J) before.
+    Free masses have the displacements `x` (m) and velocities `v` (m/s), the modes the complex `z` (m/s).
+    Damping has taken `damping_work` (J) before.
     """
 
     start: float
