@@ -139,8 +139,7 @@ def fit(curve: Any, asked: dict[str, Any]) -> SimpleNamespace:
     part = next((each for each in ("loading", "unloading") if ends_of(taken, len(curve), each) == ends), "")
     quoted, above, below = _plausible(found.quoted, asked, arguments, curve, taken, used, part)
     of_unloading = None
-    if quoted.source == "unloading":
-        of_unloading, _ = found.unloading
+    if quoted.source and found.medium.q_c < np.inf and (of_unloading := found.unloading[0]):
         remarks += of_unloading.remarks
         above = above or tuple(each for each in of_unloading.remarks if each.kind == "units")
     below += tuple(each for each in remarks if each.kind in _OF_THE_NUMBER.get(quoted.source, ()))

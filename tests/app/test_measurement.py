@@ -604,7 +604,7 @@ def test_the_files_of_a_fit_have_its_numbers():
         assert float(lines[name][kind.replace("_", " ")]) == value
     assert lines["baseline"]["standard error"] == ""
     assert told["numbers"]["quoted"]["value"] == found.quoted.value
-    assert told["quoted"]["source"] == "unloading"
+    assert told["quoted"]["source"] == "fit"
     for letter, each in found.classes.items():
         assert told["numbers"][f"misfit_{letter}"]["value"] == float(each.misfit)
     assert told["samples"] == {"first": 1, "last": 350, "of": 400, "fitted": 350}

@@ -42,30 +42,34 @@ def test_steel_is_no_gel():
     """46 GPa from the loading, 2.1 TPa from the unloading: no number is shown, not that of either."""
     page = measured("steel", "gel")
     assert headline(page) == "No E* to quote"
-    assert "Loading and unloading differ by a factor of ten or more in E*" in said(page)
     assert not re.search(r"[GT]Pa", said(page))
     told = json.loads(saved(page, "json"))
     assert told["numbers"]["quoted"]["value"] is None
     assert told["quoted"]["source"] is None
     # The kind of sample is a click away.
-    press(buttons(page.results.below)["Take glass, metal or ceramic"])
+    press(buttons(page.results.below, page.results.remarks)["Take glass, metal or ceramic"])
     assert page.form.medium.value == "constant"
     assert page.found.fit.medium.E_star == approx(210e9, rel=0.1)
 
 
-def test_a_gel_that_sticks_has_one_line_on_its_unloading():
-    """7.8 kPa from the loading, 14.6 kPa from the unloading by the fit of the library: 1.86 times."""
-    page = measured("map2x2-2", "gel", "paraboloid", radius=1e-5)
-    curve = mdr.read_curve(DATA / "map2x2-2.csv")
-    part = curve.segment == "retract"
-    tip = mdr.Paraboloid(1e-5)
-    other = mdr.fit_indentation(tip, curve.depth[part], curve.force[part], q_c=np.inf, baseline=None)
+def test_a_gel_that_loses_energy_has_one_line_on_its_unloading():
+    """8 kPa from the loading, 14 kPa from the unloading: 1.75 times."""
+    depth = 1e-6 * np.append(np.linspace(-1, 1, 400), np.linspace(1, -1, 400)[1:])
+    tip, noise = mdr.Paraboloid(1e-5), np.random.default_rng(5).normal(size=depth.size)
+    # The unloading begins at the same force, and ends at another depth.
+    later = 1e-6 * (1 - (8 / 14) ** (2 / 3))
+    soft = mdr.indent(tip, mdr.Medium(8e3), depth).force
+    back = mdr.indent(tip, mdr.Medium(14e3), np.maximum(depth - later, -1e-6)).force
+    force = np.where(np.arange(depth.size) < 400, soft, back) + 5e-12 * noise
+    data = table({"Indentation (nm)": 1e9 * depth, "Force (nN)": 1e9 * force}).encode()
+    page = opened(data, "gel", "paraboloid", radius=1e-5)
+    other = mdr.fit_indentation(tip, depth[400:], force[400:], q_c=np.inf, baseline=None)
     found = re.fullmatch(
-        r"Of the loading; the unloading alone gives (\d+) kPa, ([\d.]+) times: the sample yields, sticks "
-        r"or loses energy\.",
+        r"Of the loading; the unloading alone gives ([\d.]+) kPa, ([\d.]+) times: the sample yields, "
+        r"sticks or loses energy\.",
         text(page.results.below),
     )
-    # Two digits, of every second sample.
+    # Two digits.
     assert float(found[1]) * 1e3 == approx(float(other.medium.E_star), rel=0.05)
     assert float(found[2]) == approx(float(other.medium.E_star) / page.found.quoted.value, rel=0.05)
     assert "from the fit" in headline(page)
@@ -73,7 +77,7 @@ def test_a_gel_that_sticks_has_one_line_on_its_unloading():
     page.results.part.value = "unloading"
     assert text(page.results.below).startswith("Of the unloading; the loading alone gives ")
     # Of a range of one's own, of a contact that is held, and of a kind with adhesion there is none.
-    choose_samples(page, 1, 1600)
+    choose_samples(page, 1, 600)
     assert "alone gives" not in said(page)
     page.results.part.value = "loading"
     choose(page, contact_point=float(page.found.fit.contact_point))
@@ -97,9 +101,9 @@ def test_the_gel_of_the_page_and_exact_adhesion_are_silent():
 
 
 def test_a_stiff_elastic_sample_is_asked_about_unless_both_halves_agree():
-    """Quartz that does not yield, 70 GPa: silent. A range of it: the question, with units to look at."""
-    page = measured("quartz", "gel")
-    assert headline(page).startswith("E* = 70.0 ")
+    """70 GPa that do not yield: silent. A range of it: the question, with units to look at."""
+    page = opened(curve_file(mdr.Medium(70e9), noise=1e-4), "gel")
+    assert headline(page).startswith("E* = 69.99")
     assert text(page.results.above) == ""
     choose_samples(page, 1, page._ends_of("loading")[1] - 1)
     assert headline(page).startswith("E* = ")
@@ -306,7 +310,7 @@ def test_a_noise_of_the_depth_is_given_by_a_button():
     page = opened(table({"h (nm)": 1e9 * (DEPTH + noise), "F (mN)": 1e3 * force}).encode())
     choose(page, depth_noise=0.0)
     remarks = {each.kind: each for each in page.results.all_remarks()}
-    assert "jitter" in remarks
+    assert "noise" in remarks
     offers = buttons(page.results.remarks) | buttons(page.results.below)
     press(offers["Give the noise of the depth"])
     assert page.found.fit.depth_noise == approx(5e-9, rel=0.3)

@@ -17,7 +17,7 @@ _MEET = 0.3
 #: hold, as shares of the range.
 _NEXT, _STILL = 0.1, 0.02
 #: Turns of the depth over its range, per row, above which it is scatter; and least one.
-_SCATTER, _TURNS = 0.15, 3.0
+_SCATTER, _TURNS = 0.2, 3.0
 #: Share of the values at each end that may be outliers.
 _EXTREMES = 0.02
 #: Range, as a share of the largest value, and rows below which the numbers are those of repeated tests.
