@@ -237,6 +237,16 @@ def numbers_of(name, function, argument, refused):
     return doubles(name, value, refused)
 
 
+def values_of(name, function, argument, refused):
+    """`numbers_of` an array of radii, refused unless there is one for each."""
+    value = numbers_of(name, function, argument, refused)
+    try:
+        return np.broadcast_to(value, argument.shape)
+    except ValueError:
+        what = f"{name} has the shape {value.shape} for radii of shape {argument.shape}"
+        raise refused(what, "give one value for each radius") from None
+
+
 def doubles(name, value, refused):
     """A value of a user's function as an array of double precision, else `refused` as by `numbers_of`."""
     array = np.asarray(value)

@@ -15,7 +15,7 @@ def check_pair(profile, medium, what=None):
     if type(profile).__hash__ is None:
         name = type(profile).__name__
         raise TypeError(f"{name} must not change once it is made: declare it with @dataclass(frozen=True)")
-    if is_own(profile):
+    if is_own(profile) and profile.shape:
         lazy.shape.check_tips(profile)
     if not isinstance(medium, Medium):
         raise TypeError(f"medium must be a Medium, got {shown(medium)}")
@@ -49,12 +49,6 @@ def check_shape(profile, depth):
     """Refuses a shape of a user's own that is invalid at the contact radii of depths (m)."""
     if is_own(profile):
         lazy.shape.check_shape(profile, depth)
-
-
-def check_slopes(profile, depth):
-    """Refuses a shape of a user's own whose g′ is not the slope of g up to depths (m)."""
-    if is_own(profile):
-        lazy.shape.check_slopes(profile, depth)
 
 
 def check_hardness(profile, medium, depth):

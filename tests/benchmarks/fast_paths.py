@@ -107,7 +107,7 @@ def without_coefficient():
 
 def sharp():
     """The module and name of radii where a law changes fast, and the function without its cache."""
-    return law, "_sharp_radii", law._sharp_radii.__wrapped__
+    return law, "_known", law._known.__wrapped__
 
 
 @contextmanager
@@ -196,8 +196,8 @@ PATHS = (
      lambda: one_by_one(TIP, HARD)),
     ("_ranges kept, samples, adhesion", lambda: uncached(adhesion, "_ranges"),
      lambda: one_by_one(TIP, STICKY)),
-    ("_sharp_radii kept, a smooth law", lambda: patch.object(*sharp()), lambda: times(CONE, 0.1, OWN)),
-    ("_sharp_radii kept, a step", lambda: patch.object(*sharp()), lambda: times(CONE, 0.1, STEP)),
+    ("_known kept, a smooth law", lambda: patch.object(*sharp()), lambda: times(CONE, 0.1, OWN)),
+    ("_known kept, a step", lambda: patch.object(*sharp()), lambda: times(CONE, 0.1, STEP)),
     ("PowerLaw._reduced_coefficient kept",
      without_coefficient,
      lambda: one_by_one(POWER)),

@@ -7,7 +7,7 @@ import numpy as np
 from ...base import check
 from ...base.check import Array
 from ...base.results import SCALAR_ODE
-from ..applicability import check_reached, check_slopes
+from ..applicability import check_reached, check_shape
 from ..contact.indentation import Indentation
 from ..contact.yielding import yield_rule
 from ..medium.medium import Medium
@@ -56,8 +56,9 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID,
     dry = dry_impact(profile, medium, mass, speed, imprint_depth, structure)
     interval, increase = dry.turning_point.live_interval, dry.plastic_depth_increase
     penetration = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
-    # Steps with a wrong slope would not end.
-    check_slopes(profile, interval.upper)
+    if profile.shape:
+        # Steps with a wrong g′, or beyond the end of a table, do not end: of one profile that is known.
+        check_shape(profile, interval.upper)
     bodies = Bodies.of(profile, medium, mass, speed, imprint_depth, penetration, structure)
     moving = (bodies.relaxation_time.reshape(mass.shape) > 0) | in_time
     on_structure = np.broadcast_to(structure.is_plate | structure.is_support, mass.shape)

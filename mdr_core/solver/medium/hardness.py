@@ -25,7 +25,8 @@ class HardnessLaw(check.Parameters, ABC):
     u_c = π a σ_c(a)/(2E*), Popov (2015), Eqs. (11), (12). A law is valid while σ_c is finite and above 0
     and a σ_c/g(a) does not grow with a: otherwise elements that have yielded would become elastic again on
     loading. Every calculation checks this at 200 radii, from 10⁻⁶ of its largest contact radius up to it,
-    and that `rate` is the derivative of `at`. Dips narrower than 7 % of the radius are not seen.
+    and that `rate` is the derivative of `at`. Dips narrower than 7 % of the radius, and jumps of less than
+    10⁻⁵ of σ_c, are not seen.
 
     Parameters may be arrays, which broadcast like the parameters of a `Medium`; give a table as a tuple.
     Laws are evaluated at radii of 10⁻³⁰ m and more.

@@ -87,7 +87,7 @@ def _slope_integral(slope, x, factor):
         node, weight = tanh_sinh(step)
         angle = np.pi / 2 * node
         radius = x[..., None] * np.sin(angle)
-        values = np.broadcast_to(check.numbers_of("slope dz/dr", slope, radius, _refused), radius.shape)
+        values = check.values_of("slope dz/dr", slope, radius, _refused)
         bad = ~np.isfinite(values)
         if bad.any():
             raise check.MDRError(

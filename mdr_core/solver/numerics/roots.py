@@ -57,7 +57,8 @@ def increasing_root(function, target, start, highest=np.inf, *, largest=check.LA
     best, least, stalled = x.copy(), np.full(x.shape, np.inf), np.zeros(x.shape, int)
     for iteration in range(200):
         value, slope = function(x)
-        high, low = np.where(value >= target, x, high), np.where(value <= target, x, low)
+        # No number counts as too large: there a function ends.
+        high, low = np.where(value < target, high, x), np.where(value <= target, x, low)
         # Far from the root values may leave double precision, and 0 is not sought.
         with np.errstate(all="ignore"):
             miss = np.log(target / value)

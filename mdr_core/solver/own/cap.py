@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..contact.yielding import Breaks, RadiusCap
-from ..numerics.blocks import broadcast_flat, chunks
+from .rows import largest_in_blocks
 
 #: Halvings of a piece of the plastic work: to 10⁻⁹ of its length, as at a kink.
 _HALVINGS = 30
@@ -14,10 +14,8 @@ _HALVINGS = 30
 #: difference has a noise of 10⁻⁸, of which a half has half: without this an impact takes 200 times as long.
 _KINKED = 1e-7
 _HELPED = 0.25
-#: A falling cap is looked for from this share of a depth on, in so many steps, each deeper by 7 %.
-_SHALLOWEST = 1e-6
-_STEPS = 200
-_STEP = 1.07
+#: Shares of a depth at which a falling cap is looked for, each deeper by 7 %.
+_SHARES = np.geomspace(1e-9, 1.0, 307)
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,33 +23,13 @@ class OwnCap(RadiusCap):
     """`RadiusCap` of a law of hardness that a user wrote."""
 
     def may_fall(self, depth):
-        depth = np.asarray(depth, dtype=float)
-        if np.any(depth == np.inf):
+        if np.any(np.isinf(depth)):
             return True
-        if self.shape:
-            return self._any_may_fall(depth)
-        largest = np.max(depth, initial=0.0)
-        if largest == 0:
-            return False
-        smallest = np.min(depth)
-        steps = int(np.log(largest / smallest) / np.log(_STEP)) + _STEPS
-        return self._falls(np.geomspace(_SHALLOWEST * smallest, largest, steps))
-
-    def _any_may_fall(self, depth):
-        """`may_fall` of an ensemble, up to a depth (m) each."""
-        shape, (depth,) = broadcast_flat(
-            np.broadcast_to(depth, np.broadcast_shapes(depth.shape, self.shape))
-        )
-        share = np.geomspace(_SHALLOWEST, 1.0, _STEPS)
-        for rows in chunks(depth.size, 512):
-            own = self.flat_entries(rows, shape).entries((slice(None), None), depth[rows].shape)
-            if own._falls(depth[rows][:, None] * share):
+        for rows, depths in largest_in_blocks(self.profile, depth, self.shape):
+            own = self.flat_entries(rows, self.shape).entries((slice(None), None), rows.shape)
+            if np.any(own.cap_rate_at(own.profile.radius_at(depths[:, None] * _SHARES)) < 0):
                 return True
         return False
-
-    def _falls(self, depth):
-        """Whether the cap falls at any of the depths (m)."""
-        return bool(np.any(self.cap_rate_at(self.profile.radius_at(depth)) < 0))
 
     def breaks(self, imprint, deepest):
         return OwnBreaks(self, imprint, deepest)
@@ -71,41 +49,35 @@ class OwnCap(RadiusCap):
             Loadings, and the penetrations (m) at which pieces of theirs were halved.
         """
         imprint, increase = np.broadcast_arrays(imprint, increase)
-        cuts = self._cuts(imprint, increase)
-        cuts = np.broadcast_to(cuts, (len(imprint), cuts.shape[1]))
+        cuts, size = self._cuts(imprint, increase), len(imprint)
+        cuts = np.broadcast_to(cuts, (size, cuts.shape[1]))
         # Where nothing yields all cuts are infinite.
         row, number = np.nonzero(cuts[:, 1:] > cuts[:, :-1])
         start, stop = cuts[row, number, None], cuts[row, number + 1, None]
-        whole = self._pieces(row, start, stop, imprint, increase)
-        work, former = np.zeros(len(imprint)), np.full(row.size, np.inf)
-        halved_row, halved_at = [row[:0]], [start[:0, 0]]
+        whole, former = self._pieces(row, start, stop, imprint, increase), np.inf
+        work, halved = np.zeros(size), []
         for _ in range(_HALVINGS):
-            middle = (start + stop) / 2
+            own, middle = row, (start + stop) / 2
             # The first halves of all pieces, and then the second ones.
-            half_row = np.append(row, row)
-            half_start, half_stop = np.vstack([start, middle]), np.vstack([middle, stop])
-            half = self._pieces(half_row, half_start, half_stop, imprint, increase)
-            both = half[: row.size] + half[row.size :]
-            scale = work + np.bincount(row, np.abs(both), len(work))
+            row, start, stop = np.append(row, row), np.vstack([start, middle]), np.vstack([middle, stop])
+            half = self._pieces(row, start, stop, imprint, increase)
+            both = half[: own.size] + half[own.size :]
             miss = np.abs(both - whole)
             helps = (miss > _KINKED * np.abs(both)) | (miss <= _HELPED * former)
             # To the rounding of the sum.
-            rough = (miss > 1e-14 * scale[row]) & helps
-            work += np.bincount(row[~rough], both[~rough], len(work))
-            halved_row.append(row[rough])
-            halved_at.append(middle[rough, 0])
-            again = np.append(rough, rough)
-            former = np.append(miss[rough], miss[rough])
-            row, start, stop, whole = half_row[again], half_start[again], half_stop[again], half[again]
+            scale = work + np.bincount(own, np.abs(both), size)
+            rough = (miss > 1e-14 * scale[own]) & helps
+            work += np.bincount(own[~rough], both[~rough], size)
+            halved.append((own[rough], middle[rough, 0]))
+            former, again = np.append(miss[rough], miss[rough]), np.append(rough, rough)
+            row, start, stop, whole = row[again], start[again], stop[again], half[again]
             if not row.size:
                 break
-        work += np.bincount(row, whole, len(work))
-        return work, np.concatenate(halved_row), np.concatenate(halved_at)
+        return work + np.bincount(row, whole, size), *map(np.concatenate, zip(*halved, strict=True))
 
     def _pieces(self, row, start, stop, imprint, increase):
         """`piece` of loadings `row` of the ensemble, one piece a row of the penetrations (M, 1)."""
-        own = self.entries(row) if self.shape else self
-        return own.piece(start, stop, imprint[row], increase[row])
+        return self.entries(row).piece(start, stop, imprint[row], increase[row])
 
     def wall_integral(self):
         # Without a wall its limit for a → ∞ is not known: a force that is too large has no depth.

@@ -53,9 +53,10 @@ class Profile(check.Parameters, ABC):
     broadcast with each other, with radii and with depths: an ensemble of indenters for `impact`.
 
     Every calculation checks a shape of your own at 200 radii, from 10⁻⁶ of its largest contact radius up to
-    it: g is 0 at the tip, finite, and does not fall, z is finite and g′ a number. A shape ends, if it does
-    not say where, at the first radius at which this is not so. g′ that differs from the slope of g by more
-    than 30 % at three quarters of the radii is refused; kinks, jumps of g and coarse tables are not.
+    it: g is 0 at the tip, finite, and does not fall, z is finite and g′ a number. If it does not say where
+    it ends, one shape ends where a function has no value, or g rises no more. g′ that differs from the
+    slope of g by more than 30 % at three quarters of the radii is refused, and so is a contact radius that
+    differs from that of g by 0.1 %; kinks, jumps of g and coarse tables are not.
 
     Examples
     --------
@@ -120,19 +121,18 @@ class Profile(check.Parameters, ABC):
     @cached_property
     def known_depth(self):
         """Largest depth (m) for which the profile is known."""
-        return np.inf if self.shape or not is_own(self) else self.sound.end.depth
+        return np.inf if self.shape or not is_own(self) else self.sound.depth
 
     @cached_property
     def known_radius(self):
         """Largest radius (m) for which the profile is known."""
-        return np.inf if self.shape or not is_own(self) else self.sound.end.radius
+        return np.inf if self.shape or not is_own(self) else self.sound.radius
 
     @cached_property
     def sound(self):
         """The `SoundRange` of a profile of a user's own."""
         given = type(self).known_radius is not Profile.known_radius
-        end = min(self.wall, self.known_radius if given else np.inf)
-        return lazy.shape.sound_range(self, end, type(self).radius_at is not Profile.radius_at)
+        return lazy.shape.sound_range(self, min(self.wall, self.known_radius if given else np.inf))
 
     @abstractmethod
     def height_at(self, r: np.ndarray) -> np.ndarray:
@@ -225,7 +225,7 @@ class Profile(check.Parameters, ABC):
 
     def too_deep(self):
         """Words for depths beyond `known_depth`, in messages of errors."""
-        end = self.sound.end if is_own(self) and not self.shape else None
+        end = self.sound if is_own(self) and not self.shape else None
         if end and end.fault and self.known_depth == end.depth:
             return (
                 f"deeper than {type(self).__name__} is valid, {end.depth:g} m, since {end.fault}: correct "

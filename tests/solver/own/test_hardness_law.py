@@ -401,6 +401,8 @@ class TestWhatIsNoLaw:
             mdr.indent(BALL, mdr.Medium(E, hardness=Scalar(1e9)), 1e-8)
         with pytest.raises(ValueError, match=r"line_load\(a\) = .* but by at\(a\) and rate\(a\)"):
             mdr.indent(BALL, mdr.Medium(E, hardness=Overridden(1e9)), 1e-8)
+        with pytest.raises(ValueError, match=r"wall_load\(a\) = .* but by at\(a\) and rate\(a\)"):
+            mdr.indent(BALL, mdr.Medium(E, hardness=Force(1e9)), 1e-8)
         with pytest.raises(ValueError, match=r"hardness = -1e.09 Pa must be above 0"):
             mdr.Medium(E, hardness=Overridden(-1e9)).hardness_at(1e-6)
 
@@ -469,6 +471,13 @@ class Scalar(Constant):
 class Overridden(Constant):
     def line_load(self, a):
         return 2 * a * self.H
+
+
+class Force(Constant):
+    """With the force of a contact in the place of 1/π of it."""
+
+    def wall_load(self, a):
+        return np.pi * a**2 * self.H
 
 
 class TestTheMedium:

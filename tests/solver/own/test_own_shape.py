@@ -232,6 +232,8 @@ def test_scales_of_a_class_are_one_where_its_parameters_are():
 
     @dataclass(frozen=True, eq=False)
     class Ball(OneLength):
+        __module__ = "mdr_core.solver.profiles.ball"
+
         diameter: float
 
         _length = _depth = property(lambda self: self.diameter / 2)

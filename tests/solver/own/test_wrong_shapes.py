@@ -55,14 +55,14 @@ class WrongRadius(Wrong):
 
 WORDS = {
     "NaN in a part": r"g\(x\) is nan m at x = 1(e-08|\.\d+e-08) m",
-    "infinite": r"g\(x\) is inf m at x = 5(e-08|\.\d+e-08) m",
-    "falls for good": r"g\(x\) falls from 2\.\d+e-08 m at x = 4\.\d+e-08 m on|g\(x\) has fallen to",
+    "infinite": r"g\(x\) is inf m at x = 5(e-08|\.\d+e-08) m|m just inside and inf m outside",
+    "falls for good": r"g\(x\) rises no more from 2\.\d+e-08 m at x = 4\.\d+e-08 m on|g\(x\) has fallen to",
     "falls in a part": r"g\(x\) has fallen to .* m at x = 1\.\d+e-08 m",
     "negative at 0": r"g\(x\) is -1e-09 m at x = 0 m",
     "positive at 0": r"g\(x\) is 1e-09 m at x = 0 m",
     "slope is NaN": r"g′\(x\) is nan at x = 5(e-08|\.\d+e-08)",
     "z is NaN": r"z\(r\) is nan m at r = 5(e-08|\.\d+e-08) m",
-    "radius": r"the contact radius is .* m at depth = .* m, where g is not that depth",
+    "radius": r"the contact radius is .* m at depth = .* m, but g\(x\) is .* m just inside and .* m",
 }
 CALLS = {
     "indent": lambda shape: mdr.indent(shape, MEDIUM, [0.5 * DEPTH, DEPTH]).force,
@@ -237,3 +237,85 @@ def test_each_indenter_is_looked_at_as_closely_as_one(place):
     for radius in (1e-6, np.array([1e-6, 1.01e-6])):
         with pytest.raises(ValueError, match="has fallen"):
             mdr.impact(Dipped(radius, place), medium, 1e-12, 0.05)
+
+
+@dataclass(frozen=True)
+class Sampled(Wrong):
+    """The cone from a table up to 100 nm; `fault` says what there is beyond."""
+
+    def reduced_at(self, x):
+        beyond = {"NaN": np.nan, "the last value": None}[self.fault]
+        share = np.interp(x, np.linspace(0.0, 1e-7, 5), np.linspace(0.0, 1e-7, 5), right=beyond)
+        return np.pi / 2 * self.slope * share
+
+
+@pytest.mark.parametrize("fault", ["NaN", "the last value"])
+def test_a_table_ends(fault):
+    """Up to there it is the cone of the library, and beyond it is refused; so is each of an ensemble."""
+    tip, cone, end = Sampled(fault), mdr.Cone(SLOPE), float(mdr.Cone(SLOPE).reduced(1e-7))
+    assert tip.known_depth == approx(end, rel=1e-12)
+    for solved in (
+        lambda shape: mdr.indent(shape, MEDIUM, 0.99 * end).force,
+        lambda shape: mdr.indent_to_force(shape, MEDIUM, 2e-6).depth,
+        lambda shape: mdr.impact(shape, VISCOUS, 1e-12, 0.02).restitution,
+        lambda shape: mdr.chain_impact(shape, VISCOUS, 1e-12, 0.02).restitution,
+        lambda shape: mdr.indent(shape, mdr.Medium(1e9, work_of_adhesion=1e-3), 0.9 * end).force,
+    ):
+        assert solved(tip) == approx(solved(cone), rel=1e-9)
+    for call in CALLS.values():
+        with pytest.raises(ValueError, match=r"deeper than Sampled is valid, 4\.71.*(nan|rises no more)"):
+            call(tip)
+    many = Sampled(fault, np.array([SLOPE, 1.1 * SLOPE]))
+    with pytest.raises(
+        ValueError, match=r"the contact radius is (1e-07|inf) m .* (nan|4\.71\S+) m outside"
+    ):
+        mdr.impact(many, MEDIUM, MASS, SPEED)
+    if fault == "NaN":
+        hits, one = (mdr.impact(each, VISCOUS, 1e-12, 0.02) for each in (many, cone))
+        assert hits.restitution[0] == approx(one.restitution, rel=1e-9)
+
+
+def test_a_radius_that_is_wrong_in_a_smaller_contact_alone():
+    class Branch(Wrong):
+        def radius_at(self, depth):
+            radius = depth / (np.pi / 2 * self.slope)
+            return np.where(radius < 1e-8, 1.02 * radius, radius)
+
+    for shape in (Branch("none"), Branch("none", np.array([SLOPE, 0.4]))):
+        with pytest.raises(ValueError, match=r"the contact radius is .* m at depth = .* radius_at"):
+            mdr.impact(shape, MEDIUM, MASS, SPEED)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (
+            lambda g: g[..., None] * np.ones(3),
+            r"reduced_at\(\) has the shape \(2, 3\) for radii of shape \(2,\)",
+        ),
+        (np.sum, "rises no more from .* at x = 0 m"),
+        (np.negative, "rises no more from -?0 m at x = 0 m"),
+    ],
+    ids=["a matrix", "one value", "downward"],
+)
+def test_a_function_that_is_no_height_at_each_radius(change, words):
+    class Other(Wrong):
+        def reduced_at(self, x):
+            return change(super().reduced_at(x))
+
+    for call in CALLS.values():
+        with pytest.raises(ValueError, match=words):
+            call(Other("none"))
+
+
+def test_behind_a_wall_one_shape_goes_on_as_each_of_many():
+    """A post with a conical end, whose wall alone is given."""
+
+    class Post(Wrong):
+        wall = 1e-8
+
+    hit, hits = (
+        mdr.impact(Post("none", slope), MEDIUM, MASS, SPEED) for slope in (SLOPE, np.array([SLOPE, 0.4]))
+    )
+    assert hit.contact_radius == 1e-8
+    assert hit.max_depth == approx(hits.max_depth[0], rel=1e-9)
