@@ -51,6 +51,7 @@ def kernel(tmp_path_factory):
     hidden = shutil.ignore_patterns("__pycache__")
     for name in ("__init__", "abel"):
         shutil.copy(ROOT / "mdr_core" / f"{name}.py", folder / "mdr_core")
+    shutil.copy(ROOT / "mdr_core" / "__init__.pyi", folder / "mdr_core")
     for name in KERNEL:
         shutil.copytree(ROOT / "mdr_core" / name, folder / "mdr_core" / name, ignore=hidden)
     for path in (ROOT / "tests").glob("*.py"):

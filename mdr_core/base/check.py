@@ -375,7 +375,15 @@ class Parameters:
             )
 
     def __str__(self) -> str:
-        return lazy.quantities.described(self)
+        """Parameters that are not defaults, with six digits; `repr` has all digits."""
+        with np.printoptions(precision=6, threshold=10):
+            texts = []
+            for each in fields(self):
+                value = getattr(self, each.name)
+                if not np.array_equal(value, each.default):
+                    text = f"{value:.6g}" if isinstance(value, float) else str(value)
+                    texts.append(f"{each.name}={text}")
+        return f"{type(self).__name__}({', '.join(texts)})"
 
     def _repr_html_(self) -> str:
         return lazy.report.parameters_as_html(self)

@@ -11,7 +11,6 @@ MODULES = {
     "shape": "solver.own.shape",  # a user's shape is admitted, up to the contact radii that are reached
     "law": "solver.own.law",  # a user's law of hardness is admitted, and asked in the units of a cap
     "cap": "solver.own.cap",  # the rule of yield of a law of which nothing is known beforehand
-    "quantities": "show.quantities",  # a parameter as text, with its unit
     "report": "show.report",  # a result as text, table or dataset
     "limits": "show.limits",  # the limits of a result as data and in words
     "plots": "show.plots",  # a result is drawn

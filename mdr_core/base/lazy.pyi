@@ -3,7 +3,6 @@ from ..show import hints as hints
 from ..show import limits as limits
 from ..show import plots as plots
 from ..show import progress as progress
-from ..show import quantities as quantities
 from ..show import report as report
 from ..solver.own import cap as cap
 from ..solver.own import law as law

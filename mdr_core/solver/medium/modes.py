@@ -16,6 +16,8 @@ from ...base import check
 
 #: Displacement of a mode at the contact, over its largest one, below which the contact is on its node.
 _NODE = 1e-9
+#: Largest modal mass (kg). Its mode does not move at the contact.
+_HEAVIEST = 1e30
 #: Terms of the series of the compliance of a plate. The rest of it decreases as their third power.
 _TERMS = 4000
 #: Relative distance of two roots below which their divided difference is integrated.
@@ -42,7 +44,10 @@ class Modes:
 
     def __post_init__(self):
         frequency = check.positive("frequency", np.atleast_1d(self.frequency), unit="Hz", zero=True)
-        mass = check.positive("modal mass", np.atleast_1d(self.mass), unit="kg")
+        mass = np.atleast_1d(self.mass)
+        mass = check.positive("modal mass", mass, unit="kg", infinite=True, within=(1e-60, 1e300))
+        bound, advice = "is that of a mode with a node at the contact", "leave the mode out"
+        check.refuse("modal mass", mass, mass > _HEAVIEST, bound, unit="kg", advice=advice)
         damping = check.positive("damping ratio", np.atleast_1d(self.damping), zero=True)
         check.refuse("damping ratio", damping, damping >= 1, "must be below 1")
         shape = check.common_shape("modes", frequency=frequency, mass=mass, damping=damping)

@@ -420,6 +420,8 @@ def test_a_scene_with_modes_is_kept_as_json_and_as_python():
         (lambda: mdr.Structure.modal([0.0, 200.0], [1.0, 1.0], stiffness=1e3), "stiffness .* frequency 0"),
         (lambda: mdr.Structure.modal([-1.0], [1.0]), "frequency"),
         (lambda: mdr.Structure.modal([1.0], [0.0]), "modal mass"),
+        (lambda: mdr.Structure.modal([1.0, 2.0], [1.0, 1e62]), "modal mass.* node at the contact"),
+        (lambda: mdr.Structure.modal([1.0, 2.0], [1.0, np.inf]), "modal mass.* node at the contact"),
         (lambda: mdr.Structure.modal([1.0], [1.0], damping=1.0), "damping ratio"),
         (lambda: mdr.Structure.modal([1.0, 2.0], [1.0, 2.0, 3.0]), "broadcast"),
         (lambda: mdr.Structure.beam(1.0, 1.0, 1.0, at=1.0), "at = 1"),

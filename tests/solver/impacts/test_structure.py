@@ -629,3 +629,27 @@ def test_a_sweep_over_impedances():
     K = xarray.DataArray([-1.0, 1e7], dims="K")
     table = mdr.sweep.impacts(mdr.Paraboloid, radius=R, stiffness=K, invalid="nan", **given)
     assert np.isnan(table.restitution.values).tolist() == [True, False]
+
+
+def test_the_mass_of_a_support_is_estimated_for_the_worst_of_many_impacts():
+    """Where the contact yields the mass hides: the excess of an elastic impact among others is told."""
+    support = mdr.Structure(stiffness=5e6, mass=0.02, thickness=4e-3)
+    given = mdr.Paraboloid(8e-3), mdr.Medium(10e9, q_c=1.6e6), 5.5
+    speed = np.array([0.6, 1.0, 2.0, 2.6])
+
+    def told(hit):
+        (limit,) = (each for each in hit.limits if each.what == "support")
+        return limit
+
+    many = mdr.impact(*given, speed, structure=support)
+    alone = [told(many[i]) for i in range(speed.size)]
+    assert told(many).exceeded == any(each.exceeded for each in alone)
+    assert told(many).value == approx(max(each.value for each in alone if each.exceeded), rel=0.05)
+
+
+def test_a_wide_contact_on_a_support_of_known_thickness_is_told():
+    support = mdr.Structure(stiffness=5e6, thickness=2e-3)
+    hit = mdr.impact(mdr.Paraboloid(8e-3), mdr.Medium(10e9, q_c=1.6e6), 5.5, 2.0, structure=support)
+    (thin,) = (each for each in hit.limits if each.what == "thin")
+    assert thin.exceeded
+    assert thin.value == approx(2 * float(hit.contact_radius) / 2e-3)
