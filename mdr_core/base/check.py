@@ -380,7 +380,8 @@ class Parameters:
             texts = []
             for each in fields(self):
                 value = getattr(self, each.name)
-                if not np.array_equal(value, each.default):
+                # None as a default stands for 0, as of a hardness that a medium does not have.
+                if value is not None and not np.array_equal(value, each.default or 0.0):
                     text = f"{value:.6g}" if isinstance(value, float) else str(value)
                     texts.append(f"{each.name}={text}")
         return f"{type(self).__name__}({', '.join(texts)})"

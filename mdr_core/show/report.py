@@ -16,9 +16,9 @@ from .quantities import QUANTITIES, described, engineering, unit_of
 _MANY = 1000
 #: Lines of a result's `repr`.
 _MOST_LINES = 12
-#: Quantities that are given, not computed.
 #: Limits that are exceeded in every scene of some tips and media.
 _USUAL = {"slope", "flow"}
+#: Quantities that are given, not computed.
 _GIVEN = {"depth", "time", "mass", "speed", "tangential_speed", "friction", "tangential_mass"}
 
 

@@ -71,6 +71,8 @@ class Sampled(Profile):
         remarks = "".join(f"; {remark}" for remark in self.remarks)
         return f"Sampled({len(self.r)} samples to r = {self.r[-1]:g} m, z = {self.z[-1]:g} m{remarks})"
 
+    __str__ = __repr__
+
     @classmethod
     @check.keywords_explained
     def from_csv(cls, path: str | PathLike[str], unit: str | None = None) -> "Sampled":
