@@ -36,6 +36,7 @@ from .solver.foundation.foundation import Foundation as Foundation
 from .solver.impacts.adhesive import capture_speeds as capture_speeds
 from .solver.impacts.impact import impact as impact
 from .solver.impacts.result import Impact as Impact
+from .solver.impacts.scaling import HardnessClass as HardnessClass
 from .solver.impacts.scaling import ScalingLaw as ScalingLaw
 from .solver.impacts.scaling import hardness_class as hardness_class
 from .solver.medium.hardness import HardnessLaw as HardnessLaw

@@ -56,7 +56,7 @@ def read_and_fit(path: str) -> float:
 
 
 hard = mdr.fit_hardness(mdr.Cone(0.3), [1e9, 5e8, 2.5e8], [1e-7, 2e-7, 4e-7], E_star=1e11)
-kind: str | None = hard.hardness_class
+kind: str | None = hard.class_of_hardness.letter
 ball = mdr.Ball(1e-9, 1e-5)
 bounce = mdr.oblique_impact(
     mdr.Paraboloid(1e-5), medium, 1e-9, *mdr.at_angle(0.1, 0.5), 0.3, tangential_mass=ball.tangential_mass

@@ -87,10 +87,11 @@ CALLS = {
 }  # fmt: skip
 #: Public names that take no arrays, or only through those above.
 WITHOUT = {
-    "ChainImpact", "Foundation", "HardnessFit", "Impact", "Indentation", "IndentationFit", "Limit",
-    "MDRError", "MeasuredCurve", "MeasuredCurves", "Motion", "ObliqueImpact", "OliverPharr", "Profile",
-    "Quoted", "Remark", "Remedy", "ScalingLaw", "Scene", "Smooth", "TimedIndentation", "UnknownColumns",
-    "abel", "chain_impact", "read_curve", "read_curves", "scene", "sweep",
+    "ChainImpact", "Foundation", "HardnessClass", "HardnessFit", "Impact", "Indentation",
+    "IndentationFit", "Limit", "MDRError", "MeasuredCurve", "MeasuredCurves", "Motion", "ObliqueImpact",
+    "OliverPharr", "Profile", "Quoted", "Remark", "Remedy", "ScalingLaw", "Scene", "Smooth",
+    "TimedIndentation", "UnknownColumns", "abel", "chain_impact", "read_curve", "read_curves", "scene",
+    "sweep",
 }  # fmt: skip
 
 

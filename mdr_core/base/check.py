@@ -5,7 +5,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import fields
 from functools import cached_property, lru_cache, wraps
 from inspect import signature
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, ParamSpec, Protocol, Self, TypeVar
+from warnings import warn
 
 import numpy as np
 
@@ -350,6 +352,16 @@ def no_attribute(owner, name, known):
         suggestion = f"; did you mean {nearest[0]!r}?"
     # With its name, Python does not add a suggestion of its own.
     return AttributeError(f"{owner} has no {name!r}{suggestion}", name=name)
+
+
+def former(old, new):
+    """Property with the old name of an attribute, which warns; `new` may go over several attributes."""
+
+    def value(self):
+        warn(f"{type(self).__name__}.{old} is {new} now", DeprecationWarning, stacklevel=2)
+        return attrgetter(new)(self)
+
+    return property(value)
 
 
 class Parameters:

@@ -347,5 +347,5 @@ def test_motion_begins_exactly_at_first_contact():
 )
 def test_imprints_that_tell_no_class(energy, radius, says):
     found = mdr.hardness_class(energy, radius, exponent=1.0)
-    assert found.hardness_class is None
+    assert found.letter is None
     assert says in found.reason

@@ -12,6 +12,7 @@ import numpy as np
 from ...base import check
 from ...base.check import Array
 from ...solver.contact.integrals import integrals
+from ...solver.impacts.scaling import HardnessClass
 from ...solver.medium.medium import Medium
 from .depth_noise import turning_points_of
 from .parameters import BACKGROUND, CLASSES
@@ -81,27 +82,12 @@ def _misfit(solution):
     return np.sqrt(np.mean(solution.deviation**2, axis=1)) / force
 
 
-@dataclass(frozen=True)
-class HardnessVerdict:
-    """Which class of hardness one curve has: `fit.class_of_hardness`.
+def class_of_hardness(fits, samples, free):
+    """`HardnessClass` of one curve of so many samples from its `fits_of_classes`.
 
-    `best` is the letter of the class with the least misfit, `possible` the letters of all classes that the
-    samples do not rule out, at three standard deviations, and `describes` whether the best class
-    describes the curve: its misfit is within 1 %, or its residuals are not correlated.
+    Possible are classes at three standard deviations. The best one describes the curve if its misfit is
+    within 1 %, or its residuals are not correlated. `free` are the names of the free parameters.
     """
-
-    best: str
-    possible: tuple[str, ...]
-    describes: bool
-
-    def __str__(self) -> str:
-        letters = ") or (".join(self.possible)
-        answer = f"({letters})" if len(self.possible) == 1 else f"not determined, ({letters})"
-        return answer if self.describes else f"{answer}, none within {100 * _NONE:g} %"
-
-
-def class_of_hardness(fits, samples):
-    """`HardnessVerdict` of one curve of so many samples from its `fits_of_classes`."""
     best = min(fits, key=lambda letter: fits[letter].misfit)
     least = max(fits[best].misfit, np.finfo(float).tiny)
     independent = samples / fits[best].block_length
@@ -109,13 +95,16 @@ def class_of_hardness(fits, samples):
         letter for letter, fit in fits.items() if independent * 2 * np.log(fit.misfit / least) < _TOLD
     )
     describes = fits[best].misfit <= _NONE or fits[best].block_length == 1
-    return HardnessVerdict(best, tuple(possible), bool(describes))
+    misfits = ", ".join(f"({letter}) {100 * fit.misfit:.3g} %" for letter, fit in fits.items())
+    whole = "range of the force" if set(BACKGROUND) & set(free) else "largest force"
+    reason = f"misfit {misfits} of the {whole}"
+    return HardnessClass(best, tuple(possible), bool(describes), reason)
 
 
 def fit_again(fits, found, free):
     """Row of a report on a fit of one class that the curve rules out; none where it does not.
 
-    `found` is the `HardnessVerdict`, `free` are the names of the free parameters.
+    `found` is the `HardnessClass`, `free` are the names of the free parameters.
     """
     taken = [letter for letter, name in CLASSES.items() if name in free]
     if len(taken) != 1 or not set(taken) <= set(fits):
@@ -130,14 +119,9 @@ def fit_again(fits, found, free):
         yield "another class", text
 
 
-def verdict(fits, found, free, depth, force, depth_noise):
-    """Rows of a report on one curve: misfits, classes that they do not rule out, and the assumptions.
-
-    `found` is the `HardnessVerdict`, `free` are the names of the free parameters.
-    """
-    misfits = ", ".join(f"({letter}) {100 * fit.misfit:.3g} %" for letter, fit in fits.items())
-    whole = "range of the force" if set(BACKGROUND) & set(free) else "largest force"
-    yield "class of hardness", f"{found}: misfit {misfits} of the {whole}"
+def rows_on_class(found, depth, force, depth_noise):
+    """Rows of a report on one curve: its `HardnessClass` and the assumptions."""
+    yield "class of hardness", f"{found}: {found.reason}"
     turns, starts = turning_points_of(depth, force, depth_noise)
     record = f"this record has {len(starts)} loadings" * (len(starts) > 1)
     if not turns:

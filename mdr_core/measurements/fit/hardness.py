@@ -13,7 +13,7 @@ from ...solver.applicability import check_pair
 from ...solver.contact.integrals import integrals
 from ...solver.contact.live_interval import LiveInterval
 from ...solver.contact.yielding import yield_rule
-from ...solver.impacts.scaling import class_of
+from ...solver.impacts.scaling import HardnessClass, class_of
 from ...solver.medium.medium import Medium, yield_constant
 from ...solver.numerics.roots import increasing_root
 from ...solver.profiles.profile import Profile
@@ -78,8 +78,8 @@ def fit_hardness(
     >>> medium = Medium(E_star=10e9, hardness=0.5e9)
     >>> state = indent(Cone(slope=0.3), medium, [20e-9, 40e-9, 80e-9, 160e-9])
     >>> fit = fit_hardness(Cone(slope=0.3), state.mean_pressure, state.contact_radius, E_star=10e9)
-    >>> print(f"{fit.medium.hardness:.9g}", fit.hardness_class)
-    500000000 a
+    >>> print(f"{fit.medium.hardness:.9g}", fit.class_of_hardness)
+    500000000 (a)
 
     A size effect, of two constants:
 
@@ -103,10 +103,10 @@ def fit_hardness(
         )
     a, depth, area, cap = a[yielded], depth[yielded], area[yielded], cap[yielded]
     values = yield_constant(E_star, cap)
-    power_law = class_of(_POWERS, np.log(a), np.log(values / a), "radii")
+    found = class_of(_POWERS, np.log(a), np.log(values / a), "radii")
     given = {"hardness": hardness, "q_c": q_c, "f_c": f_c}
     if all(value is ... for value in given.values()):
-        given = {CLASSES[_nearest(power_law)]: None}
+        given = {CLASSES[found.best or "b"]: None}
     given = hardness_by_default(**{name: given.get(name, ...) for name in CLASSES.values()})
     held = {name: float(value[0]) for name, value in held_values(1, **given).items()}
     # ∂ ln F/∂ ln σ_c = c u_c / ∫ a ds.
@@ -126,9 +126,9 @@ def fit_hardness(
         q_c_values=check.frozen(values),
         remarks=(
             *doubts_of_measured(E_star, p_m, radii),
-            *_remarks(yielded, constants, errors, free, power_law),
+            *_remarks(yielded, constants, errors, free, found),
         ),
-        **power_law,
+        class_of_hardness=found,
     )
 
 
@@ -187,16 +187,7 @@ def _caps(profile, depth, area):
     return cap, cap < depth
 
 
-def _nearest(power_law):
-    """The class of a `class_of`, that with the nearest power if none fits alone, (b) of a single radius."""
-    slope = power_law["slope"]
-    if np.isnan(slope):
-        return "b"
-    return power_law["hardness_class"] or min(_POWERS, key=lambda letter: abs(_POWERS[letter][0] - slope))
-
-
-def _remarks(yielded, constants, errors, free, power_law):
-    name, reason = power_law["hardness_class"], power_law["reason"]
+def _remarks(yielded, constants, errors, free, found):
     if not yielded.all():
         count = f"{np.count_nonzero(~yielded)} of {yielded.size} measurements"
         text = (
@@ -204,8 +195,10 @@ def _remarks(yielded, constants, errors, free, power_law):
         )
         yield Remark(f"{count} {text}", "left out")
     used = [letter for letter, constant in CLASSES.items() if constants[constant] or constant in free]
-    if len(used) == 1 and (name not in (*used, None) or reason.startswith("none")):
-        text = f"not of class ({used[0]}) alone: {reason}; two constants of the hardness may be fitted"
+    if len(used) == 1 and found.best and not (found.describes and used[0] in found.possible):
+        text = (
+            f"not of class ({used[0]}) alone: {found.reason}; two constants of the hardness may be fitted"
+        )
         yield Remark(
             text, "misfit", *(Remedy("free", each) for each in CLASSES.values() if each not in free)
         )
@@ -228,22 +221,22 @@ class HardnessFit(Fit):
     --------
     >>> from mdr_core import Cone, fit_hardness
     >>> fit = fit_hardness(Cone(slope=0.3), [1e-6, 2e-6, 4e-6], [2e9, 1e9, 5e8], E_star=70e9, q_c=None)
-    >>> print(fit.hardness_class, f"{fit.slope:.1f}")
-    b -1.0
+    >>> print(fit.class_of_hardness, f"{fit.class_of_hardness.slope:.1f}")
+    (b) -1.0
     """
 
     standard_errors: dict[str, float]
-    #: Class of hardness, "a", "b" or "c", None where none or several fit, and the reason in words.
-    hardness_class: str | None
-    reason: str
-    #: Power of the radius in σ_c, with its standard error.
-    slope: float
-    slope_error: float
+    #: Class of hardness, with the power of the radius in σ_c as its slope.
+    class_of_hardness: HardnessClass
     #: a σ_c (N/m) at each radius that has yielded: q_c for class (b).
     q_c_values: Array
     remarks: tuple[Remark, ...]
 
+    hardness_class = check.former("hardness_class", "class_of_hardness.letter")
+    reason = check.former("reason", "class_of_hardness.reason")
+    slope = check.former("slope", "class_of_hardness.slope")
+    slope_error = check.former("slope_error", "class_of_hardness.slope_error")
     _zero_unless_asked = tuple(CLASSES.values())
 
     def _quality(self):
-        yield "class of hardness", self.reason
+        yield "class of hardness", self.class_of_hardness.reason

@@ -14,9 +14,10 @@ from ...show.quantities import engineering
 from ...show.report import with_error
 from ...solver.contact.indentation import Indentation
 from ...solver.contact.live_interval import LiveInterval
+from ...solver.impacts.scaling import HardnessClass
 from ...solver.medium.medium import Medium
 from ..unloading.oliver_pharr_result import OLIVER_PHARR, OliverPharr
-from .classes import ClassFit, HardnessVerdict, class_of_hardness, fit_again, fits_of_classes, verdict
+from .classes import ClassFit, class_of_hardness, fit_again, fits_of_classes, rows_on_class
 from .dataset import SAMPLES, dataset_of
 from .figures import plot_fit
 from .measurement import Measurement
@@ -170,12 +171,13 @@ class IndentationFit(Fit):
         return fits_of_classes(self.profile, measured, held, self.depth_noise)
 
     @property
-    def class_of_hardness(self) -> HardnessVerdict | None:
+    def class_of_hardness(self) -> HardnessClass | None:
         """The class of hardness that one curve shows, None where there are no `classes`."""
         check_single(self, "class_of_hardness")
         if not self.classes:
             return None
-        return class_of_hardness(self.classes, np.count_nonzero(np.isfinite(self.residuals)))
+        samples = np.count_nonzero(np.isfinite(self.residuals))
+        return class_of_hardness(self.classes, samples, self.standard_errors)
 
     @cached_property
     def unloading(self) -> tuple[OliverPharr | None, Remark]:
@@ -219,10 +221,10 @@ class IndentationFit(Fit):
 
     def _hardness(self):
         """Rows on the hardness of one curve that yields: its class, and the pressures."""
-        if classes := self.classes:
+        if self.classes:
             used = np.isfinite(self.residuals)
             samples = self.depth[used], self.force[used], self.depth_noise
-            yield from verdict(classes, self.class_of_hardness, self.standard_errors, *samples)
+            yield from rows_on_class(self.class_of_hardness, *samples)
         top = int(np.argmax(self.path.force))
         if self._yields and self.path.force[top] > 0:
             a, mean = self.path.contact_radius[top], self.path.mean_pressure[top]

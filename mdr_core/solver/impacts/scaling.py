@@ -5,7 +5,7 @@ proportional to the contact radius, (c) inversely proportional to the contact ar
 contact the force is proportional to a^i with i = 2, 1, 0.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -84,18 +84,34 @@ class ScalingLaw:
 
 @dataclass(frozen=True)
 class HardnessClass:
-    """Class of hardness of measured imprints; made by the function `hardness_class`.
+    """Class of hardness that measurements show: imprints, mean pressures or a curve.
 
-    `hardness_class` is its letter, None where none or several fit, `reason` the reason in words; `slope`
-    is the measured power with its standard error `slope_error`, infinite for two points; `laws` the
-    `ScalingLaw` of each class, where the power is one of the energy.
+    `best` is the letter of the nearest class, None where the measurements tell nothing, and `possible` has
+    the letters of all classes that they do not rule out. `describes` says whether the best class describes
+    them, and `reason` is the evidence in words.
+
+    Of imprints and mean pressures `slope` is the measured power with its standard error `slope_error`,
+    infinite for two points; of a curve both are None.
     """
 
-    hardness_class: str | None
-    slope: float
-    slope_error: float
-    laws: dict[str, ScalingLaw] = field(repr=False)
+    best: str | None
+    possible: tuple[str, ...]
+    describes: bool
     reason: str
+    slope: float | None = None
+    slope_error: float | None = None
+
+    @property
+    def letter(self) -> str | None:
+        """Letter of the class, None where none or several describe the measurements."""
+        return self.best if self.describes and len(self.possible) == 1 else None
+
+    hardness_class = check.former("hardness_class", "letter")
+
+    def __str__(self) -> str:
+        letters = ") or (".join(self.possible)
+        answer = f"({letters})" if len(self.possible) == 1 else f"not determined, ({letters})"
+        return answer if self.describes else f"{answer}, which describes the measurements poorly"
 
 
 def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> HardnessClass:
@@ -116,7 +132,7 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
     Returns
     -------
     HardnessClass
-        With the letter of the class, `hardness_class`, or None, and the reason in words.
+        With the `letter` of the class, or None, and the reason in words.
 
     Raises
     ------
@@ -127,7 +143,7 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
     --------
     >>> from mdr_core import Cone, Medium, hardness_class, impact
     >>> hit = impact(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), 1e-6, [1.0, 3.0, 10.0])
-    >>> hardness_class(hit.plastic_work, hit.plastic_radius, exponent=1.0).hardness_class
+    >>> hardness_class(hit.plastic_work, hit.plastic_radius, exponent=1.0).letter
     'b'
     """
     energy = np.atleast_1d(check.positive("energy", energy, unit="J"))
@@ -136,13 +152,13 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
     if energy.shape != radius.shape or np.all(x == x[:1]):
         bound = "must be of the same shape, with at least two different energies"
         raise check.MDRError(f"energy {energy.shape} and radius {radius.shape} {bound}")
-    laws = {name: ScalingLaw(name, exponent) for name in _FORCE_POWER}
-    expected = {name: (law.radius, MAX_ERROR * law.radius) for name, law in laws.items()}
-    return HardnessClass(laws=laws, **class_of(expected, x, y, "energies"))
+    powers = {name: ScalingLaw(name, exponent).radius for name in _FORCE_POWER}
+    expected = {name: (power, MAX_ERROR * power) for name, power in powers.items()}
+    return class_of(expected, x, y, "energies")
 
 
 def class_of(expected, x, y, points):
-    """Fields of a `HardnessClass` by name, but for `laws`: the slope of y over x at some `points`.
+    """`HardnessClass` from the slope of y over x at some `points`.
 
     `expected` has the power of each class, and the tolerance of it if two standard errors are smaller.
     """
@@ -150,16 +166,17 @@ def class_of(expected, x, y, points):
     fits = [n for n, (power, limit) in expected.items() if abs(slope - power) <= max(2 * error, limit)]
     powers = ", ".join(f"{name}: {power:.3g}" for name, (power, _) in expected.items())
     measured = f"the slope {slope:.3g} ± {error:.2g}, where the classes have {powers}"
-    name = fits[0] if len(fits) == 1 else None
     if np.isnan(slope):
         reason = f"insufficient: {points} of one value determine no class"
-    elif error == np.inf:
+        return HardnessClass(None, tuple(expected), False, reason, slope, error)
+    best = min(fits or expected, key=lambda name: abs(slope - expected[name][0]))
+    if error == np.inf:
         reason = f"insufficient: two {points} leave no error of the slope {slope:.3g}; give three or more"
-    elif name:
-        reason = f"class {name} alone fits {measured}"
+    elif len(fits) == 1:
+        reason = f"class {best} alone fits {measured}"
     else:
         reason = f"{'more than one class' if fits else 'none'} fits {measured}"
-    return {"hardness_class": name, "slope": slope, "slope_error": error, "reason": reason}
+    return HardnessClass(best, tuple(fits) or (best,), bool(fits), reason, slope, error)
 
 
 def _straight_line(x, y):

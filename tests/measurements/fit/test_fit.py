@@ -312,8 +312,8 @@ class TestHardness:
         state = mdr.indent(profile, MEDIUM, self.DEPTH)
         fit = mdr.fit_hardness(profile, state.mean_pressure, state.contact_radius, E_star=E)
         assert fit.medium.q_c == approx(Q, rel=1e-11)
-        assert fit.hardness_class == "b"
-        assert fit.slope == approx(-1.0, rel=1e-10)
+        assert fit.class_of_hardness.letter == "b"
+        assert fit.class_of_hardness.slope == approx(-1.0, rel=1e-10)
 
     @pytest.mark.parametrize(("power", "name"), [(0.0, "a"), (-1.0, "b"), (-2.0, "c"), (-0.6, None)])
     def test_class(self, power, name):
@@ -321,8 +321,9 @@ class TestHardness:
         a = np.geomspace(1e-7, 1e-6, 9)
         noise = np.exp(0.01 * np.random.default_rng(8).normal(size=9))
         fit = mdr.fit_hardness(mdr.Cone(0.3), 1e6 * (a / 1e-7) ** power * noise, a, E_star=E)
-        assert fit.hardness_class == name
-        assert abs(fit.slope - power) < 4 * fit.slope_error
+        found = fit.class_of_hardness
+        assert found.letter == name
+        assert abs(found.slope - power) < 4 * found.slope_error
         assert (name is None) == any("not of class (b) alone" in remark for remark in fit.remarks)
         # Without a class it is the nearest one.
         (constant,) = fit.standard_errors

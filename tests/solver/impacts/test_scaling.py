@@ -86,7 +86,7 @@ def test_imprints_tell_the_class(hardness, n):
     scatter = 1 + 0.03 * np.random.default_rng(5).standard_normal(12)
     radius = 1e-6 * (energy / 1e-9) ** mdr.ScalingLaw(hardness, n).radius * scatter
     found = mdr.hardness_class(energy, radius, exponent=n)
-    assert found.hardness_class == hardness
+    assert found.letter == hardness
     assert abs(found.slope - mdr.ScalingLaw(hardness, n).radius) < 4 * found.slope_error
     line = linregress(np.log(energy), np.log(radius))
     # The rounding of twelve terms.
