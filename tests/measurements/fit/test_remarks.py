@@ -60,7 +60,8 @@ def test_all_that_is_said_of_curves_is_a_remark():
                 assert not PYTHON.search(quoted.reason), quoted.reason
                 assert (quoted.kind is None) == (quoted.value is not None)
                 assert quoted.kind is None or sound(mdr.Remark(quoted.reason, quoted.kind, *quoted.remedy))
-    assert len(kinds) > 20
+    # Most of the two dozen; the others are of maps, and of noise that is not the same everywhere.
+    assert len(kinds) > 16
 
 
 def test_a_remark_stays_one():
