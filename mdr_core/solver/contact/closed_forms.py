@@ -20,7 +20,7 @@ from ..medium.hardness import SumOfClasses
 from ..numerics.blocks import chunks
 from ..numerics.stable import cube_rise, log1p_ratio, root
 from ..profiles.power import Cone, FlatPunch, Paraboloid, PowerLaw
-from ..profiles.sampled import Sampled, bent_vertices
+from ..profiles.sampled import Sampled
 from .integrals import Integrals, QuadratureIntegrals, integrals
 from .live_interval import LiveInterval
 from .yielding import RadiusCap, constant_hardness
@@ -208,16 +208,10 @@ class SampledIntegrals(QuadratureIntegrals):
 
     def _from_the_tip(self, depth):
         """∫ a ds (m²) from the tip to depths (m), shape (N,)."""
-        r, _, bend = bent_vertices(self.profile)
-        r, a, area = r[:-1], self.profile.radius_at(depth), np.zeros_like(depth)
-        for rows in chunks(depth.size, max(1, 2**15 // r.size)):
-            edge = a[rows, None]
-            # The radius is infinite below the known depth.
-            with np.errstate(invalid="ignore"):
-                distance = root(edge, r)
-                area[rows] = (edge**2 * np.arctan2(distance, r) - r * distance) @ bend / 2
-                area[rows] = a[rows] * depth[rows] - area[rows]
-        return area
+        a = self.profile.radius_at(depth)
+        # The radius is infinite below the known depth.
+        with np.errstate(invalid="ignore"):
+            return a * depth - self.profile.sums_at(a)[0]
 
 
 @constant_hardness.register(Cone)

@@ -9,12 +9,11 @@ import numpy as np
 
 from ...base import check, lazy
 from ...base.check import ArrayLike
-from ..numerics.blocks import chunks
-from ..numerics.stable import root
 from .profile import Profile
 from .samples import area_samples, axis_of_symmetry, convex_fit
+from .vertex_sums import VertexSums
 
-#: Largest number of samples: time and memory grow with its square.
+#: Largest number of samples: the time of an impact grows with it.
 _MOST_SAMPLES = 5000
 
 
@@ -224,7 +223,7 @@ class Sampled(Profile):
     known_depth = property(lambda self: float(self._g[-1]))
     face_radius = property(lambda self: float(self._r[np.count_nonzero(self._g == 0) - 1]))
 
-    @property
+    @cached_property
     def kinks(self):
         """Depths (m) of the vertices at which the slope changes, outside a flat face."""
         bent = (self._bend[1:] > 0) & (self._g[1:-1] > 0)
@@ -245,26 +244,16 @@ class Sampled(Profile):
         return np.maximum(np.interp(height, self._z, self._r, right=np.inf), self.face_radius)
 
     def reduced_at(self, x):
-        return self._reduced_and_slope(x)[0]
+        return self.sums_at(x)[1]
 
     def reduced_slope_at(self, x):
-        return self._reduced_and_slope(x)[1]
+        return self.sums_at(x)[2]
 
-    def _reduced_and_slope(self, x):
-        """g (m) and g′: sums of bend times x arccos(r/x), and of its slope, over the vertices inside x."""
-        flat, vertices = np.ravel(x), self._r[:-1][self._bend != 0]
-        result, bends = np.empty((2, flat.size)), self._bend[self._bend != 0]
-        for rows in chunks(flat.size, max(1, 2**15 // vertices.size)):
-            place = flat[rows, None]
-            count = np.searchsorted(vertices, place.max(), side="right")
-            r, bend = vertices[:count], bends[:count]
-            distance = root(place, r)
-            angle = np.where(r > 0, np.arctan2(distance, r), np.pi / 2)
-            with np.errstate(divide="ignore", invalid="ignore"):
-                # The slope of a sharp tip is that of its cone, down to the axis.
-                rate = np.where(place >= r, angle + np.where(r > 0, r / distance, 0.0), 0.0)
-            result[:, rows] = flat[rows] * (angle @ bend), rate @ bend
-        return result.reshape(2, *np.shape(x))
+    @cached_property
+    def sums_at(self):
+        """∫ g dx (m²), g (m) and g′ at lengths x (m), stacked."""
+        bent = self._bend != 0
+        return VertexSums(self._r[:-1][bent], self._bend[bent], self._r[-1])
 
     def radius_at(self, depth):
         # Outside a vertex g starts as a square root, and is smooth in t = √(x − r).
@@ -281,7 +270,7 @@ class Sampled(Profile):
         for _ in range(50):
             old = t[rows]
             x = np.minimum(vertex[rows] + old * old, highest[rows])
-            reduced, slope = self._reduced_and_slope(x)
+            _, reduced, slope = self.sums_at(x)
             with np.errstate(divide="ignore", invalid="ignore"):
                 step = (reduced - depth[rows]) / (2 * old * slope)
             step = np.nan_to_num(step, posinf=0.0, neginf=0.0)
