@@ -13,7 +13,7 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core.base.remark import Remark, Remedy
-from mdr_core.measurements.fit.noise import jitter
+from mdr_core.measurements.fit.noise import depth_noise_of
 from mdr_core.measurements.reading import UnknownColumns
 from mdr_core.show.units import written
 
@@ -130,7 +130,7 @@ def fit(curve: Any, asked: dict[str, Any]) -> SimpleNamespace:
     arguments = dict(asked.arguments)
     if curve.time is None:
         arguments = {name: value for name, value in arguments.items() if name not in IN_TIME}
-    if medium.letter and (noise := float(f"{jitter(taken.depth, taken.force)[0]:.2g}")):
+    if medium.letter and (noise := float(f"{depth_noise_of(taken.depth, taken.force)[0]:.2g}")):
         arguments.setdefault("depth_noise", noise)
     ends = asked.samples or ends_of(taken, len(curve), medium.part)
     used = (ends[0] <= taken.number) & (taken.number <= ends[1])

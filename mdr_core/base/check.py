@@ -143,10 +143,10 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False, within=Non
         bad = bad | (values == np.inf)
     bound = f"must be {'' if infinite else 'finite and '}{'not negative' if zero else 'positive'}"
     advice = f"give it in SI units ({unit})" if unit else "check it"
-    refuse(quantity, values, bad, bound, unit=unit, advice=advice)
+    raise_if(quantity, values, bad, bound, unit=unit, advice=advice)
     outside = (values > 0) & (values < least) | (values > most) & (values < np.inf)
     bound = f"must {'be 0 or ' if zero else ''}lie between {least:g} and {most:g}"
-    refuse(quantity, values, outside, bound, unit=unit, advice=advice)
+    raise_if(quantity, values, outside, bound, unit=unit, advice=advice)
     return values if values.ndim else float(values)
 
 
@@ -199,23 +199,23 @@ def finite_array(quantity, value, *, unit="", most=FARTHEST, missing=False):
     # A result that keeps the array must not change with the argument.
     array = _real_array(quantity, in_unit(quantity, value, unit), unit=unit).copy()
     large = np.isfinite(array) & (np.abs(array) > most)
-    refuse(quantity, array, large, f"is beyond {most:g}", unit=unit, advice="give it in SI units")
+    raise_if(quantity, array, large, f"is beyond {most:g}", unit=unit, advice="give it in SI units")
     advice = "leave it out, or correct the data it comes from"
     bad = np.isinf(array) if missing else ~np.isfinite(array)
-    return refuse(quantity, array, bad, "must be finite", unit=unit, advice=advice)
+    return raise_if(quantity, array, bad, "must be finite", unit=unit, advice=advice)
 
 
 def force(quantity, value):
     """`value` as a float array of normal forces, which are not negative."""
     array = finite_array(quantity, value, unit="N", most=LONGEST)
-    refuse(
+    raise_if(
         quantity, array, array < 0, "is negative", unit="N", advice="a tension needs work_of_adhesion > 0"
     )
     tiny = (array > 0) & (array < SMALLEST)
-    return refuse(quantity, array, tiny, f"must be 0 or at least {SMALLEST:g}", unit="N")
+    return raise_if(quantity, array, tiny, f"must be 0 or at least {SMALLEST:g}", unit="N")
 
 
-def refuse(quantity, array, bad, bound, *, unit="", advice="", remedy=()):
+def raise_if(quantity, array, bad, bound, *, unit="", advice="", remedy=()):
     """`array`, if no entry is `bad`; else an error that names the first one and counts the others."""
     # Of one entry it takes a third of the time of np.any.
     if np.count_nonzero(bad):

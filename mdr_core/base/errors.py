@@ -97,7 +97,7 @@ class InvalidArgument(MDRError):
 
 
 class InvalidEntries(InvalidArgument):
-    """The error of `refuse`: `bad` says which entries of the `values` of a quantity are invalid."""
+    """The error of `raise_if`: `bad` says which entries of the `values` of a quantity are invalid."""
 
     def __init__(self, quantity, values, bad, bound, unit, advice, remedy=()):
         self.values, self.bad = np.broadcast_arrays(values, bad)

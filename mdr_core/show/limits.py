@@ -300,7 +300,7 @@ def path_limits(path):
 def impact_limits(hit):
     """Limits of an `Impact`, that of the fast limit (23), (24) included."""
     limits = contact_limits(hit.profile, hit.medium, hit.contact_radius)
-    return Limits((*limits, *structure_limits(hit), *how_fast(hit)))
+    return Limits((*limits, *structure_limits(hit), *fast_impact_limits(hit)))
 
 
 def chain_limits(hit):
@@ -309,7 +309,7 @@ def chain_limits(hit):
     return Limits((*limits, *structure_limits(hit)))
 
 
-def how_fast(hit):
+def fast_impact_limits(hit):
     """`Limit`s of the fast limit (23), (24) for an `Impact`, from its errors; none without yield."""
     first_class = hit.medium.inverse_to_radius and hit.structure.rigid
     if not (first_class and np.any(hit.plastic_depth_increase > 0)):

@@ -19,12 +19,12 @@ class Minimum:
     at_bound: np.ndarray
 
     @property
-    def squares(self):
+    def sum_of_squares(self):
         """Sums of squares (R,)."""
         return np.sum(self.residual**2, axis=1)
 
     @property
-    def freedom(self):
+    def degrees_of_freedom(self):
         """Degrees of freedom, at least 1."""
         return max(self.residual.shape[1] - self.x.shape[1], 1)
 

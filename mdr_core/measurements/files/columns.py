@@ -73,7 +73,7 @@ def told(table, file, columns):
     return found
 
 
-def plain_beside(table, columns):
+def exact_columns(table, columns):
     """Time and stiffness that have exact names, beside columns that are told."""
     found = _exact(table, {})
     return {

@@ -9,7 +9,7 @@ from ...base import check
 from ...base.remark import MeasurementError, Remark, Remedy
 from ..measured_curve import MeasuredCurve, named_segments, segments_of
 from .cantilever import constants
-from .columns import ask_for_parts, ask_for_results, plain_beside, taken, time_left_out, told
+from .columns import ask_for_parts, ask_for_results, exact_columns, taken, time_left_out, told
 from .split import WORDS, joined, parts, place_of, several
 from .units import is_deflection, size_of
 
@@ -31,7 +31,9 @@ def curves_of(table, file, columns=None, by=None, given=None):
     by_person = "force" in layout and bool({"depth", "piezo"} & layout.keys())
     without_time = "time" in layout and layout["time"] is None
     if by_person:
-        layout = {each: column for each, column in (layout | plain_beside(table, layout)).items() if column}
+        layout = {
+            each: column for each, column in (layout | exact_columns(table, layout)).items() if column
+        }
     else:
         layout = taken(table, file, layout, given.get("spring_constant"))
     options = {"asked": _said(layout, by)}
@@ -45,7 +47,7 @@ def curves_of(table, file, columns=None, by=None, given=None):
             # Also where a column does not tell all of them apart.
             ask_for_parts(table, file, layout)
         called = f"{name}, {label}" if label else name
-        found.append(curve_maker(part, called, layout, given, source, **options))
+        found.append(curve_factory(part, called, layout, given, source, **options))
     return found
 
 
@@ -68,7 +70,7 @@ def _side_by_side(table, file, layouts, by, given):
             )
         asked = _said(layouts, by)
         table, layout = joined(table, layouts, file)
-        return [curve_maker(table, name, layout, given, "as told", asked=asked)]
+        return [curve_factory(table, name, layout, given, "as told", asked=asked)]
     if by is not None:
         raise check.MDRError(
             f"by = {by!r:.80}: a list of columns is a curve each; leave it out, or give by='segments' for "
@@ -76,7 +78,7 @@ def _side_by_side(table, file, layouts, by, given):
         )
     options = {"source": "as told", "asked": _said(layouts, by)}
     return [
-        curve_maker(trimmed(table, each), f"{name}, columns {_numbers(each)}", each, given, **options)
+        curve_factory(trimmed(table, each), f"{name}, columns {_numbers(each)}", each, given, **options)
         for each in layouts
     ]
 
@@ -94,7 +96,7 @@ def trimmed(table, layout):
     return replace(table, values=values, lines=table.lines[rows], odd=odd, words={})
 
 
-def curve_maker(table, name, layout, given, source, *, asked=None, **options):
+def curve_factory(table, name, layout, given, source, *, asked=None, **options):
     """Function that makes the curve of a table; what a cantilever lacks is asked for at once.
 
     `asked` are the arguments of `read_curves` that say what the columns are, None where a format does.

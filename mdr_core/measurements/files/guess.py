@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 from .names import DISPLACEMENT, TAKEN, normal
-from .split import at_gaps, goes_on_side, is_path, place_of, restarts, telling
+from .split import at_gaps, continues_beside, is_path, key_columns, place_of, restarts
 from .units import cleaned, size_of, unit_alone
 
 #: Parts of names in several languages.
@@ -84,7 +84,7 @@ def whole(table, given):
     if not given or scatters(table, given):
         return {}
     if isinstance(given, list):
-        return {"columns": given} | ({"by": "segments"} if goes_on_side(table, given) else {})
+        return {"columns": given} | ({"by": "segments"} if continues_beside(table, given) else {})
     rows = restarts(table.values[place_of(given)])
     return {"columns": given} | ({"by": by(table, given, rows)} if rows else {})
 
@@ -98,7 +98,7 @@ def scatters(table, given):
 
 def by(table, given, rows):
     """What `by=` tells apart the curves that begin at given rows."""
-    known = telling(table, given, rows)
+    known = key_columns(table, given, rows)
     heads = {int(key.split()[0]) - 1: key.partition(" ")[2] for key in table.words} | table.heads
     of_curves = [
         each for each in known

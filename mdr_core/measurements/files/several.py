@@ -9,7 +9,7 @@ import numpy as np
 
 from ...base.remark import MeasurementError, Remark, Remedy
 from .columns import taken, told
-from .curve import curve_maker, curves_of
+from .curve import curve_factory, curves_of
 from .formats import format_of
 from .question import NoCurve, UnknownColumns
 from .split import below, goes_on, known_depths
@@ -176,6 +176,6 @@ def _of_parts(tables, file, columns, given):
         "asked": {"columns": layout, "by": "segments"},
     }
     return [
-        curve_maker(replace(below(group), name=""), label.format(i), layout, given, **options)
+        curve_factory(replace(below(group), name=""), label.format(i), layout, given, **options)
         for i, group in enumerate(groups, 1)
     ]

@@ -148,7 +148,7 @@ def _gaps(table):
     return sorted({int(np.searchsorted(table.lines, gap)) for gap in table.gaps})
 
 
-def telling(table, columns, rows):
+def key_columns(table, columns, rows):
     """Numbers of the column, or of the two columns, whose values tell apart the curves that begin at rows.
 
     Those of all columns that do, the first ones first.
@@ -320,7 +320,7 @@ def _refuse_step(table, layouts, ordered, file):
         raise UnknownColumns(why, table, file, {"columns": layouts})
 
 
-def goes_on_side(table, layouts):
+def continues_beside(table, layouts):
     """Whether the second of two pairs of columns begins or ends where the first has its largest force."""
     if len(layouts) != 2:
         return False

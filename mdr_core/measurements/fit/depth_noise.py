@@ -59,9 +59,9 @@ class NoisyDepthCurves(Curves):
         # The slope is 0 without contact: the search also starts just within the contact.
         state = self.states_at(values, np.maximum(measured, state.live_interval.lower + self.depth_noise))
         for _ in range(6):
-            squares = distance(state)
-            nearest = np.where(squares < least, state.depth, nearest)
-            least = np.minimum(squares, least)
+            sum_of_squares = distance(state)
+            nearest = np.where(sum_of_squares < least, state.depth, nearest)
+            least = np.minimum(sum_of_squares, least)
             residual = load - state.force - state.slope * (measured - state.depth)
             share = state.slope * self.depth_noise**2 / self.noise(state.slope) ** 2
             state = self.states_at(values, measured + share * residual)

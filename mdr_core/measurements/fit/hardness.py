@@ -155,7 +155,7 @@ def _constants(a, hardness, weight, held):
     with np.errstate(divide="ignore", invalid="ignore"):
         minimum = least_squares(residuals, start, 0 * start, start + np.inf)
     excess = a.size - len(free)
-    variance = minimum.squares[0] / excess if excess else np.inf
+    variance = minimum.sum_of_squares[0] / excess if excess else np.inf
     covariance = covariances(minimum.jacobian, variance)[0] * units[:, None] * units
     values = dict(zip(free, (minimum.x[0] * units).tolist(), strict=True))
     return {name: values.get(name, held.get(name)) for name in powers}, minimum, covariance
@@ -171,8 +171,8 @@ def _measured(profile, mean_pressure, radius):
             "each radius"
         )
     bound = f"m is not between the flat face, {profile.face_radius:g} m, and the end of the profile"
-    check.refuse("radius", a, (a <= profile.face_radius) | (a > profile.known_radius), bound)
-    check.refuse("radius", a, a >= profile.wall, f"m is at the wall, {profile.wall:g} m, at any depth")
+    check.raise_if("radius", a, (a <= profile.face_radius) | (a > profile.known_radius), bound)
+    check.raise_if("radius", a, a >= profile.wall, f"m is at the wall, {profile.wall:g} m, at any depth")
     return p_m, a
 
 

@@ -258,7 +258,7 @@ def _refuse_empty(measured, held):
         raise MeasurementError(text, Remedy("part", "all"))
     lowest, highest = np.nanmin(force, axis=1), np.nanmax(force, axis=1)
     width = np.nanmax(depth, axis=1) - np.nanmin(depth, axis=1)
-    check.refuse("range of depth", width, width == 0, "m: the indenter does not move", advice="check it")
+    check.raise_if("range of depth", width, width == 0, "m: the indenter does not move", advice="check it")
     rise = highest - held.get("baseline", lowest)
     bound, advice = (
         "above the baseline: no contact",
@@ -266,7 +266,7 @@ def _refuse_empty(measured, held):
     )
     attracted, free = np.any(held.get("work_of_adhesion", 1.0)), (Remedy("free", "baseline"),)
     bad = (rise <= 0) & ~attracted
-    check.refuse("largest force", rise, bad, bound, unit="N", advice=advice, remedy=free)
+    check.raise_if("largest force", rise, bad, bound, unit="N", advice=advice, remedy=free)
     height = highest - lowest
     bound = f"must be at least {check.SHORTEST:g}"
-    check.refuse("range of force", height, height < check.SHORTEST, bound, unit="N", advice="check it")
+    check.raise_if("range of force", height, height < check.SHORTEST, bound, unit="N", advice="check it")

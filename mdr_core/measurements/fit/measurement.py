@@ -63,7 +63,7 @@ def measurement(depth, force, time, force_noise):
     if force_noise is not None:
         force_noise = padded("force_noise", force_noise, "N")
         check.common_shape("fit_indentation", depth=values["depth"], force_noise=force_noise)
-        check.refuse("force_noise", force_noise, force_noise <= 0, "must be positive", unit="N")
+        check.raise_if("force_noise", force_noise, force_noise <= 0, "must be positive", unit="N")
         values["force_noise"] = np.broadcast_to(force_noise, shape)
     values = {name: np.atleast_2d(array) for name, array in values.items()}
     values = {name: values.get(name) for name in ("depth", "force", "time", "force_noise")}
@@ -77,7 +77,7 @@ def rates(depth, time):
     """Rates (m/s) by central differences, and at which samples they jump, arrays (R, N)."""
     advice = "sort the samples, drop repeated times, and count time on from one segment to the next"
     back = np.diff(time, prepend=-np.inf, axis=1) <= 0
-    check.refuse("time", time, back, "does not increase", unit="s", advice=advice)
+    check.raise_if("time", time, back, "does not increase", unit="s", advice=advice)
     rate = np.array([np.gradient(z, t) for z, t in zip(depth, time, strict=True)])
     jump = np.zeros_like(depth)
     jump[:, 1:-1] = np.abs(np.diff(np.diff(depth, axis=1) / np.diff(time, axis=1), axis=1))

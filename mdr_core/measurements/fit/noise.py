@@ -39,7 +39,7 @@ _BLOCKS = 20
 
 def tests_of_noise(solved, i):
     """Remarks on the residuals of curve i of a `Solution`."""
-    for check in (_jitter, _misfit, _few):
+    for check in (_depth_noise, _misfit, _few):
         yield from check(solved, i)
     size = np.sqrt(np.mean(solved.deviation[i] ** 2))
     # Smaller ones are those of the arithmetic.
@@ -48,7 +48,7 @@ def tests_of_noise(solved, i):
         yield from _blocks(solved, i)
 
 
-def jitter(depth, force):
+def depth_noise_of(depth, force):
     """Noise (m) of depths (N,) that go back and forth, and how often; 0 where the noise hardly counts.
 
     Taken for real maxima of the depth it changes E* by about its share of the recovered depth. Below a
@@ -65,10 +65,10 @@ def jitter(depth, force):
     return (float(noise), reversals) if counts else (0.0, 0)
 
 
-def _jitter(solved, i):
+def _depth_noise(solved, i):
     """Depths that go back and forth although they are taken as exact: without memory they may."""
     depth, curves = solved.curves.depth[i], solved.curves
-    noise, reversals = jitter(depth, curves.force[i])
+    noise, reversals = depth_noise_of(depth, curves.force[i])
     if reversals and not (curves.depth_noise or curves.held_elastic):
         text = (
             f"the depth goes back and forth at {reversals} of {depth.size - 1} samples, and its noise of "
@@ -80,7 +80,7 @@ def _jitter(solved, i):
 def _misfit(solved, i):
     """Residuals that are not noise."""
     curves, residual = solved.curves, solved.minimum.residual[i]
-    freedom, chi = solved.minimum.freedom, solved.reduced_chi_square[i]
+    degrees_of_freedom, chi = solved.minimum.degrees_of_freedom, solved.reduced_chi_square[i]
     correlation = autocorrelation(residual[solved.orders[i]])
     size = np.sqrt(np.mean(solved.deviation[i] ** 2)) / curves.load[i, 0]
     largest = _MISFIT if curves.held_elastic else _MISFIT_YIELDING
@@ -88,7 +88,7 @@ def _misfit(solved, i):
     if systematic and correlation > _CORRELATED:
         noise = roughness(solved.deviation[[i]])[0, 0] / curves.load[i, 0]
         largest = min(largest, max(_SYSTEMATIC, _ABOVE_NOISE * noise))
-    if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(freedom)):
+    if size > largest and correlation > max(0.3, SIGNIFICANT / np.sqrt(degrees_of_freedom)):
         letters = [letter for letter, name in CLASSES.items() if name in curves.constants]
         of_class = f"of class {' + '.join(f'({letter})' for letter in letters)}"
         text = (
@@ -102,7 +102,7 @@ def _misfit(solved, i):
         if ratio := _whole_over_lower_half(solved, i):
             text += f". E* of the whole is {ratio:.3g} times that of the lower half of the depth"
         yield Remark(text, "misfit", *remedy)
-    elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / freedom) and size > EXACT:
+    elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / degrees_of_freedom) and size > EXACT:
         text = (
             f"χ² per degree of freedom is {chi:.3g}: the residuals ({100 * size:.2g} % of the force) are "
             "larger than the given noise"

@@ -109,7 +109,7 @@ class NotNegative(Parameter):
         return 0.0, np.inf
 
 
-class Addend(Parameter):
+class HardnessTerm(Parameter):
     """A constant of the hardness beside others: practically 0 or positive, since their sum is positive."""
 
     def bounds(self, start, curves):
@@ -150,9 +150,9 @@ BACKGROUND = {
 }
 #: Constants of the hardness where there are several.
 TOGETHER = {
-    "hardness": Addend(_HARDNESS, unit=lambda curves: curves.load / _pressed_radius(curves) ** 2),
-    "q_c": Addend(_Q_C, unit=lambda curves: curves.load / _pressed_radius(curves)),
-    "f_c": Addend(_F_C, unit=lambda curves: curves.load),
+    "hardness": HardnessTerm(_HARDNESS, unit=lambda curves: curves.load / _pressed_radius(curves) ** 2),
+    "q_c": HardnessTerm(_Q_C, unit=lambda curves: curves.load / _pressed_radius(curves)),
+    "f_c": HardnessTerm(_F_C, unit=lambda curves: curves.load),
 }
 #: All parameters, in the order of a fit.
 PARAMETERS = MEDIUM | {"contact_point": ContactPoint(Quantity("z₀", "m", "first contact"))} | BACKGROUND

@@ -98,10 +98,10 @@ def _units(solved, i):
     if "E_star" not in curves.free:
         return
     depth, force, E = curves.depth[i], curves.force[i], values["E_star"][i, 0]
-    squares = np.sum(solved.deviation[i] ** 2)
+    sum_of_squares = np.sum(solved.deviation[i] ** 2)
     variance = np.sum((force - force.mean()) ** 2)
     line = variance * (1 - np.corrcoef(depth, force)[0, 1] ** 2)
-    straight = not curves.adhesive and line < 1.1 * squares
+    straight = not curves.adhesive and line < 1.1 * sum_of_squares
     plausible = is_modulus(E)
     if plausible and not straight:
         return
@@ -110,7 +110,7 @@ def _units(solved, i):
     swapped = not plausible and shares.get(_SWAPPED, 0.0) >= least
     cause = _SWAPPED if swapped else max(shares, key=shares.get)
     other = shares[cause] >= least
-    unexplained = squares > (1 - _EXPLAINED) * variance
+    unexplained = sum_of_squares > (1 - _EXPLAINED) * variance
     bent = other and 1 - own > _BENT * (1 - shares[cause])
     if straight and (unexplained or bent):
         text = "a straight line fits the force as well as an indentation"
@@ -197,7 +197,7 @@ def _contact_is_seen(depth, force):
 
 def _ambiguous(solved, i):
     """Parameters at a bound, a second minimum."""
-    curves, squares = solved.curves, np.sum(solved.minimum.residual[i] ** 2)
+    curves, sum_of_squares = solved.curves, np.sum(solved.minimum.residual[i] ** 2)
     for name, at_bound in zip(curves.free, solved.minimum.at_bound[i], strict=False):
         if at_bound and name == "eta":
             yield Remark("the viscosity is 0 within the noise", "constant", Remedy("hold", name, 0.0))
@@ -206,7 +206,7 @@ def _ambiguous(solved, i):
                 f"{symbols([name])} is at the bound of its range", "undetermined", Remedy("hold", name)
             )
     noise = 1.0 if solved.noise_known else solved.reduced_chi_square[i]
-    if solved.rival_squares[i] - squares <= SIGNIFICANT**2 * noise:
+    if solved.rival_squares[i] - sum_of_squares <= SIGNIFICANT**2 * noise:
         rival = curves.rows([i]).values(solved.rival[[i]])
         E, point = engineering(rival["E_star"][0, 0], "Pa"), engineering(rival["contact_point"][0, 0], "m")
         remedy = Remedy("hold", "contact_point"), Remedy("hold", "E_star")

@@ -66,7 +66,7 @@ class Solution:
     @cached_property
     def reduced_chi_square(self):
         """Sum of squares over the degrees of freedom (R,)."""
-        return self.minimum.squares / self.minimum.freedom
+        return self.minimum.sum_of_squares / self.minimum.degrees_of_freedom
 
     @cached_property
     def orders(self):
@@ -164,9 +164,12 @@ def _best_minimum(curves):
     columns = [i for i, name in enumerate(curves.free) if name in ("E_star", "contact_point")]
     for rows, start in others:
         trial = curves.rows(rows).search(start)
-        x, squares = best.x[rows], best.squares[rows]
+        x, sum_of_squares = best.x[rows], best.sum_of_squares[rows]
         differs = np.any(np.abs(trial.x - x)[:, columns] > 0.05, axis=1)
-        better, worse = trial.squares < squares, np.maximum(squares, trial.squares)
+        better, worse = (
+            trial.sum_of_squares < sum_of_squares,
+            np.maximum(sum_of_squares, trial.sum_of_squares),
+        )
         second = differs & (worse < rival_squares[rows])
         rival[rows[second]] = np.where(better[:, None], x, trial.x)[second]
         rival_squares[rows[second]] = worse[second]
@@ -193,9 +196,9 @@ def _compared_with_elastic(curves, minimum, noise_known):
     without_yield = values | {constants[0]: np.full_like(less, _NO_YIELD)}
     yielding = subset.minimum(subset.scaled(softer))
     unyielding = subset.minimum(subset.scaled(without_yield))
-    first, second, third = minimum.squares[rows], yielding.squares, unyielding.squares
+    first, second, third = minimum.sum_of_squares[rows], yielding.sum_of_squares, unyielding.sum_of_squares
     least = np.minimum(first, second)
-    noise = 1.0 if noise_known else np.minimum(least, third) / minimum.freedom
+    noise = 1.0 if noise_known else np.minimum(least, third) / minimum.degrees_of_freedom
     gain = (third - least) / np.maximum(noise, 1e-300)
     nearer = (gain <= _AS_WELL) | (third <= 1e-24 * minimum.residual.shape[1])
     elastic[rows] = nearer

@@ -71,25 +71,29 @@ def _guesses(curve, turning_depth, table):
         largest = curve.largest_so_far(curve.depth, turning_depth)[0][:, samples]
         point, rate = points[:, None, None], curve.rate[0, samples]
         unit_force = _unit_force(largest - point, depth[samples] - point, rate, media, table)
-    E_star, squares, background = _regression(curve, held, samples, unit_force, media)
+    E_star, sum_of_squares, background = _regression(curve, held, samples, unit_force, media)
     chosen = []
     for kind in _kinds(curve, media, largest_depth):
-        best = np.where(kind, squares, np.inf).argmin(axis=1)
+        best = np.where(kind, sum_of_squares, np.inf).argmin(axis=1)
         place = np.arange(points.size), best
         trials = {name: values[place] for name, values in media.items()} | {"E_star": E_star[place]}
         values = {name: parameter.start(trials) for name, parameter in MEDIUM.items() if name in curve.free}
         values |= background(best) | {"contact_point": points}
-        least = squares[place]
+        least = sum_of_squares[place]
         for i in _minima(least):
             chosen.append((least[i], {name: float(values[name][i]) for name in curve.free}))
     return [start for _, start in sorted(chosen, key=lambda pair: pair[0])]
 
 
-def _minima(squares):
+def _minima(sum_of_squares):
     """Indices of the smallest minima of the sums of squares over the contact points, the best first."""
-    around = np.concatenate([[np.inf], squares, [np.inf]])
-    minima = (squares <= around[:-2]) & (squares < around[2:]) & (squares <= _CLOSE * squares.min())
-    return sorted(np.flatnonzero(minima), key=lambda i: squares[i])[:_STARTS]
+    around = np.concatenate([[np.inf], sum_of_squares, [np.inf]])
+    minima = (
+        (sum_of_squares <= around[:-2])
+        & (sum_of_squares < around[2:])
+        & (sum_of_squares <= _CLOSE * sum_of_squares.min())
+    )
+    return sorted(np.flatnonzero(minima), key=lambda i: sum_of_squares[i])[:_STARTS]
 
 
 def _kinds(curve, media, depth):
@@ -212,13 +216,13 @@ def _regression(curve, held, samples, unit_force, media):
         power = np.einsum("zmn,zmn->zm", projected, projected)
         smallest = 1e-6 * np.ptp(force) / np.maximum(np.ptp(unit_force), 1e-300)
         E_star = np.maximum(projected @ deviation / np.maximum(power, 1e-300), smallest)
-    squares = np.sum((deviation - E_star[..., None] * projected) ** 2, axis=-1)
-    squares = np.where(np.isfinite(squares), squares, np.finfo(float).max)
+    sum_of_squares = np.sum((deviation - E_star[..., None] * projected) ** 2, axis=-1)
+    sum_of_squares = np.where(np.isfinite(sum_of_squares), sum_of_squares, np.finfo(float).max)
 
     def background(best):
-        row = np.arange(len(squares))
+        row = np.arange(len(sum_of_squares))
         remainder = weight * force - E_star[row, best, None] * weighted[row, best]
         values = np.linalg.lstsq(triangle, (remainder @ basis).T, rcond=None)[0] if free else ()
         return dict(zip(free, values, strict=True))
 
-    return E_star, squares, background
+    return E_star, sum_of_squares, background

@@ -141,8 +141,8 @@ def _moves(time, force):
 def _line(columns, values):
     """Coefficients of a linear least-squares fit, and their standard errors."""
     coefficients = np.linalg.lstsq(columns, values, rcond=None)[0]
-    squares = np.sum((values - columns @ coefficients) ** 2) / max(values.size - columns.shape[1], 1)
-    return coefficients, np.sqrt(np.diag(np.linalg.pinv(columns.T @ columns)) * squares)
+    sum_of_squares = np.sum((values - columns @ coefficients) ** 2) / max(values.size - columns.shape[1], 1)
+    return coefficients, np.sqrt(np.diag(np.linalg.pinv(columns.T @ columns)) * sum_of_squares)
 
 
 def share_of_compliance(rate, stiffness, force, time, end):

@@ -90,9 +90,9 @@ def _first_seen(force):
 def _trend(depth, force):
     """Slope (N/m) of the force in the air that is beyond its scatter."""
     x, y = depth - depth.mean(), force - force.mean()
-    squares = max(x @ x, 1e-300)
-    slope = x @ y / squares
-    scatter = np.sqrt(np.sum((y - slope * x) ** 2) / (x.size - 2) / squares)
+    sum_of_squares = max(x @ x, 1e-300)
+    slope = x @ y / sum_of_squares
+    scatter = np.sqrt(np.sum((y - slope * x) ** 2) / (x.size - 2) / sum_of_squares)
     return abs(slope) if abs(slope) > SIGNIFICANT * scatter else 0.0
 
 
@@ -161,7 +161,7 @@ def _power_law(depth, force, seen, least, most):
     lower, upper = ([-1.0, 1e-3, -2.0 if seen else -50.0, least], [1.0, 10.0, 1.0, most])
     lower, upper = (np.tile(each, (z.size, 1)) for each in (lower, upper))
     minimum = least_squares(function, start, lower, upper, steps=60, tolerance=1e-8)
-    best = int(np.argmin(minimum.squares))
+    best = int(np.argmin(minimum.sum_of_squares))
     values, residual = minimum.x[best], minimum.residual[best]
     errors = np.full(4, np.inf)
     if not minimum.at_bound[best].any():

@@ -414,5 +414,5 @@ def _finite_columns(depth, force, time, stiffness):
         # Segments of a file may share the time at which one ends and the next begins.
         back = np.diff(arrays["time"], prepend=-np.inf) < 0
         advice = "sort the samples by time"
-        check.refuse("time", arrays["time"], back, "does not increase", unit="s", advice=advice)
+        check.raise_if("time", arrays["time"], back, "does not increase", unit="s", advice=advice)
     return arrays

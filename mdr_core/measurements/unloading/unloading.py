@@ -139,5 +139,5 @@ def _power_law(h, force):
         )
         raise MeasurementError(Remark(text, "no unloading"))
     _, s, vt = np.linalg.svd(minimum.jacobian[0], full_matrices=False)
-    scatter = np.sqrt(minimum.squares[0] / (h.size - 3))
+    scatter = np.sqrt(minimum.sum_of_squares[0] / (h.size - 3))
     return minimum.x[0] * size, size[:, None] * vt.T * scatter / s

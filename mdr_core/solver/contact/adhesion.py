@@ -98,7 +98,7 @@ def _power_range(profile, threshold, exponent):
     """Start D (m) of the stable range of g ∝ xⁿ, in which √a g′(a) grows as a^(n − 1/2)."""
     bound = "is 1/2 or less: with adhesion the contact spreads without limit"
     advice = "set work_of_adhesion = 0, or take an exponent above 1/2"
-    check.refuse("exponent", np.asarray(exponent), exponent <= 0.5, bound, advice=advice)
+    check.raise_if("exponent", np.asarray(exponent), exponent <= 0.5, bound, advice=advice)
     if np.any(profile.wall < np.inf):
         return np.zeros(np.broadcast_shapes(np.shape(threshold), profile.shape))
     # Of a weak power the radius may leave double precision.
@@ -182,7 +182,7 @@ def first_contacts(profile, medium, depth):
     loaded, _ = yield_rule(profile, medium).loading(np.maximum(depth, 0.0))
     lower, known = loaded.lower, profile.known_depth
     interval, stretched = contact_interval(profile, medium, lower, loaded.length, low, known)
-    check.refuse("depth", depth, np.isnan(stretched), f"presses {profile.too_deep()}", unit="m")
+    check.raise_if("depth", depth, np.isnan(stretched), f"presses {profile.too_deep()}", unit="m")
     length = np.where(depth >= 0, interval.length, 0.0)
     load = np.where(depth >= 0, -medium.E_star * stretched, 0.0)
     return LiveInterval.above(lower, length), load
@@ -204,7 +204,7 @@ def _one_path(profile, medium, depth):
     number = _ranges_along(live_depth, first.T.tolist(), last.T.tolist())
     touching = number >= 0
     bound = f"presses {profile.too_deep()}, with adhesion"
-    check.refuse(
+    check.raise_if(
         "depth", depth, touching & (live_depth > last[-1]), bound, unit="m", advice="press less deep"
     )
     # Out of contact the interval is empty.
@@ -245,7 +245,7 @@ def force_path(profile, medium, force):
     loaded, carried = _pressed(profile, medium, largest, low)
     bound = f"presses {profile.too_deep()}, or is not reached because adhesion draws the indenter in"
     not_carried = np.reshape(~carried, force.shape)
-    check.refuse("force", force, not_carried, bound, unit="N", advice="press to a depth instead")
+    check.raise_if("force", force, not_carried, bound, unit="N", advice="press to a depth instead")
     lower = np.where(np.logical_or.accumulate(closes, axis=-1), loaded.lower, 0.0)
     least = np.maximum(low - lower, 0.0)
 
@@ -325,7 +325,7 @@ def stiffness(state):
     yielding = (interval.lower > 0) & loaded
     rate, part = stretch_rate(profile, radius, stretched), _half_rate(profile, radius, stretched)
     inner = np.where(yielding, state.plastic_radius, 0.0)
-    width = np.where(yielding, integrals(profile).radius_drop(interval), radius)
+    width = np.where(yielding, integrals(profile).radius_difference(interval), radius)
     # (a − 3Δl/(2g′))/(1 − Δl/(2a g′)) − c, with the difference a − c.
     with np.errstate(divide="ignore", invalid="ignore"):
         width = (width - 1.5 * rate + inner * part) / (1 - part)

@@ -41,7 +41,7 @@ class FlatPunchIntegrals(Integrals):
     def energy_integral(self, interval):
         return self.profile.radius / 2 * interval.length**2
 
-    def radius_drop(self, interval):
+    def radius_difference(self, interval):
         return np.zeros_like(interval.length)
 
 
@@ -59,7 +59,7 @@ class ConeIntegrals(Integrals):
     def energy_integral(self, interval):
         return interval.length**2 * (interval.upper + 2 * interval.lower) / (3 * np.pi * self.profile.slope)
 
-    def radius_drop(self, interval):
+    def radius_difference(self, interval):
         return interval.length / (np.pi / 2 * self.profile.slope)
 
     def pressure_integral(self, interval, r):
@@ -73,7 +73,7 @@ class ConeIntegrals(Integrals):
         else:
             # arccosh(a/r) − arccosh(c/r), with the difference of the logarithms' arguments written out.
             low = np.maximum(c, r)
-            drop = np.where(r < c, self.radius_drop(interval), a - r)
+            drop = np.where(r < c, self.radius_difference(interval), a - r)
             root_low = root(low, r)
             logarithm = log1p_ratio(drop + drop * ((a + low) / (root_a + root_low)), low + root_low)
         result[inside] = np.pi / 2 * self.profile.slope * logarithm
@@ -108,7 +108,7 @@ class ParaboloidIntegrals(Integrals):
         polynomial = ((4 / 15 * e + 4 / 3 * C) * e + 8 / 3 * C**2) * e + 2 * C**3
         return np.sqrt(self.profile.radius) * e**2 * polynomial
 
-    def radius_drop(self, interval):
+    def radius_difference(self, interval):
         A, C = np.sqrt(interval.upper), np.sqrt(interval.lower)
         return np.sqrt(self.profile.radius) * interval.length / np.maximum(A + C, _TINY)
 
@@ -149,7 +149,7 @@ class PowerLawIntegrals(Integrals):
         a = self.profile.radius_at(interval.upper)
         return a * interval.upper**2 * scipy.special.betainc(2, q, _fraction(interval)) / (q * (q + 1))
 
-    def radius_drop(self, interval):
+    def radius_difference(self, interval):
         fraction = _fraction(interval)
         # ln(d_p/d) without cancellation: from the length where that is short, else from the ends.
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -137,7 +137,7 @@ def _by_scalar_laws(profile, medium, force, time, tolerance):
     path = pressed_states(profile, medium, law, pressed)
     if retreat is not None:
         path = retreating_states(path, law, pressed, retreat)
-    return path, len(path.lead), float(error)
+    return path, len(path.depth_excess), float(error)
 
 
 def _first_and_bound(profile, medium, rule, force, ds):
@@ -172,7 +172,7 @@ def _refuse_unknown(profile, pressed, force):
     known = pressed.depth <= min(profile.known_depth, check.LONGEST)
     known[-1] &= not pressed.turned or pressed.turning_depth <= profile.known_depth
     bound = f"presses {profile.too_deep()}"
-    check.refuse("force", force[: known.size], ~known, bound, unit="N", advice="press less")
+    check.raise_if("force", force[: known.size], ~known, bound, unit="N", advice="press less")
     check_shape(profile, pressed.depth)
 
 

@@ -104,25 +104,25 @@ class Retreat:
         """
         states = np.zeros((3, len(self.area)))
         for k, (ds, fall) in enumerate(zip(self.ds, self.fall, strict=True)):
-            lead, remainder, work = states[:, k]
+            depth_excess, remainder, work = states[:, k]
             decay, passed = np.exp(-ds), -np.expm1(-ds)
             memory, released, followed = self._memory(k, self.length[k + 1 : k + 2])[:, 0]
-            later = remainder * decay**2 + 2 * fall * (lead * decay * passed + released)
+            later = remainder * decay**2 + 2 * fall * (depth_excess * decay * passed + released)
             # ∫ e ds, by which the indenter goes back.
-            travel = lead * passed + followed
+            travel = depth_excess * passed + followed
             taken = np.maximum((remainder - later) / 2 + fall * travel, 0.0)
-            states[:, k + 1] = lead * decay + memory, later, work + taken
+            states[:, k + 1] = depth_excess * decay + memory, later, work + taken
         return states
 
     def released(self, height):
         """Compressions (m) of released elements of reduced heights g (m) in all states, shape (N, M)."""
         place, result = height - self.interval.lower, np.zeros((len(self.area), height.size))
         for k, ds in enumerate(self.ds):
-            decay, lead = np.exp(-ds), self.states[0, k]
+            decay, depth_excess = np.exp(-ds), self.states[0, k]
             free = place >= self.length[k]
             result[k + 1, free] = result[k, free] * decay
             # Less those that had never been in contact.
             now = np.flatnonzero(~free & (place >= self.length[k + 1]))
             if now.size:
-                result[k + 1, now] = lead * decay + self._memory(k, place[now])[0]
+                result[k + 1, now] = depth_excess * decay + self._memory(k, place[now])[0]
         return result

@@ -25,7 +25,7 @@ class ScalarPath:
     profile: Profile
     medium: Medium
     interval: LiveInterval
-    lead: np.ndarray
+    depth_excess: np.ndarray
     lag: np.ndarray
     stored_energy: np.ndarray
     plastic_work: np.ndarray
@@ -40,25 +40,25 @@ class ScalarPath:
     @property
     def depth(self):
         """Depth d (m)."""
-        return self.interval.upper + self.lead
+        return self.interval.upper + self.depth_excess
 
     def elements(self, x, count):
         """Line load (N/m) and elastic compression (m) at x (m) in the first states, shape (count, M)."""
         columns = np.array([
-            self.interval.upper, self.interval.length, self.lead, self.lag,
+            self.interval.upper, self.interval.length, self.depth_excess, self.lag,
         ])[:, :count, None]  # fmt: skip
-        edge, length, lead, lag = columns
+        edge, length, depth_excess, lag = columns
         height = np.asarray(self.profile.reduced(x))
         springs = np.clip(edge - height, 0.0, length)
         contact = height < edge
-        elastic = np.where(contact, springs + lead, self._released(height)[:count])
+        elastic = np.where(contact, springs + depth_excess, self._released(height)[:count])
         # The dashpots of a retreating contact take the lead off.
         load = np.where(contact, springs + np.maximum(lag, 0.0), 0.0)
         return self.medium.E_star * load, elastic
 
     def _released(self, height):
         """Compressions (m) of released elements of reduced heights (m) in all states."""
-        result = np.zeros((len(self.lead), height.size))
+        result = np.zeros((len(self.depth_excess), height.size))
         if self.retreat is not None:
             later = self.retreat.released(height)
             # The turning point need not be at one of the times.
@@ -84,7 +84,7 @@ class ScalarPath:
             largest=float(self.retreat.interval.upper),
             plastic_depth=float(self.interval.lower[-1]),
             edge=float(self.interval.upper[-1]),
-            elastic=lambda x: self.elements(x, len(self.lead))[1][-1],
+            elastic=lambda x: self.elements(x, len(self.depth_excess))[1][-1],
             plastic_work=float(self.plastic_work[-1]),
             viscous_work=float(self.viscous_work[-1]),
         )
@@ -105,7 +105,7 @@ def pressed_states(profile, medium, law, pressed):
         profile,
         medium,
         interval,
-        lead=np.zeros_like(lag),
+        depth_excess=np.zeros_like(lag),
         lag=lag,
         stored_energy=modulus * stored,
         plastic_work=modulus * plastic,
@@ -117,10 +117,10 @@ def retreating_states(before, law, pressed, retreat):
     """`ScalarPath` that goes on from the states `before` a turning point, with those of its `Retreat`."""
     rule, modulus, turning = law.rule, 2 * before.medium.E_star, retreat.interval
     # The first state of the retreat is the turning point, which is none of the path.
-    lead, remainder, work = retreat.states[:, 1:]
+    depth_excess, remainder, work = retreat.states[:, 1:]
     f = retreat.area[1:]
     interval = LiveInterval.above(turning.lower, retreat.length[1:])
-    stored = integrals(rule.profile).energy_integral(interval) + lead * f + remainder / 2
+    stored = integrals(rule.profile).energy_integral(interval) + depth_excess * f + remainder / 2
     plastic = float(rule.plastic_integral(np.zeros_like(turning.lower), turning.lower))
     energy_at_turn = float(integrals(rule.profile).energy_integral(turning)) + plastic
     # Work of the dashpots up to the turning point.
@@ -133,10 +133,10 @@ def retreating_states(before, law, pressed, retreat):
     return replace(
         before,
         interval=_appended(before.interval, interval),
-        lead=np.append(before.lead, lead),
-        lag=np.append(before.lag, -lead),
+        depth_excess=np.append(before.depth_excess, depth_excess),
+        lag=np.append(before.lag, -depth_excess),
         stored_energy=np.append(before.stored_energy, modulus * stored),
-        plastic_work=np.append(before.plastic_work, np.full(len(lead), modulus * plastic)),
+        plastic_work=np.append(before.plastic_work, np.full(len(depth_excess), modulus * plastic)),
         viscous_work=np.append(before.viscous_work, modulus * (lost + work)),
         retreat=retreat,
     )

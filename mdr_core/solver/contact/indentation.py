@@ -195,7 +195,7 @@ class Indentation(Result):
         width, interval = self.contact_radius, self.live_interval
         yielding = self._rule.yielding(interval)
         if np.any(yielding):
-            width = np.where(yielding, self._rule.yielding_width(interval), width)[()]
+            width = np.where(yielding, self._rule.yielding_stiffness_radius(interval), width)[()]
         return 2 * self.medium.E_star * width
 
     @check.frozen_property

@@ -2,7 +2,7 @@
 
     radius_integral   ∫ a(s) ds over the depths s in [d_p, d]    force
     energy_integral   ∫ (d − s) a(s) ds                          stored energy
-    radius_drop       a(d) − a(d_p)                              stiffness while yielding
+    radius_difference a(d) − a(d_p)                              stiffness while yielding
 
 for arrays of states. They are geometry only: the caller multiplies by the modulus. `pressure` has
 the integrals that depend on the radius r. They come from closed forms, from
@@ -69,7 +69,7 @@ class Integrals(ABC):
         """∫ (d − s) a(s) ds (m³)."""
 
     @abstractmethod
-    def radius_drop(self, interval):
+    def radius_difference(self, interval):
         """a(d) − a(d_p) (m): where the medium has yielded, the width of the elastic ring."""
 
     def radius_and_energy(self, interval):
@@ -137,7 +137,7 @@ class QuadratureIntegrals(Integrals):
     def energy_integral(self, interval):
         return integrate(self.profile, interval, radius, moment=1)
 
-    def radius_drop(self, interval):
+    def radius_difference(self, interval):
         a, c = self.profile.radius_at(interval.upper), self.profile.radius_at(interval.lower)
         narrow = interval.length < 1e-2 * interval.upper
         if not np.any(narrow):
@@ -171,9 +171,9 @@ class TableIntegrals(Integrals):
     def radius_and_energy(self, interval):
         return self._from_table(interval, 2)
 
-    def radius_drop(self, interval):
+    def radius_difference(self, interval):
         unit, length, depth = self.unit
-        return length * QuadratureIntegrals(unit).radius_drop(interval.in_units_of(depth))
+        return length * QuadratureIntegrals(unit).radius_difference(interval.in_units_of(depth))
 
     def _from_table(self, interval, moments):
         """∫ (d − s)^k a(s) ds for k below `moments` (1 or 2), from the table of the unit profile."""

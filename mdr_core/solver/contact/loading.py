@@ -114,7 +114,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     limit = 2 * medium.E_star * rule.wall_integral()
     carrier = "the whole flat face yields" if profile.wall < np.inf else "all of the contact yields, π f_c"
     bound = f"must be less than the {limit:g} N at which {carrier}"
-    check.refuse("force", force, force >= limit, bound, unit="N", advice="press to a depth instead")
+    check.raise_if("force", force, force >= limit, bound, unit="N", advice="press to a depth instead")
     if adhesive:
         states = adhesion.force_path(profile, medium, force)
         check_shape(profile, states[1].upper)
@@ -143,7 +143,7 @@ def _refuse_not_carried(profile, medium, rule, branches, force, depth):
     if medium.has_own_law and profile.known_depth == np.inf and not np.all(carried):
         most = 2 * medium.E_star * np.max(_carried(rule, np.minimum(branches.high, check.LONGEST)))
         bound = f"is more than the {most:g} N that the contact carries on loading"
-    check.refuse("force", force, ~carried, bound, unit="N", advice="press less")
+    check.raise_if("force", force, ~carried, bound, unit="N", advice="press less")
 
 
 class _Branches(NamedTuple):
@@ -193,7 +193,7 @@ def _loading_depth(rule, branches, area):
         """A (m²) and dA/ds (m)."""
         interval, increase = rule.loading(depth)
         value = integrals(rule.profile).radius_integral(interval)
-        slope = rule.loading_width(interval, increase)
+        slope = rule.loading_stiffness_radius(interval, increase)
         shallower = depth < low
         return np.where(shallower, line_slope * depth, value), np.where(shallower, line_slope, slope)
 
@@ -227,7 +227,7 @@ def _growing_branches(rule, elastic_depth=None):
         """Whether the force grows with depth at depths (m)."""
         interval, _ = rule.loading(depth)
         # Where the force goes to π f_c only the rounding of the radii is left of its slope.
-        return rule.yielding_width(interval) >= -1e-14 * rule.profile.radius_at(interval.upper)
+        return rule.yielding_stiffness_radius(interval) >= -1e-14 * rule.profile.radius_at(interval.upper)
 
     depth = _depths_to_ask(onset, end, elastic_depth)
     grows = grows_at(depth)

@@ -143,7 +143,7 @@ def _onset(what, profile, medium, **values):
     # Deeper than the profile is known an onset may be infinite, but the cap there is not.
     unknown = (onset > profile.known_depth) & (rule.cap(profile.known_depth) < np.inf)
     bound = f"is {profile.too_deep()}"
-    check.refuse("yield depth", onset, unknown, bound, unit="m")
+    check.raise_if("yield depth", onset, unknown, bound, unit="m")
     check_shape(profile, onset)
     # A law under which a sharp tip yields from first touch on is looked at next to its tip.
     check_hardness(profile, medium, np.where(onset > 0, onset, 1e-20))

@@ -148,7 +148,7 @@ def _pressure_at_c(state):
     # The last length is that of the whole contact, for the line load of adhesion.
     lengths = np.append(node, interval.length)
     weight = np.append(weight, state.uniform_load / state.medium.E_star)
-    drop = integrals(profile).radius_drop(LiveInterval.above(interval.lower, lengths))
+    drop = integrals(profile).radius_difference(LiveInterval.above(interval.lower, lengths))
     return state.medium.E_star / np.pi * (weight @ (1 / np.sqrt(drop * (2 * c + drop))))
 
 

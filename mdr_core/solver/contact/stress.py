@@ -97,7 +97,7 @@ def depths(z):
     """Depths below the surface (m) as an array, if none is negative."""
     z = check.finite_array("depth z", z, unit="m")
     bound = "is above the surface"
-    return check.refuse("depth z", z, z < 0, bound, unit="m", advice="z counts downward from it")
+    return check.raise_if("depth z", z, z < 0, bound, unit="m", advice="z counts downward from it")
 
 
 def stress(state, r, z):
@@ -178,7 +178,9 @@ def _grid(state):
     profile, a, c = state.profile, state.contact_radius, state.plastic_radius
     inner = max(c, profile.face_radius)
     # The load varies between the inner radius and a.
-    width = (float(integrals(profile).radius_drop(state.live_interval)) if c == inner else a - inner) or a
+    width = (
+        float(integrals(profile).radius_difference(state.live_interval)) if c == inner else a - inner
+    ) or a
     ring = width * np.linspace(-2, 1, 37)
     r = np.unique(np.abs(np.concatenate([a * np.linspace(0, 1.5, 31), a + ring])))
     z = np.concatenate([[0.0], width * np.geomspace(1e-3, 3, 36), np.geomspace(3 * width, 3 * a, 20)[1:]])

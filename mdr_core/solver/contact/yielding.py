@@ -11,7 +11,7 @@ that has yielded throughout carries π a² σ_c(a), so that its elements are com
 
     u_c(a) = π a σ_c(a)/(2E*) = (π/2E*)(H a + q_c + f_c/a)
 
-at most, where a is the contact radius on loading: `RadiusCap`, and `OwnCap` for a law of one's own. For H
+at most, where a is the contact radius on loading: `RadiusCap`, and `UserLawCap` for a user's law. For H
 alone some profiles have closed forms. `yield_rule` chooses among these.
 """
 
@@ -126,20 +126,22 @@ class YieldRule(check.Parameters, ABC):
         # The cap is computed again, with other rounding where arrays have other lengths.
         return (interval.lower > 0) & (interval.length >= self.cap(interval.upper) * (1 - 1e-14))
 
-    def yielding_width(self, interval):
+    def yielding_stiffness_radius(self, interval):
         """a − c dp/ds (m) on loading at the cap: the stiffness over 2E*."""
         c = self.profile.radius_at(interval.lower)
         # At first touch the rate may be infinite, where c is 0.
         slower = np.where(c > 0, 1 - self.rate(interval.upper), 0.0)
-        return integrals(self.profile).radius_drop(interval) + c * slower
+        return integrals(self.profile).radius_difference(interval) + c * slower
 
-    def loading_width(self, interval, increase, radius=None):
+    def loading_stiffness_radius(self, interval, increase, radius=None):
         """a (m) on loading, a − c dp/ds where it increases the plastic depth: the stiffness over 2E*.
 
         `radius` is a (m), where it is known.
         """
         width, yields = self.profile.radius_at(interval.upper) if radius is None else radius, increase > 0
-        return np.where(yields, self.yielding_width(interval), width) if np.any(yields) else width
+        return (
+            np.where(yields, self.yielding_stiffness_radius(interval), width) if np.any(yields) else width
+        )
 
     def work(self, penetration, imprint, compliance=None):
         """Work over 2E* (m³) up to a penetration (m), stored, plastic and in a support, and its derivative.
@@ -152,7 +154,9 @@ class YieldRule(check.Parameters, ABC):
         if compliance is None:
             return taken, force
         deflection = compliance * force
-        return taken + deflection * force / 2, force + deflection * self.loading_width(interval, increase)
+        return taken + deflection * force / 2, force + deflection * self.loading_stiffness_radius(
+            interval, increase
+        )
 
     def breaks(self, imprint, deepest):
         """The `Breaks` of loadings over imprints down to the `deepest` depths (m), both of shape (N, 1)."""
@@ -257,8 +261,8 @@ class ConstantCap(YieldRule):
         # Without the rounding of the imprint's depth.
         return np.maximum(penetration - self.critical_depth, 0.0)
 
-    def yielding_width(self, interval):
-        return integrals(self.profile).radius_drop(interval)
+    def yielding_stiffness_radius(self, interval):
+        return integrals(self.profile).radius_difference(interval)
 
     def plastic_integral(self, imprint, increase):
         integral = integrals(self.profile).radius_integral(LiveInterval.above(imprint, increase))
@@ -412,7 +416,7 @@ def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
     if medium.inverse_to_radius:
         return ConstantCap.of(profile, medium.E_star, medium.q_c)
     if medium.has_own_law:
-        return lazy.cap.OwnCap.of(profile, medium)
+        return lazy.cap.UserLawCap.of(profile, medium)
     if np.any(medium.hardness) and not integrals(profile).convex:
         raise check.MDRError(
             "a hardness above 0 is not computed under a shape that is not convex: where g(x)/x falls, a "

@@ -40,7 +40,7 @@ def check_times(time, path, quantity):
         )
     back = np.append(False, np.diff(time) <= 0)
     advice = "drop repeated times, and give a jump a short time"
-    return check.refuse("time", time, back, "does not increase", unit="s", advice=advice)
+    return check.raise_if("time", time, back, "does not increase", unit="s", advice=advice)
 
 
 @check.keywords_explained

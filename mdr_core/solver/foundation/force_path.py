@@ -43,7 +43,7 @@ def check_creep(profile, medium, force, time, tolerance):
     capacity = flat_face_load(medium, profile.wall)
     static = (np.arange(force.size) == 0) | (medium.eta == 0)
     bound = f"must be less than the {capacity:g} N at which the whole flat face yields"
-    check.refuse("force", force, (force >= capacity) & static, bound, unit="N", advice="begin with less")
+    check.raise_if("force", force, (force >= capacity) & static, bound, unit="N", advice="begin with less")
     return force, time, tolerance
 
 

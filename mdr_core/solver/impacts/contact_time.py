@@ -25,15 +25,16 @@ from ..numerics.stable import cube_rise, cube_way
 NODES = (28, 12)
 
 
-def contact_time(rule, inertia, speed, interval, increase, give=None):
+def contact_time(rule, inertia, speed, interval, increase, support_compliance=None):
     """Time (s) from first contact to its loss, elementwise.
 
     From the `YieldRule`, inertia m/(2E*) (m s²), speed v₀ (m/s), and, of full shape, the live interval at
-    the turning point and the increase (m) of the plastic depth; with κ = 2E*/K (1/m) of a support, `give`.
+    the turning point and the increase (m) of the plastic depth; `support_compliance` is κ = 2E*/K (1/m) of
+    a support.
     """
     exponent, similar = integrals(rule.profile).elastic_exponent, rule.similar
     # On a support there is one more length.
-    virgin = (increase == interval.lower) & (give is None)
+    virgin = (increase == interval.lower) & (support_compliance is None)
     elastic = virgin & (interval.lower == 0) & (exponent is not None)
     yielded = virgin & (interval.lower > 0) & (similar is not None)
     time, passage = np.empty(np.shape(interval.upper)), interval.upper / speed
@@ -45,17 +46,19 @@ def contact_time(rule, inertia, speed, interval, increase, give=None):
     others = ~(elastic | yielded)
     if others.any():
         root = np.broadcast_to(np.sqrt(inertia / 2), time.shape)
-        time[others] = root[others] * _by_quadrature(rule, interval, increase, others, give)
+        time[others] = root[others] * _by_quadrature(rule, interval, increase, others, support_compliance)
     return time[()]
 
 
-def _by_quadrature(rule, interval, increase, chosen, give):
+def _by_quadrature(rule, interval, increase, chosen, support_compliance):
     """`time_over_root` (m^(−1/2)) of impacts at a mask `chosen`, in blocks, in units of profiles."""
     shape, numbers = chosen.shape, np.flatnonzero(chosen)
     unit, *scales = integrals(tabulated(rule.profile, interval.upper[chosen].max())).unit
     length, depth = (np.broadcast_to(scale, shape)[chosen] for scale in scales)
     interval, increase = interval[chosen].in_units_of(depth), increase[chosen] / depth
-    give = None if give is None else np.broadcast_to(give, shape)[chosen] * length
+    support_compliance = (
+        None if support_compliance is None else np.broadcast_to(support_compliance, shape)[chosen] * length
+    )
     # In ascending order, impacts that reach few kinks are together.
     order = np.argsort(interval.upper)
     kinks = np.sort([np.min(kink) for kink in unit.kinks])
@@ -66,7 +69,7 @@ def _by_quadrature(rule, interval, increase, chosen, give):
         rows = order[start:stop]
         own_unit = unit.flat_entries(numbers[rows], shape)
         own = rule.flat_entries(numbers[rows], shape).in_units_of(own_unit, length[rows], depth[rows])
-        own_give = None if give is None else give[rows]
+        own_give = None if support_compliance is None else support_compliance[rows]
         time[rows] = time_over_root(own, interval[rows], increase[rows], own_give)
         start = stop
     return time / np.sqrt(length)
@@ -110,7 +113,7 @@ def _ratio(rule, interval):
     return time_over_root(rule, interval, interval.lower) * np.sqrt(energy) / interval.upper
 
 
-def time_over_root(rule, interval, increase, give=None):
+def time_over_root(rule, interval, increase, support_compliance=None):
     """∫ ds/√W over loading and unloading (m^(−1/2)), one impact a row.
 
     W = ∫∫ a ds ds (m³) is the work from a depth to the turning point: 2E* W is the kinetic energy there.
@@ -148,14 +151,14 @@ def time_over_root(rule, interval, increase, give=None):
     onset = np.where(increase > 0, loading.onset, live_depth)
     length = increase + (live_depth - onset)
 
-    back, _ = _elastic(rule, unloading, live_depth, give)
-    past_yield, work = _past_yield(rule, loading, onset, length, give)
-    distance = _distance_to_rest(rule.profile, before[:, 0], onset[:, 0], work, give)[:, None]
-    before_yield, _ = _elastic(rule, loading, onset, give, distance, work)
+    back, _ = _elastic(rule, unloading, live_depth, support_compliance)
+    past_yield, work = _past_yield(rule, loading, onset, length, support_compliance)
+    distance = _distance_to_rest(rule.profile, before[:, 0], onset[:, 0], work, support_compliance)[:, None]
+    before_yield, _ = _elastic(rule, loading, onset, support_compliance, distance, work)
     return back + past_yield + before_yield
 
 
-def _elastic(rule, breaks, length, give, distance=0.0, work=0.0):
+def _elastic(rule, breaks, length, support_compliance, distance=0.0, work=0.0):
     """`_stretch` of the live intervals [bottom, bottom + s], for s from 0 to a length (m).
 
     The bottom is that of the imprint of the `breaks`, whose upper end alone moves.
@@ -165,16 +168,24 @@ def _elastic(rule, breaks, length, give, distance=0.0, work=0.0):
     def interval_at(s, rows):
         return bottom[rows], s
 
-    def way_at(s, rows):
+    def displacement_slope_at(s, rows):
         own = profile.entries((rows[:, None],), (len(bottom),))
-        return 1 + give[rows, None] * own.radius_at(bottom[rows] + s)
+        return 1 + support_compliance[rows, None] * own.radius_at(bottom[rows] + s)
 
     root = kink_above(profile, bottom[:, 0])[:, None] - bottom
     cuts = _Cuts(root, kinks=breaks.upper, transitions=breaks.transitions)
-    return _stretch(profile, interval_at, give is not None and way_at, cuts, length, distance, work)
+    return _stretch(
+        profile,
+        interval_at,
+        support_compliance is not None and displacement_slope_at,
+        cuts,
+        length,
+        distance,
+        work,
+    )
 
 
-def _past_yield(rule, breaks, onset, length, give):
+def _past_yield(rule, breaks, onset, length, support_compliance):
     """`_stretch` of loading past the penetration `onset` (m) into an imprint, by a length (m).
 
     Both are of shape (N, 1), and so is the imprint of the `breaks`. Where nothing yields the length is 0.
@@ -185,10 +196,10 @@ def _past_yield(rule, breaks, onset, length, give):
         interval = rule.entries((rows[:, None],), size).past_onset(before[rows], onset[rows], s)
         return interval.lower, interval.length
 
-    def way_at(s, rows):
+    def displacement_slope_at(s, rows):
         own = rule.entries((rows[:, None],), size)
         interval = own.past_onset(before[rows], onset[rows], s)
-        return 1 + give[rows, None] * own.yielding_width(interval)
+        return 1 + support_compliance[rows, None] * own.yielding_stiffness_radius(interval)
 
     cuts = _Cuts(
         root=breaks.rule.penetration(kink_above(rule.profile, before[:, 0])[:, None], before) - onset,
@@ -198,10 +209,12 @@ def _past_yield(rule, breaks, onset, length, give):
         # twice the depth does as well.
         transitions=np.hstack([breaks.transitions, breaks.scales - onset, breaks.halved - onset]),
     )
-    return _stretch(rule.profile, interval_at, give is not None and way_at, cuts, length)
+    return _stretch(
+        rule.profile, interval_at, support_compliance is not None and displacement_slope_at, cuts, length
+    )
 
 
-def _distance_to_rest(profile, bottom, length, work, give):
+def _distance_to_rest(profile, bottom, length, work, support_compliance):
     """About the distance (m) over which a contact that does not yield would take up a work over 2E* (m³).
 
     From the live interval [bottom, bottom + length] on: x at S (F x + a x²/2) = W, with F = ∫ a ds, and
@@ -209,7 +222,7 @@ def _distance_to_rest(profile, bottom, length, work, give):
     """
     force = _flow(profile, bottom, length)
     a = profile.radius_at(bottom + length)
-    work = work if give is None else work / (1 + give * a)
+    work = work if support_compliance is None else work / (1 + support_compliance * a)
     total = force + np.sqrt(force**2 + 2 * a * work)
     # Under a sharp tip that yields from first touch on there is none.
     return 2 * work / np.where(total > 0, total, np.inf)
@@ -249,7 +262,7 @@ class _Pieces(NamedTuple):
         return _Pieces(*(values[chosen] for values in self))
 
 
-def _stretch(profile, interval_at, way_at, cuts, length, distance=0.0, work=0.0):
+def _stretch(profile, interval_at, displacement_slope_at, cuts, length, distance=0.0, work=0.0):
     """∫ S ds/√W over a stretch of the path, shape (N,), and the work W (m³) from its start on.
 
     All distances s (m) are counted from the start of the stretch. In each piece between cuts the work is
@@ -262,7 +275,7 @@ def _stretch(profile, interval_at, way_at, cuts, length, distance=0.0, work=0.0)
     interval_at : callable
         Lower end and length (m) of the live interval at distances s, from an array (P, K) of these and the
         numbers (P,) of the impacts to which its rows belong.
-    way_at : callable or False
+    displacement_slope_at : callable or False
         S at the same places: the way of the body over that of the depth. False without a support, where it
         is 1.
     cuts : _Cuts
@@ -286,8 +299,8 @@ def _stretch(profile, interval_at, way_at, cuts, length, distance=0.0, work=0.0)
             node, weight, tail = _rule(count)
             s, rate = _nodes(group, node)
             entries = profile.entries((group.row[:, None],), (len(length),))
-            if way_at:
-                rate = rate * way_at(s, group.row)
+            if displacement_slope_at:
+                rate = rate * displacement_slope_at(s, group.row)
             flow = _flow(entries, *interval_at(s, group.row)) * rate
             # Not by @: for sums as short as these the threads of BLAS take a second core, and no less time.
             own_work[group.row, group.number] = np.einsum("ij,j", flow, weight)

@@ -49,18 +49,22 @@ class DryImpact(Impact):
         """Time (s) from first contact to the loss of contact."""
         inertia = self.mass / (2 * self.medium.E_star)
         rule, interval = yield_rule(self.profile, self.medium), self.turning_point.live_interval
-        give = _give(self.medium, self.structure)
-        return contact_time(rule, inertia, self.speed, interval, self.plastic_depth_increase, give)
+        support_compliance = _give(self.medium, self.structure)
+        return contact_time(
+            rule, inertia, self.speed, interval, self.plastic_depth_increase, support_compliance
+        )
 
 
 def dry_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID):
     """Impacts over imprints of given plastic depth (m); on plates as without them."""
     energy = mass * speed**2 / (4 * medium.E_star)
-    rule, give = yield_rule(profile, medium), _give(medium, structure)
+    rule, support_compliance = yield_rule(profile, medium), _give(medium, structure)
     interval, increase = turning_interval(rule, energy, imprint_depth)
-    if give is not None:
-        deepest = depth_before_snap(rule, imprint_depth, interval, increase, energy, give, structure)
-        interval, increase = turning_interval(rule, energy, imprint_depth, give, deepest)
+    if support_compliance is not None:
+        deepest = depth_before_snap(
+            rule, imprint_depth, interval, increase, energy, support_compliance, structure
+        )
+        interval, increase = turning_interval(rule, energy, imprint_depth, support_compliance, deepest)
     turning_point = Indentation(profile, medium, interval.upper, interval, in_time=True)
     return DryImpact(mass[()], speed[()], turning_point, increase, structure=structure)
 
@@ -96,15 +100,15 @@ def _largest_area(rule, imprint, penetration):
     return largest_value(area, np.zeros_like(start), np.ones_like(start), grids=5)
 
 
-def turning_interval(rule, target, before, give=None, deepest=np.inf):
+def turning_interval(rule, target, before, support_compliance=None, deepest=np.inf):
     """Live interval at the turning point of a dry impact, and the increase Δ (m) of the plastic depth.
 
     Elementwise for kinetic energies `target` over 2E* (m³), to whose shape the imprint's depth `before` (m)
-    and the parameters of the `YieldRule` broadcast, and κ = 2E*/K (1/m) of a support, `give`, with a
-    penetration (m) which it does not reach, `deepest`. The interval is infinite where the turning point is
+    and the parameters of the `YieldRule` broadcast. `support_compliance` is κ = 2E*/K (1/m) of a support,
+    `deepest` a penetration (m) which it does not reach. The interval is infinite where the turning point is
     deeper than the known depth.
     """
-    interval = None if np.any(before) or give is not None else rule.turning_interval(target)
+    interval = None if np.any(before) or support_compliance is not None else rule.turning_interval(target)
     if interval is not None:
         return interval, interval.lower
     shape = target.shape
@@ -121,27 +125,29 @@ def turning_interval(rule, target, before, give=None, deepest=np.inf):
     unit, *scales = integrals(rule.profile).unit
     rule = rule.flat_entries(slice(None), shape)
     # Apart from results and arguments, arrays are no longer than a block.
-    _, arrays = broadcast_flat(target, before, *scales, 0.0 if give is None else give, deepest)
+    _, arrays = broadcast_flat(
+        target, before, *scales, 0.0 if support_compliance is None else support_compliance, deepest
+    )
     result = np.empty((4, target.size))
     for rows in chunks(target.size, LONG):
         energy, imprint, length, depth, own_give, end = (array[rows] for array in arrays)
         part = rule.flat_entries(rows, (target.size,))
         part = part.in_units_of(unit.flat_entries(rows, shape), length, depth)
         imprint = imprint / depth
-        own_give = None if give is None else own_give * length
+        own_give = None if support_compliance is None else own_give * length
         energy = energy / (length * depth**2)
-        y = _penetration(part, energy, imprint, give=own_give, deepest=end / depth)
+        y = _penetration(part, energy, imprint, support_compliance=own_give, deepest=end / depth)
         interval, increase = part.turning(y, imprint)
         result[:, rows] = depth * np.array([interval.lower, interval.upper, interval.length, increase])
     *interval, increase = result.reshape(4, *shape)
     return LiveInterval(*interval), increase
 
 
-def _penetration(rule, target, before, close=1e-7, give=None, deepest=np.inf):
+def _penetration(rule, target, before, close=1e-7, support_compliance=None, deepest=np.inf):
     """y = d − p₀ (m) at which the work over 2E* is `target` (m³); infinite below the known depth.
 
-    With κ (1/m) of a support, `give`, its energy κ Φ²/2 is a part of the work, which grows up to the
-    penetration `deepest` (m).
+    With κ (1/m) of a support, `support_compliance`, its energy κ Φ²/2 is a part of the work, which grows up
+    to the penetration `deepest` (m).
 
     The work grows about as a power of y: Newton's method on their logarithms. After a step of less than
     `close` the next one would be about its square: with 10⁻⁷ that is rounding.
@@ -149,7 +155,7 @@ def _penetration(rule, target, before, close=1e-7, give=None, deepest=np.inf):
 
     def work(y, rows):
         part = rule.flat_entries(rows, target.shape)
-        return part.work(y, before[rows], None if give is None else give[rows])
+        return part.work(y, before[rows], None if support_compliance is None else support_compliance[rows])
 
     highest = np.minimum(np.broadcast_to(rule.profile.known_depth - before, target.shape), deepest)
     y = np.minimum(_first_guess(rule, target, before), highest)

@@ -77,7 +77,7 @@ class Bodies:
     speed: np.ndarray
     imprint_depth: np.ndarray
     dry_penetration: np.ndarray
-    give: np.ndarray
+    support_compliance: np.ndarray
 
     @classmethod
     def of(cls, profile, medium, mass, speed, imprint_depth, dry_penetration, structure=RIGID):
@@ -101,7 +101,7 @@ class Bodies:
             speed=column(speed),
             imprint_depth=imprint_depth,
             dry_penetration=dry_penetration,
-            give=column(2 * medium.E_star / structure.stiffness),
+            support_compliance=column(2 * medium.E_star / structure.stiffness),
         )
 
     @property
@@ -158,7 +158,7 @@ class Loading(Equation):
         """−μ ∂v̇/∂y (m): a (less c dp/ds while yielding), and the drag on a contact that grows."""
         bodies = self.bodies
         state = bodies.rule.loading(np.maximum(depth, 0.0), bodies.imprint_depth)
-        width = bodies.rule.loading_width(*state, radius)
+        width = bodies.rule.loading_stiffness_radius(*state, radius)
         return width + bodies.relaxation_time * velocity * growth_at(bodies.profile, radius)
 
 
@@ -199,7 +199,7 @@ class OnStructure:
 
     def depth_share(self, width):
         """∂q̇/∂v = 1/S."""
-        return 1 / (1 + self.bodies.give * width)
+        return 1 / (1 + self.bodies.support_compliance * width)
 
     def damping(self, width):
         """−∂v̇/∂v (1/s)."""
@@ -209,7 +209,7 @@ class OnStructure:
         """Of the slope q̇/v̇ the derivative by q, times μ v̇²/q̇ (m): −μ ∂v̇/∂q on a plate."""
         share, growth = self.depth_share(width), self.growth(depth, width)
         drag = self.bodies.relaxation_time * velocity * share
-        return width + growth * share * (drag + self.bodies.give * (load + drag * width))
+        return width + growth * share * (drag + self.bodies.support_compliance * (load + drag * width))
 
     def damping_share(self, radius):
         # A support is no damper: there τ_w is 0.
@@ -222,7 +222,9 @@ class LoadingOnStructure(OnStructure, Loading):
     def load(self, depth):
         rule = self.bodies.rule
         interval, increase = rule.loading(np.maximum(depth, 0.0), self.bodies.imprint_depth)
-        return integrals(rule.profile).radius_integral(interval), rule.loading_width(interval, increase)
+        return integrals(rule.profile).radius_integral(interval), rule.loading_stiffness_radius(
+            interval, increase
+        )
 
     def growth(self, depth, width):
         """∂ω/∂y; for Newton's method without the change of dp/ds."""

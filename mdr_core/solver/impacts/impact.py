@@ -96,14 +96,14 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, structure=None, *,
     outside = imprint_depth > profile.known_depth
     if np.any(outside):
         bound, advice = f"is {_too_deep(profile, outside)}", "give a smaller one"
-        check.refuse("plastic_depth", imprint_depth, outside, bound, unit="m", advice=advice)
+        check.raise_if("plastic_depth", imprint_depth, outside, bound, unit="m", advice=advice)
     hit = _solved(profile, medium, mass, speed, imprint_depth, structure, in_time)
     check_reached(profile, medium, hit.turning_point.live_interval.upper)
     known = np.minimum(profile.known_depth, check.LONGEST)
     unknown = ~(hit.turning_point.live_interval.upper <= known)
     if np.any(unknown):
         bound, advice = f"presses {_too_deep(profile, unknown)}", "reduce speed or mass"
-        check.refuse("speed", speed, unknown, bound, unit="m/s", advice=advice)
+        check.raise_if("speed", speed, unknown, bound, unit="m/s", advice=advice)
     return hit
 
 
@@ -119,15 +119,15 @@ def _refuse_losses(medium, structure, shape):
     )
     work, quantity = np.broadcast_to(medium.work_of_adhesion, shape), "work of adhesion work_of_adhesion"
     bound, advice = "is not computed together with a structure", "set work_of_adhesion = 0"
-    check.refuse(quantity, work, (work > 0) & on_structure, bound, unit="J/m²", advice=advice)
+    check.raise_if(quantity, work, (work > 0) & on_structure, bound, unit="J/m²", advice=advice)
     bound, advice = "is not solved together with entries on a structure", "solve these apart"
-    check.refuse(quantity, work, work > 0, bound, unit="J/m²", advice=advice)
+    check.raise_if(quantity, work, work > 0, bound, unit="J/m²", advice=advice)
     eta = np.broadcast_to(medium.eta, shape)
     bound = "is not computed together with a structure by `impact`"
     advice = "take chain_impact(…, structure=…), or set eta = 0"
     if structure.modes is not None:
         bound, advice = "is not computed together with a structure by its modes", "set eta = 0"
-    check.refuse("viscosity eta", eta, (eta > 0) & on_structure, bound, unit="Pa·s", advice=advice)
+    check.raise_if("viscosity eta", eta, (eta > 0) & on_structure, bound, unit="Pa·s", advice=advice)
 
 
 def _solved(profile, medium, mass, speed, imprint_depth, structure, in_time):

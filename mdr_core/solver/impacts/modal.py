@@ -154,7 +154,7 @@ def _motion(hit, motion, n):
     # In a flight, and where contact ends, nothing is compressed.
     live = np.where(yields, interval.length, np.maximum(y, 0.0))
     stiffness = law.modulus * np.where(
-        yields, law.rule.loading_width(interval, increase), law.rule.profile.radius_at(p + live)
+        yields, law.rule.loading_stiffness_radius(interval, increase), law.rule.profile.radius_at(p + live)
     )
     # d′ (1 + r F′) is the rate without the residual compliance r.
     softer = 1 + motion.system.residual * np.where(live > 0, stiffness, 0.0)

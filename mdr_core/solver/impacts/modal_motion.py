@@ -76,7 +76,7 @@ class ContactLaw:
         y = np.clip(y, 0.0, self.rule.profile.known_depth - p)
         if self.yields:
             interval, increase = self.rule.loading(y, p)
-            width = self.rule.loading_width(interval, increase)
+            width = self.rule.loading_stiffness_radius(interval, increase)
         else:
             interval = LiveInterval(np.full_like(y, p), p + y, y)
             width = self.rule.profile.radius_at(interval.upper)

@@ -239,12 +239,12 @@ def fast_limit(hit):
     refuse_other_classes(medium, "the fast limit", "ScalingLaw has the powers of each class")
     d_c = np.asarray(medium.critical_depth)
     bound = "is infinite, so that nothing yields"
-    check.refuse("critical depth", d_c, np.isinf(d_c), bound, unit="m", advice="give the medium a q_c")
+    check.raise_if("critical depth", d_c, np.isinf(d_c), bound, unit="m", advice="give the medium a q_c")
     depth = depth_in_fast_limit(hit)
     known = np.min(profile.known_depth, initial=check.LONGEST)
     bound = f"presses deeper than the known depth of the profile, {known:g} m, in this limit"
     speed = np.asarray(hit.speed)
-    check.refuse("speed", speed, np.isinf(depth), bound, unit="m/s", advice="reduce the speed")
+    check.raise_if("speed", speed, np.isinf(depth), bound, unit="m/s", advice="reduce the speed")
     a = profile.radius_at(depth)
     area = np.pi * a**2
     energy = hit.mass * hit.speed**2 / 2

@@ -178,7 +178,7 @@ def _law_alone(q_c, law, f_c):
         beside = (np.asarray(value) > 0) & (np.asarray(value) < np.inf)
         bound = f"cannot be combined with the law of hardness {shown(law)}"
         advice = f"write {term} into its at(a), or take hardness = 0 beside {name}"
-        check.refuse(quantity, np.asarray(value), beside, bound, unit=unit, advice=advice)
+        check.raise_if(quantity, np.asarray(value), beside, bound, unit=unit, advice=advice)
     return {"q_c": 0.0, "hardness": law, "f_c": 0.0}
 
 
@@ -199,7 +199,7 @@ def refuse_sum(medium):
             "give q_c = 0 or a finite one",
         ),
     ):
-        check.refuse("yield constant q_c", q_c, bad, bound, unit="N/m", advice=advice)
+        check.raise_if("yield constant q_c", q_c, bad, bound, unit="N/m", advice=advice)
 
 
 def refuse_beside_adhesion(medium):
@@ -222,6 +222,6 @@ def refuse_beside_adhesion(medium):
     ):
         value, sticks = (np.broadcast_to(each, medium.shape) for each in (value, sticks))
         bound, advice = "is not modelled with adhesion", "set it or work_of_adhesion to 0"
-        check.refuse(quantity, value, (value > 0) & sticks, bound, unit=unit, advice=advice)
+        check.raise_if(quantity, value, (value > 0) & sticks, bound, unit=unit, advice=advice)
         bound, advice = "is not solved together with entries that have adhesion", "solve these apart"
-        check.refuse(quantity, value, value > 0, bound, unit=unit, advice=advice)
+        check.raise_if(quantity, value, value > 0, bound, unit=unit, advice=advice)

@@ -46,7 +46,7 @@ def yield_constant(E_star, critical_depth):
 def _poisson(quantity, ratio):
     """A Poisson ratio as a float array."""
     ratio = check.finite_array(quantity, ratio)
-    return check.refuse(quantity, ratio, (ratio <= -1) | (ratio > 0.5), "must lie in −1 < ν ≤ 0.5")
+    return check.raise_if(quantity, ratio, (ratio <= -1) | (ratio > 0.5), "must lie in −1 < ν ≤ 0.5")
 
 
 @dataclass(frozen=True, eq=False)
@@ -385,7 +385,7 @@ class Medium(check.Parameters):
         law = self.law
         hardness = lazy.law.law_numbers(law, "at", a) if self.has_own_law else law.at(a)
         bound = "must be above 0"
-        check.refuse("hardness", hardness, ~(hardness > 0), bound, unit="Pa", advice="correct the law")
+        check.raise_if("hardness", hardness, ~(hardness > 0), bound, unit="Pa", advice="correct the law")
         return check.frozen(hardness + np.zeros(np.shape(a)))
 
     @property

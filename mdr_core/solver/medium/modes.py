@@ -47,9 +47,9 @@ class Modes:
         mass = np.atleast_1d(self.mass)
         mass = check.positive("modal mass", mass, unit="kg", infinite=True, within=(1e-60, 1e300))
         bound, advice = "is that of a mode with a node at the contact", "leave the mode out"
-        check.refuse("modal mass", mass, mass > _HEAVIEST, bound, unit="kg", advice=advice)
+        check.raise_if("modal mass", mass, mass > _HEAVIEST, bound, unit="kg", advice=advice)
         damping = check.positive("damping ratio", np.atleast_1d(self.damping), zero=True)
-        check.refuse("damping ratio", damping, damping >= 1, "must be below 1")
+        check.raise_if("damping ratio", damping, damping >= 1, "must be below 1")
         shape = check.common_shape("modes", frequency=frequency, mass=mass, damping=damping)
         if len(shape) != 1 or not shape[0]:
             raise check.MDRError(

@@ -117,7 +117,7 @@ class Structure(check.Parameters):
             "an endless plate goes on for ever under a constant force"
         )
         advice = "take the structure by its modes, as Structure.supported_plate or Structure.modal"
-        check.refuse("stiffness", stiffness, both, bound, unit="N/m", advice=advice)
+        check.raise_if("stiffness", stiffness, both, bound, unit="N/m", advice=advice)
         if self.modes is not None:
             self._check_modes(shape)
 
@@ -131,7 +131,7 @@ class Structure(check.Parameters):
             )
         impedance = np.asarray(self.impedance)
         bound, advice = "is finite beside modes, which carry the waves", "leave it out"
-        check.refuse("impedance", impedance, np.isfinite(impedance), bound, unit="N·s/m", advice=advice)
+        check.raise_if("impedance", impedance, np.isfinite(impedance), bound, unit="N·s/m", advice=advice)
         if self.stiffness < np.inf and self.residual_compliance < -1e-9 / self.stiffness:
             soft = 1 / self.modes.compliance
             bound = (
@@ -144,7 +144,7 @@ class Structure(check.Parameters):
                     "leave it out",
                 )
             stiffness = np.asarray(self.stiffness)
-            check.refuse("stiffness", stiffness, True, bound, unit="N/m", advice=advice)
+            check.raise_if("stiffness", stiffness, True, bound, unit="N/m", advice=advice)
 
     @classmethod
     @check.keywords_explained
@@ -481,7 +481,7 @@ class Structure(check.Parameters):
 def _poisson(nu):
     """A Poisson ratio that a material may have."""
     nu = check.finite_array("Poisson ratio nu", nu)
-    check.refuse("Poisson ratio nu", nu, (nu <= -1) | (nu >= 0.5), "must lie in −1 < ν < 0.5")
+    check.raise_if("Poisson ratio nu", nu, (nu <= -1) | (nu >= 0.5), "must lie in −1 < ν < 0.5")
     return nu
 
 
@@ -494,14 +494,14 @@ def _of_laminate(D11, D12, D22, D66, **beside):
     shape = check.common_shape("laminate", D11=D11, D12=D12, D22=D22, D66=D66, **beside)
     bound = "is not below √(D11 D22): no laminate has such stiffnesses"
     bad, D12 = np.abs(D12) >= np.sqrt(D11) * np.sqrt(D22), np.broadcast_to(D12, shape)
-    check.refuse("bending stiffness D12", D12, bad, bound, unit="N·m", advice="check it")
+    check.raise_if("bending stiffness D12", D12, bad, bound, unit="N·m", advice="check it")
     return D11, D12, D22, D66
 
 
 def _inside(name, share):
     """A share of a side that is inside."""
     share = check.positive_number(name, share)
-    check.refuse(name, np.asarray(share), share >= 1, "must lie between 0 and 1, as 0.5 in the middle")
+    check.raise_if(name, np.asarray(share), share >= 1, "must lie between 0 and 1, as 0.5 in the middle")
     return share
 
 

@@ -38,7 +38,7 @@ def effective_modulus(E_in_plane, E_axial, nu_in_plane, nu_axial, G_axial):
 def _stable(n, nu_p, nu):
     """Δ = 1 − ν_p − 2nν², if the elastic energy of every strain is positive; 0 if incompressible."""
     bound = "must lie in −1 < ν < 1"
-    check.refuse("Poisson ratio nu_in_plane", nu_p, np.abs(nu_p) >= 1, bound, advice="check it")
+    check.raise_if("Poisson ratio nu_in_plane", nu_p, np.abs(nu_p) >= 1, bound, advice="check it")
     delta = 1 - nu_p - 2 * n * nu**2
     unstable = delta < -_ROUNDING
     if np.any(unstable):
@@ -48,5 +48,5 @@ def _stable(n, nu_p, nu):
             f"be below {largest[unstable].min():.4g}"
         )
         advice = "nu_axial is ν_zp = ν_pz E_z/E_p, the strain in the plane for a stress along the axis"
-        check.refuse("Poisson ratio nu_axial", nu, unstable, bound, advice=advice)
+        check.raise_if("Poisson ratio nu_axial", nu, unstable, bound, advice=advice)
     return np.maximum(delta, 0.0)

@@ -237,9 +237,9 @@ def _samples(x, q):
         raise check.MDRError(
             f"line load q of shape {q.shape} needs as many coordinates, got shape {x.shape}"
         )
-    check.refuse("coordinate", x, x < 0, "is negative", unit="m", advice="give x ≥ 0; the load is even")
+    check.raise_if("coordinate", x, x < 0, "is negative", unit="m", advice="give x ≥ 0; the load is even")
     back = np.append(False, np.diff(_lengths("coordinate", x)) < 0)
-    check.refuse("coordinate", x, back, "comes after a larger one", unit="m", advice="sort the samples")
+    check.raise_if("coordinate", x, back, "comes after a larger one", unit="m", advice="sort the samples")
     return x, q
 
 
@@ -247,7 +247,7 @@ def _lengths(quantity, x):
     """Coordinates or radii (m), if their squares and quotients are double precision."""
     outside = (x > 0) & (x < check.SMALLEST) | (x > check.LONGEST)
     bound = f"must be 0 or lie between {check.SMALLEST:g} and {check.LONGEST:g}"
-    return check.refuse(quantity, x, outside, bound, unit="m", advice="give it in SI units")
+    return check.raise_if(quantity, x, outside, bound, unit="m", advice="give it in SI units")
 
 
 def _slopes(x, q):

@@ -44,7 +44,7 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
     angle = check.finite_array("angle", angle, unit="rad")
     outside = np.abs(angle) >= np.pi / 2
     advice = "from degrees by numpy.radians"
-    check.refuse("angle", angle, outside, "must lie within −π/2 … π/2", unit="rad", advice=advice)
+    check.raise_if("angle", angle, outside, "must lie within −π/2 … π/2", unit="rad", advice=advice)
     check.common_shape("at_angle", speed=speed, angle=angle)
     return check.frozen(speed * np.cos(angle)), check.frozen(speed * np.sin(angle))
 

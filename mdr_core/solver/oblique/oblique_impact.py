@@ -95,7 +95,7 @@ def oblique_impact(
     tiny = (signed != 0) & (np.abs(signed) < check.SMALLEST)
     bound = f"must be 0 or at least {check.SMALLEST:g}"
     surface = {
-        "tangential_speed": check.refuse("tangential_speed", signed, tiny, bound, unit="m/s"),
+        "tangential_speed": check.raise_if("tangential_speed", signed, tiny, bound, unit="m/s"),
         "friction": check.positive("friction", friction, infinite=True, zero=True),
         "tangential_mass": check.positive("tangential_mass", tangential_mass, unit="kg"),
     }

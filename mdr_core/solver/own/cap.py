@@ -19,7 +19,7 @@ _SHARES = np.geomspace(1e-9, 1.0, 307)
 
 
 @dataclass(frozen=True, eq=False)
-class OwnCap(RadiusCap):
+class UserLawCap(RadiusCap):
     """`RadiusCap` of a law of hardness that a user wrote."""
 
     def may_fall(self, depth):
@@ -32,7 +32,7 @@ class OwnCap(RadiusCap):
         return False
 
     def breaks(self, imprint, deepest):
-        return OwnBreaks(self, imprint, deepest)
+        return UserLawBreaks(self, imprint, deepest)
 
     def _plastic_sums(self, imprint, increase):
         work, *_ = self.refined(imprint, increase)
@@ -87,7 +87,7 @@ class OwnCap(RadiusCap):
 
 
 @dataclass(frozen=True, eq=False)
-class OwnBreaks(Breaks):
+class UserLawBreaks(Breaks):
     """`Breaks` under a law that a user wrote."""
 
     @property

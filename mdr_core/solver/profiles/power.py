@@ -91,7 +91,7 @@ class Cone(Profile):
         """
         angle = check.finite_array("half-angle", degrees, unit="deg")
         bound, advice = "must lie between 0 and 90", "it is the angle between axis and generator"
-        check.refuse("half-angle", angle, ~((angle > 0) & (angle < 90)), bound, unit="deg", advice=advice)
+        check.raise_if("half-angle", angle, ~((angle > 0) & (angle < 90)), bound, unit="deg", advice=advice)
         return cls((np.sin(np.radians(90 - angle)) / np.sin(np.radians(angle)))[()])
 
     @classmethod
@@ -215,7 +215,7 @@ class PowerLaw(Profile):
         exponent = np.asarray(self.exponent)
         outside = (exponent < 0.01) | (exponent > 100)
         bound, advice = "must lie between 0.01 and 100", "for a flat end, n → ∞, take FlatPunch"
-        check.refuse("PowerLaw exponent", exponent, outside, bound, advice=advice)
+        check.raise_if("PowerLaw exponent", exponent, outside, bound, advice=advice)
 
     # Kept, single states are 1.5 times as fast, impacts 1.3 times.
     @cached_property
@@ -251,6 +251,6 @@ class PowerLaw(Profile):
     def _known(self, depth):
         with np.errstate(over="ignore"):
             far = self.radius_at(np.maximum(depth, 0.0)) > check.FARTHEST
-        return check.refuse(
+        return check.raise_if(
             "depth", depth, far, "has a contact beyond double precision", unit="m", advice="press less deep"
         )

@@ -166,14 +166,14 @@ class Profile(check.Parameters, ABC):
     def contact_radius(self, depth: ArrayLike) -> Array:
         """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
         depth = self._places("depth", depth, most=check.LONGEST)
-        check.refuse("depth", depth, depth < 0, "is negative", unit="m", advice="it counts downward")
+        check.raise_if("depth", depth, depth < 0, "is negative", unit="m", advice="it counts downward")
         depth = self._known(depth)
         # At the known depth a search may end a rounding beyond the known radius.
         radius = np.minimum(self.radius_at(depth), self.known_radius)
         bound, advice = "has a contact beyond double precision", "press less deep"
-        check.refuse("depth", depth, np.isinf(radius), bound, unit="m", advice=advice)
+        check.raise_if("depth", depth, np.isinf(radius), bound, unit="m", advice=advice)
         advice = f"correct radius_at of {type(self).__name__}"
-        check.refuse("depth", depth, np.isnan(radius), "has no contact radius", unit="m", advice=advice)
+        check.raise_if("depth", depth, np.isnan(radius), "has no contact radius", unit="m", advice=advice)
         return radius[()]
 
     def radius_at(self, depth):
@@ -203,10 +203,10 @@ class Profile(check.Parameters, ABC):
         known = np.min(self.known_radius, initial=np.inf)
         bound = f"is beyond the radius up to which the shape is known, {known:g} m"
         advice = "give a smaller radius"
-        check.refuse(quantity, r, r > self.known_radius, bound, unit="m", advice=advice)
+        check.raise_if(quantity, r, r > self.known_radius, bound, unit="m", advice=advice)
         values = function(r)[()]
         advice = f"correct {function.__name__} of {type(self).__name__}"
-        check.refuse(quantity, r, np.isnan(values), "has no height or slope", unit="m", advice=advice)
+        check.raise_if(quantity, r, np.isnan(values), "has no height or slope", unit="m", advice=advice)
         return values
 
     def _places(self, quantity, values, most=check.FARTHEST):
@@ -221,7 +221,7 @@ class Profile(check.Parameters, ABC):
             return depth
         too_deep = depth > self.known_depth
         bound = f"is {self.too_deep()}"
-        return check.refuse("depth", depth, too_deep, bound, unit="m", advice="press less deep")
+        return check.raise_if("depth", depth, too_deep, bound, unit="m", advice="press less deep")
 
     def too_deep(self):
         """Words for depths beyond `known_depth`, in messages of errors."""

@@ -58,9 +58,11 @@ class Sampled(Profile):
             raise check.MDRError(f"Sampled r[0] = {r[0]:g} m must be 0: add the sample at the tip")
         tiny = (r > 0) & (r < check.SHORTEST)
         bound = f"must be 0 or at least {check.SHORTEST:g}"
-        check.refuse("Sampled r", r, tiny, bound, unit="m", advice="give it in SI units")
+        check.raise_if("Sampled r", r, tiny, bound, unit="m", advice="give it in SI units")
         back = np.append(False, np.diff(r) <= 0)
-        check.refuse("Sampled r", r, back, "does not ascend", unit="m", advice="sort, and drop duplicates")
+        check.raise_if(
+            "Sampled r", r, back, "does not ascend", unit="m", advice="sort, and drop duplicates"
+        )
         check.store(self, r=tuple(r.tolist()), z=tuple((z - z[0]).tolist()))
         self._refuse_concave()
 

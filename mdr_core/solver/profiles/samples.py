@@ -137,7 +137,7 @@ def area_samples(coefficients, height, samples, limit, unit, from_depth=None):
     if from_depth is not None:
         from_depth = check.positive_number("from_depth", from_depth, unit="m")
         bad, depth = from_depth > height / 2, np.asarray(from_depth)
-        check.refuse("from_depth", depth, bad, f"is above half of the height, {height:g} m", unit="m")
+        check.raise_if("from_depth", depth, bad, f"is above half of the height, {height:g} m", unit="m")
     h = height * np.geomspace(1e-4, 1.0, int(samples) - 1)
     powers = 2.0 / 2.0 ** np.arange(coefficients.size)
     area = size**2 * ((h[:, None] / size) ** powers @ coefficients)
@@ -149,7 +149,7 @@ def area_samples(coefficients, height, samples, limit, unit, from_depth=None):
     first = max(first, int(np.flatnonzero(back)[-1]) + 1 if back.any() else 0)
     falls, every = back & (h > least), (h, area)
     advice += _usable_from(*every) if falls.any() else ""
-    check.refuse("area A(h)", area, falls, "does not grow", unit="m²", advice=advice)
+    check.raise_if("area A(h)", area, falls, "does not grow", unit="m²", advice=advice)
     h, radius = h[first:], np.sqrt(area[first:] / np.pi)
     wide = radius[-1] / height
     if not 1 / _WIDEST < wide < _WIDEST:
@@ -163,7 +163,7 @@ def area_samples(coefficients, height, samples, limit, unit, from_depth=None):
     far = _is_far(z, h)
     bound = "is where the tip is concave by more than 3 %"
     advice = "the contact would not be compact" + (_usable_from(*every) if far.any() else "")
-    check.refuse("area function: height", h, far, bound, unit="m", advice=advice)
+    check.raise_if("area function: height", h, far, bound, unit="m", advice=advice)
     remarks = [_repaired(z, h)] if np.any(np.abs(z - h) > _REPAIRED * h[-1]) else []
     if first:
         below = _in_words(h[1])

@@ -33,7 +33,7 @@ def is_smooth(rule, imprint, y):
     """
 
     def stiffness(y):
-        return rule.loading_width(*rule.loading(y, imprint))
+        return rule.loading_stiffness_radius(*rule.loading(y, imprint))
 
     def difference(step):
         return np.abs(stiffness(y * (1 - step)) - 2 * stiffness(y) + stiffness(y * (1 + step)))

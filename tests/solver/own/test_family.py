@@ -41,7 +41,7 @@ class KnownIntegrals(Integrals):
     def energy_integral(self, interval):
         return 2 / (3 * np.pi) * interval.length**2 * (interval.upper + 2 * interval.lower)
 
-    def radius_drop(self, interval):
+    def radius_difference(self, interval):
         return 4 / np.pi * interval.length
 
 

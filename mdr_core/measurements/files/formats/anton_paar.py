@@ -1,6 +1,6 @@
 """Export of several tests by Anton Paar's Indentation software: "X_name_1_Time_[s]", "Y_name_1_Pd_[nm]"."""
 
-from ..curve import curve_maker, trimmed
+from ..curve import curve_factory, trimmed
 from ..names import parted
 from ..table import read_table
 
@@ -26,6 +26,6 @@ def curves(text, file, given):
         raise LookupError("no test has depth and force")
     source = "as Anton Paar's export has them"
     return [
-        curve_maker(trimmed(table, layout), f"{file}, {test}", layout, given, source)
+        curve_factory(trimmed(table, layout), f"{file}, {test}", layout, given, source)
         for test, layout in layouts.items()
     ]  # fmt: skip

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ..curve import curve_maker
+from ..curve import curve_factory
 from ..table import Table, read_table
 from ..units import unit_named
 
@@ -76,4 +76,4 @@ def _maker(tables, name, given):
     heads = {k: names[k] for k in values}
     table = Table(heads, values, lines, {}, {}, {}, header)
     options = {"turn": False, "segment": segment}
-    return curve_maker(table, name, layout, given, "as JPK's text has them", **options)
+    return curve_factory(table, name, layout, given, "as JPK's text has them", **options)

@@ -1,6 +1,6 @@
 """Text export of NanoScope Analysis of Bruker: approach (Ex) and retract (Rt) side by side."""
 
-from ..curve import curve_maker
+from ..curve import curve_factory
 from ..split import joined
 from ..table import read_table
 
@@ -36,4 +36,4 @@ def curves(text, file, given):
         for end in ("Ex", "Rt")
     ]
     table, layout = joined(table, layouts, file)
-    return [curve_maker(table, file, layout, given, "as NanoScope Analysis exports them")]
+    return [curve_factory(table, file, layout, given, "as NanoScope Analysis exports them")]

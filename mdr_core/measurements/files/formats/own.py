@@ -3,7 +3,7 @@
 import numpy as np
 
 from ....show.quantities import QUANTITIES
-from ..curve import curve_maker
+from ..curve import curve_factory
 from ..question import NoCurve
 from ..split import parts
 from ..table import read_table
@@ -60,7 +60,7 @@ def curves(text, file, given):
     rows = [k for k, head in table.heads.items() if head in _ROWS - {"time"}]
     by = rows[0] if len(rows) > 1 else None
     return [
-        curve_maker(
+        curve_factory(
             part, f"{file}, {label}" if label else file, layout, given, "as this package writes them"
         )
         for label, part in parts(table, by, layout)

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from ..curve import curve_maker
+from ..curve import curve_factory
 from ..table import read_table
 
 _TABLE = "Time (s)\tLoad (uN)\tIndentation (nm)"
@@ -25,4 +25,4 @@ def curves(text, file, given):
     table = replace(table, header=tuple(header.splitlines()), lines=table.lines + above)
     table = replace(table, odd={number + above: line for number, line in table.odd.items()})
     layout = {"depth": (2, "nm"), "force": (1, "µN"), "time": (0, "s")}
-    return [curve_maker(table, file, layout, given, "as Optics11's Piuma writes them")]
+    return [curve_factory(table, file, layout, given, "as Optics11's Piuma writes them")]
