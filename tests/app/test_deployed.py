@@ -27,7 +27,7 @@ async def work(url):
     """Open the page, move a slider, leave."""
     client = await Client().open(url)
     await client.move(1)
-    client.socket.close()
+    await client.leave()
 
 
 def status(server, path, headers):

@@ -46,6 +46,12 @@ async def socket(server, token):
     return await websocket_connect(request, subprotocols=["bokeh", token])
 
 
+async def ended(socket):
+    """Wait until a websocket is closed: before that its loop must not end."""
+    while await asyncio.wait_for(socket.read_message(), 60) is not None:
+        pass
+
+
 async def acknowledged(socket):
     """The first message, by which the server says that the session is there, or None if it has closed."""
     head = await asyncio.wait_for(socket.read_message(), 60)
@@ -107,11 +113,11 @@ def test_of_two_websockets_with_one_token_the_newer_one_is_served(served):
         assert await acknowledged(first) == "ACK"
         second = await socket(served, token)
         assert await acknowledged(second) == "ACK"
-        while await asyncio.wait_for(first.read_message(), 60) is not None:
-            pass
+        await ended(first)
         assert first.close_code == 1008
         first.close()
         second.close()
+        await ended(second)
 
     in_a_loop(scenario())
 

@@ -89,6 +89,12 @@ class Visitor:
             count += figures(content)
         return self
 
+    async def leave(self):
+        """Close the connection; it is closed when the server has answered."""
+        self.socket.close()
+        while await self.socket.read_message() is not None:
+            pass
+
     async def _send(self, kind, name, content, buffers=()):
         header = {"msgid": f"{id(self)}-{name}", "msgtype": kind}
         if buffers:
