@@ -92,6 +92,14 @@ class HardnessClass:
 
     Of imprints and mean pressures `slope` is the measured power with its standard error `slope_error`,
     infinite for two points; of a curve both are None.
+
+    Examples
+    --------
+    >>> from mdr_core import Cone, Medium, hardness_class, impact
+    >>> hit = impact(Cone(slope=0.3), Medium(E_star=1e9, q_c=10.0), 1e-6, [1.0, 3.0, 10.0])
+    >>> found = hardness_class(hit.plastic_work, hit.plastic_radius, exponent=1.0)
+    >>> found.letter, found.possible, round(found.slope, 2)
+    ('b', ('b',), 0.5)
     """
 
     best: str | None

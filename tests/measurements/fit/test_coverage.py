@@ -35,8 +35,8 @@ def test_clean_curves_are_covered_and_have_no_remark(name):
         (METAL, "creep", 0.02, {"misfit"}),
         (GLASS, "outliers", 0.1, {"outliers"}),
         (METAL, "outliers", 0.1, {"outliers"}),
-        (GLASS, "correlated noise", 40, {"blocks"}),
-        (METAL, "correlated noise", 40, {"blocks"}),
+        (GLASS, "correlated noise", 40, {"errors"}),
+        (METAL, "correlated noise", 40, {"errors"}),
         (GEL, "few samples", 8, {"few", "undetermined"}),
     ],
 )

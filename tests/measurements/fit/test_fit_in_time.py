@@ -213,8 +213,8 @@ class TestSamples:
     @pytest.mark.parametrize(
         ("change", "message"),
         [
-            ({"drag": None}, "drag need time"),
-            ({"eta": 1.0, "time": None}, "eta need time"),
+            ({"drag": None}, "ζ need the times"),
+            ({"eta": 1.0, "time": None}, "η need the times"),
             ({"eta": None, "time": np.zeros(180)}, "does not increase"),
             ({"eta": -1.0, "time": np.arange(180.0)}, "eta"),
             ({"time": np.arange(179.0)}, "have the same shape"),
