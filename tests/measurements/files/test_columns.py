@@ -60,7 +60,7 @@ def test_mu_is_known_as_other_encodings_leave_it(write, encoding):
         "Load x10 (mN)",
         "Load (0.1 mN)", "Load 100 mN", "Load (10^-3 N)", "Load (tenths of mN)", "log Load (mN)",
         "Load (mN)^2",
-        "kForce (mN)", "Force m(N)", "Force (m N)", "Load (% of 10 mN)", "Load g",
+        "kForce (mN)", "Force m(N)", "Force (m N)", "Load (% of 10 mN)",
         "Load (ozf)", "Load (?N)",
         "Load (\ufffdN)", "LOAD (MN)", "F_N", "Load", "Load (mN/s)", "half Load (mN)",
     ],
