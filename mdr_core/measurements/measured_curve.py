@@ -2,12 +2,13 @@
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, field, replace
 from typing import Any, Self, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..base import check
 from ..base.check import Array, frozen, number, positive_number
 from ..base.errors import MDRError
 from ..base.remark import Remark
@@ -39,15 +40,42 @@ MODALITIES = {
 }
 
 
+#: Quantities of a curve and their units.
+_UNITS = {"depth": "m", "force": "N", "time": "s", "stiffness": "N/m"}
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class MeasuredCurve(Record):
-    """A measured curve, returned by `read_curve`, and how its file was understood.
+    """Measured curve from arrays, or from a file by `read_curve`.
 
-    `approach` and `retract` are parts of it. A drift and frame compliance are subtracted from the
-    depth by `minus_drift` and `minus_frame`, each of which returns a new curve.
+    `approach` and `retract` are parts of the curve. `minus_drift` and `minus_frame` subtract a drift and
+    the frame compliance from the depth, and return a new curve.
+
+    Parameters
+    ----------
+    depth, force, time : array_like
+        Depth (m), force (N) and time (s) of the samples, of shape (N,). The time is optional.
+    stiffness : array_like, optional
+        Contact stiffness dF/dh (N/m) at each sample, NaN where it was not measured.
+    name : str, optional
+        Name of the curve in tables and messages.
+
+    Raises
+    ------
+    ValueError
+        If the arrays have different shapes, or a value that is not finite.
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from mdr_core import MeasuredCurve
+    >>> depth = np.array([0.0, 20e-9, 10e-9])
+    >>> curve = MeasuredCurve(depth, force=[0.0, 4e-3, 1e-3])
+    >>> curve.retract.depth.tolist()
+    [1e-08]
+
+    A file, and a drift of the depth:
+
     >>> import tempfile
     >>> from pathlib import Path
     >>> import mdr_core as mdr
@@ -61,41 +89,55 @@ class MeasuredCurve(Record):
     [0.0, 18.6, 18.6, 18.6, 1.0]
     """
 
-    #: Name of the file.
-    name: str
-    #: Stiffness of the cantilever (N/m) and position on the sample (m, m), None where they are not known.
-    spring_constant: float | None
-    position: Array | None
-    #: Number of the column in the file, from 0 on, and unit of each quantity, "−nm" for a reversed sign;
-    #: "piezo" in the place of "depth" for the position of one. `read_curve(path, columns=…)` takes them.
-    columns: dict[str, tuple[int, str] | None]
-    #: Reversed signs, corrections, and lines and columns that are left out.
-    remarks: tuple[Remark, ...]
-    table: Any
-    #: Depth (m), force (N) and time (s), None for a time that the file does not have.
     depth: Array
     force: Array
-    time: Array | None
-    #: Contact stiffness dF/dh (N/m) where the instrument measures it, as by an oscillation on top of the
-    #: loading (continuous stiffness measurement), NaN where a cell has none; None without such a column.
-    stiffness: Array | None
-    #: "approach", "hold" or "retract" for each sample, as the file names them. Where it does not, approach
-    #: and retract end where the depth turns round by more than 5 % of its range, and in a hold depth and
-    #: force stay within 1 % of their ranges, for 2 % of the samples or more.
-    segment: NDArray[np.str_]
+    #: None if the file has no time.
+    time: Array | None = None
+    _: KW_ONLY
+    #: From a continuous stiffness measurement, None without one.
+    stiffness: Array | None = None
+    name: str = "curve"
+    #: "approach", "hold" or "retract" for each sample, as the file names them. If it does not, approach
+    #: and retract end where the depth turns by more than 5 % of its range, and in a hold depth and force
+    #: stay within 1 % of their ranges, for 2 % of the samples or more.
+    segment: NDArray[np.str_] | None = None
+    #: Stiffness of the cantilever (N/m) and position on the sample (m, m), None if they are not known.
+    spring_constant: float | None = None
+    position: Array | None = None
+    #: Number of the column in the file, from 0 on, and unit of each quantity, "−nm" for a reversed sign;
+    #: "piezo" instead of "depth" for the position of a piezo. `read_curve(path, columns=…)` takes them.
+    columns: dict[str, tuple[int, str] | None] = field(default_factory=dict)
+    #: Reversed signs, corrections, and lines and columns that are left out.
+    remarks: tuple[Remark, ...] = ()
+    table: Any = None
     #: How the columns are known: "by its header", "as told", or by a format.
     source: str = ""
 
     _shown = ("depth", "force")
     _dimensions = ("sample",)
 
+    def __post_init__(self):
+        arrays = {
+            name: check.finite_array(
+                name, values, unit=unit, most=check.LONGEST, missing=name == "stiffness"
+            )
+            for name, unit in _UNITS.items()
+            if (values := getattr(self, name)) is not None
+        }
+        shapes = {name: array.shape for name, array in arrays.items()}
+        if len(set(shapes.values())) > 1 or arrays["depth"].ndim != 1 or not arrays["depth"].size:
+            shown = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+            raise MDRError(f"{shown} must have the same shape, (N,): give one value for each sample")
+        if self.segment is None:
+            arrays["segment"] = segments_of(arrays["depth"], arrays["force"])
+        check.store(self, **{name: frozen(array) for name, array in arrays.items()})
+
     @property
     def _quantities(self):  # type: ignore[override]
-        names = ("depth" if name == "piezo" else name for name in self.columns)
-        return tuple(name for name in names if getattr(self, name) is not None)
+        return tuple(name for name in _UNITS if getattr(self, name) is not None)
 
     def _rows(self):
-        yield "file", self.name
+        yield "name", self.name
         if self.source:
             yield "columns", self.source
         for name, known in self.columns.items():
@@ -218,7 +260,7 @@ def rate_in(time, depth):
     return float(np.median(rises[steps > 0] / steps[steps > 0]))
 
 
-def segments_of(depth, force, time=None):
+def segments_of(depth, force):
     """Segment of each sample by depth (m) and force (N), for files that do not name it."""
     turns, extreme, sign = [], 0, 1
     values, least = depth.tolist(), _TURN * np.ptp(depth)

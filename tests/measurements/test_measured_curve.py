@@ -45,6 +45,40 @@ def read(folder, depth, force=FORCE, labels=None):
     return mdr.read_curve(path)
 
 
+def test_a_curve_of_arrays_is_that_of_its_file(tmp_path):
+    """Segments, quantities, corrections and the fit of the modulus are the same."""
+    # The file has twelve digits.
+    file, curve = read(tmp_path, DEPTH), mdr.MeasuredCurve(DEPTH, FORCE, TIME, name="arrays")
+    assert curve.segment.tolist() == file.segment.tolist()
+    assert curve.to_dict().keys() == file.to_dict().keys()
+    assert curve.minus_frame(FRAME).depth == approx(file.minus_frame(FRAME).depth, rel=1e-9, abs=1e-18)
+    E_star = [mdr.oliver_pharr(TIP, each).E_star for each in (curve, file)]
+    assert E_star[0] == approx(E_star[1], rel=1e-8)
+    assert "arrays" in repr(curve)
+
+
+def test_a_curve_keeps_a_copy_of_its_arrays():
+    depth = DEPTH.copy()
+    curve = mdr.MeasuredCurve(depth, FORCE)
+    depth[:] = 0.0
+    np.testing.assert_array_equal(curve.depth, DEPTH)
+
+
+@pytest.mark.parametrize(
+    ("arrays", "says"),
+    [
+        ((DEPTH, FORCE[1:]), r"depth \(1330,\), force \(1329,\) must have the same shape"),
+        ((DEPTH, FORCE, TIME[:9]), "same shape"),
+        ((DEPTH[None], FORCE[None]), "same shape"),
+        (([], []), "same shape"),
+        ((DEPTH, np.where(DEPTH > 4e-7, np.nan, FORCE)), r"force\[.*must be finite"),
+    ],
+)
+def test_arrays_of_no_curve_raise(arrays, says):
+    with pytest.raises(ValueError, match=says):
+        mdr.MeasuredCurve(*arrays)
+
+
 def test_segments_are_those_of_the_path(tmp_path):
     """Holds are found to half the 2 % of the samples that tell them, turns of the depth exactly."""
     curve = read(tmp_path, DEPTH)

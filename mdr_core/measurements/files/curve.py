@@ -7,7 +7,7 @@ import numpy as np
 
 from ...base import check
 from ...base.remark import MeasurementError, Remark, Remedy
-from ..measured_curve import MeasuredCurve, named_segments, segments_of
+from ..measured_curve import MeasuredCurve, named_segments
 from .cantilever import constants
 from .columns import ask_for_parts, ask_for_results, exact_columns, taken, time_left_out, told
 from .split import WORDS, joined, parts, place_of, several
@@ -131,15 +131,14 @@ def curve_of(table, name, layout, cantilever, source, *, turn=True, segment=None
         remarks.append(Remark(text, "changed"))
     depth = values.pop(place)
     values["depth"] = depth - values["force"] / cantilever.stiffness if place == "piezo" else depth
-    arrays = {"time": None} | {each: check.frozen(value) for each, value in values.items()}
-    arrays["stiffness"] = None
     if layout.get("stiffness"):
         columns["stiffness"] = layout["stiffness"]
-        arrays["stiffness"] = check.frozen(_in_si(table, layout["stiffness"])[rows])
-    arrays["segment"] = segments_of(**values) if segment is None else check.frozen(segment[rows])
+        values["stiffness"] = _in_si(table, layout["stiffness"])[rows]
     return MeasuredCurve(
-        name, cantilever.stiffness, None, columns, tuple(remarks), table, source=source, **arrays
-    )
+        **values, segment=None if segment is None else check.frozen(segment[rows]), name=name,
+        spring_constant=cantilever.stiffness, columns=columns, remarks=tuple(remarks), table=table,
+        source=source,
+    )  # fmt: skip
 
 
 def _in_si(table, column):
