@@ -207,30 +207,6 @@ def _fitted(profile: Any, taken: Any, used: np.ndarray, arguments: dict[str, Any
     return found, found.remarks
 
 
-def modulus_of_sample(
-    E_star: float, error: float, poisson: float, tip_modulus: float | None, tip_poisson: float | None
-) -> tuple[float, float]:
-    """Return Young's modulus (Pa) of the sample and its error, by 1/E* = (1 − ν²)/E + (1 − ν_t²)/E_t.
-
-    Johnson (1985), Contact Mechanics, Eq. (4.5). A tip without a modulus is rigid.
-
-    Examples
-    --------
-    >>> E, error = modulus_of_sample(69.6e9, 0.2e9, 0.17, 1141e9, 0.07)  # fused silica under diamond
-    >>> print(f"{E / 1e9:.1f} ± {error / 1e9:.1f} GPa")
-    72.0 ± 0.2 GPa
-    """
-    of_tip = 0.0 if tip_modulus is None else (1 - (tip_poisson or 0.0) ** 2) / tip_modulus
-    rest = 1 / E_star - of_tip
-    if rest <= 0:
-        raise ValueError(
-            f"a tip of {written(tip_modulus or 0.0, 'pressure')} is softer than the contact, E* = "
-            f"{written(E_star, 'pressure')}: type its modulus again"
-        )
-    E = (1 - poisson**2) / rest
-    return E, E / rest / E_star**2 * error
-
-
 # Whether a modulus is one to quote for the kind of sample that was chosen.
 
 

@@ -13,7 +13,6 @@ from mdr_core.show.units import written
 from ..common.upload import CURVE_BYTES, TIP_BYTES, Uploads
 from ..ui import WIDE, html, show
 from . import texts
-from .analysis import modulus_of_sample
 from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, IN_TIME, MEDIA, MODULI, NUMBERS, TIPS
 from .widgets import FileField, UnitInput, button, fold, select, show_errors
 
@@ -105,10 +104,11 @@ class Form:
 
     def modulus(self, quoted: Any) -> tuple[float, float] | None:
         """Return Young's modulus of the sample and its error (Pa), None without Poisson's ratio."""
-        poisson, *of_tip = map(self.value, MODULI)
+        poisson, tip_modulus, tip_poisson = map(self.value, MODULI)
         if poisson is None or quoted.value is None:
             return None
-        return modulus_of_sample(quoted.value, quoted.standard_error, poisson, *of_tip)
+        tip = None if tip_modulus is None else (tip_modulus, tip_poisson or 0.0)
+        return quoted.sample_modulus(poisson, tip)
 
     def unusual_numbers(self) -> dict[str, float | None]:
         """Return numbers that differ from the first ones of the kind of sample, None for an empty field."""

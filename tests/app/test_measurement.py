@@ -19,7 +19,6 @@ import mdr_core as mdr
 from app import link
 from app.common.process import Here, Replaced
 from app.fit import query
-from app.fit.analysis import modulus_of_sample
 from app.fit.choices import MEDIA
 from app.fit.export import rounded
 from app.state import medium, profile
@@ -703,18 +702,6 @@ def test_the_way_to_the_explorer_has_tip_and_medium_in_their_digits_and_nothing_
     assert state.E_star == 19700.0
     assert rounded(12345.678, None) == 12350.0
     assert rounded(-12345.678, 3.21) == -12345.7
-
-
-def test_youngs_modulus_of_the_sample():
-    """Back through `Medium.from_bodies`, which has E* of two bodies."""
-    E_star = mdr.Medium.from_bodies(72e9, 0.17, 1141e9, 0.07).E_star
-    E, error = modulus_of_sample(E_star, 1e-3 * E_star, 0.17, 1141e9, 0.07)
-    assert approx(72e9, rel=1e-12) == E
-    step = modulus_of_sample(E_star * (1 + 1e-6), 0.0, 0.17, 1141e9, 0.07)[0] - E
-    assert error == approx(1e-3 * step / 1e-6, rel=1e-4)
-    assert modulus_of_sample(1e4, 0.0, 0.5, None, None)[0] == approx(7500)
-    with pytest.raises(ValueError, match="softer than the contact"):
-        modulus_of_sample(80e9, 0.0, 0.2, 50e9, 0.2)
 
 
 class Watched(Here):

@@ -9,6 +9,7 @@ from ...base.errors import MDRError
 from ...base.remark import Remark, Remedy
 from ...show.report import with_error
 from ..common.errors import SIGNIFICANT, autocorrelation, roughness
+from ..common.sample import SampleModulus, sample_modulus
 from ..unloading.creep import COUNTS
 from ..unloading.oliver_pharr import oliver_pharr
 from ..unloading.oliver_pharr_result import OliverPharr
@@ -59,6 +60,12 @@ class Quoted:
     #: What is doubted where there is none, one of the kinds of remarks, and what one can do.
     kind: str | None = None
     remedy: tuple[Remedy, ...] = ()
+
+    def sample_modulus(self, nu: float, tip: tuple[float, float] | None = None) -> SampleModulus:
+        """Young's modulus of the sample and its standard error (Pa), see `OliverPharr.sample_modulus`."""
+        if self.value is None:
+            raise MDRError(f"there is no E* to quote: {self.reason}")
+        return sample_modulus(self.value, self.standard_error, nu, tip)
 
     def __repr__(self) -> str:
         if self.source is None:

@@ -10,6 +10,7 @@ from ...base.results import Record
 from ...show.quantities import QUANTITIES, Quantity, described, engineering
 from ...show.report import limit_rows, rows, with_error
 from ...solver.profiles.profile import Profile
+from ..common.sample import SampleModulus, sample_modulus
 from .iso_14577 import is_pyramid
 
 if TYPE_CHECKING:
@@ -100,6 +101,26 @@ class OliverPharr(Record):
             values["unloading"] = self.unloading[index]
         uncorrected = None if self.uncorrected is None else self.uncorrected[index]
         return replace(self, **values, standard_errors=errors, uncorrected=uncorrected)
+
+    def sample_modulus(self, nu: float, tip: tuple[float, float] | None = None) -> SampleModulus:
+        """Young's modulus of the sample and its standard error (Pa), from E*.
+
+        1/E* = (1 − ν²)/E + (1 − ν_t²)/E_t, Johnson (1985), Contact Mechanics, Eq. (4.5).
+
+        Parameters
+        ----------
+        nu : float
+            Poisson ratio of the sample, −1 < ν ≤ 1/2.
+        tip : (float, float), optional
+            Young's modulus (Pa) and Poisson ratio of the tip, as in ``(1141e9, 0.07)`` for diamond. By
+            default the tip is rigid.
+
+        Raises
+        ------
+        ValueError
+            If the tip is softer than the contact.
+        """
+        return sample_modulus(self.E_star, self.standard_errors["E_star"], nu, tip)
 
     def to_dict(self) -> dict[str, Any]:
         """Values by name, in SI units, and their standard errors, whose names end in `_error`."""

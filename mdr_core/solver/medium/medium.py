@@ -43,7 +43,7 @@ def yield_constant(E_star, critical_depth):
     return 2 / np.pi * E_star * critical_depth
 
 
-def _poisson(quantity, ratio):
+def poisson_ratio(quantity, ratio):
     """A Poisson ratio as a float array."""
     ratio = check.finite_array(quantity, ratio)
     return check.raise_if(quantity, ratio, (ratio <= -1) | (ratio > 0.5), "must lie in −1 < ν ≤ 0.5")
@@ -132,7 +132,7 @@ class Medium(check.Parameters):
     def __post_init__(self):
         poisson = self.poisson
         if poisson is not None:
-            poisson = check.frozen(_poisson("Poisson ratio poisson", poisson))
+            poisson = check.frozen(poisson_ratio("Poisson ratio poisson", poisson))
         check.store(
             self,
             E_star=check.positive("effective modulus E_star", self.E_star, unit="Pa"),
@@ -270,7 +270,7 @@ class Medium(check.Parameters):
         compliance = 0.0
         for i, (modulus, ratio) in enumerate(((E1, nu1), (E2, nu2)), start=1):
             modulus = check.positive(f"Young's modulus E{i}", modulus, unit="Pa", infinite=True)
-            ratio = _poisson(f"Poisson ratio nu{i}", ratio)
+            ratio = poisson_ratio(f"Poisson ratio nu{i}", ratio)
             compliance = compliance + (1 - ratio) * (1 + ratio) / modulus
         if np.any(compliance == 0):
             raise check.MDRError("E1 and E2 are both infinite; at least one body must be elastic")

@@ -1,6 +1,7 @@
 """The method of Oliver and Pharr on unloadings with closed forms, and on fused silica."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -344,3 +345,23 @@ def test_numbers_of_no_material_are_said(of_depth, of_force):
     assert not any("no material has" in remark for remark in right.remarks)
     said = [re.match(r"no material has (E\*|H) = ", remark) for remark in wrong.remarks]
     assert [match[1] for match in said if match] == ["E*", "H"]
+
+
+def test_youngs_modulus_of_the_sample():
+    """Back through `Medium.from_bodies`, which has E* of two bodies; the error is that of a step of E*."""
+    tip, medium = mdr.Cone.berkovich(), mdr.Medium.from_bodies(72e9, 0.17, 1141e9, 0.07, hardness=9e9)
+    depth = np.append(np.linspace(0, 1e-6, 300), np.linspace(1e-6, 0.2e-6, 300))
+    force = mdr.indent(tip, medium, depth).force
+    result = mdr.oliver_pharr(tip, depth, force)
+    known = replace(result, E_star=medium.E_star).sample_modulus(0.17, tip=(1141e9, 0.07))
+    # Rounding of five operations.
+    assert known.value == approx(72e9, rel=1e-14)
+    step = replace(result, E_star=medium.E_star * (1 + 1e-6)).sample_modulus(0.17, (1141e9, 0.07)).value
+    slope = (step - known.value) / (1e-6 * medium.E_star)
+    # The difference quotient has an error of the step.
+    assert known.standard_error == approx(slope * result.standard_errors["E_star"], rel=1e-4)
+    quoted = mdr.fit_indentation(tip, depth, force, hardness=None).quoted
+    # Under a rigid tip.
+    assert quoted.sample_modulus(0.5).value == approx(0.75 * quoted.value, rel=1e-14)
+    with pytest.raises(ValueError, match="must be stiffer than the contact"):
+        result.sample_modulus(0.2, tip=(50e9, 0.2))
