@@ -87,7 +87,7 @@ CALLS = {
 }  # fmt: skip
 #: Public names that take no arrays, or only through those above.
 WITHOUT = {
-    "ChainImpact", "Foundation", "HardnessClass", "HardnessFit", "Impact", "Indentation",
+    "ChainImpact", "CurveTable", "Foundation", "HardnessClass", "HardnessFit", "Impact", "Indentation",
     "IndentationFit", "Limit", "MDRError", "MeasuredCurve", "MeasuredCurves", "Motion", "ObliqueImpact",
     "OliverPharr", "Profile", "Quoted", "Remark", "Remedy", "ScalingLaw", "Scene", "Smooth",
     "TimedIndentation", "UnknownColumns", "abel", "chain_impact", "read_curve", "read_curves", "scene",

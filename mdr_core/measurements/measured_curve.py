@@ -13,6 +13,7 @@ from ..base.check import Array, frozen, number, positive_number
 from ..base.errors import MDRError
 from ..base.remark import Remark
 from ..base.results import Record
+from ..show.measured import plot_measured
 from ..show.quantities import engineering
 from ..show.report import rows
 from ..show.units import KINDS
@@ -170,6 +171,10 @@ class MeasuredCurve(Record):
         arrays = {each: frozen(getattr(self, each)[rows]) for each in (*self._quantities, "segment")}
         return replace(self, **arrays)
 
+    def plot(self) -> Any:
+        """Force over depth as a HoloViews element."""
+        return plot_measured(self.name, [(self.depth, self.force)])
+
     def drift(self, hold: slice | None = None) -> float:
         """Rate (m/s) at which the depth changes in a hold: the median of the slopes between its samples.
 
@@ -307,7 +312,9 @@ def named_segments(words):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MeasuredCurves(Sequence[MeasuredCurve]):
-    """All curves of a file, returned by `read_curves`: length, index, slices and iteration.
+    """All curves of a file, or of a set of files, returned by `read_curves`.
+
+    It is a sequence: length, index, slices and iteration.
 
     A curve is understood when it is taken: one that is refused does not stop the others.
 
@@ -324,15 +331,25 @@ class MeasuredCurves(Sequence[MeasuredCurve]):
     MeasuredCurves: 1 of run.csv 3
     """
 
-    #: Name of the file.
+    #: Name of the file, the folder, the pattern or the zip.
     name: str
     #: Positions of the curves on the sample (N, 2) in m, None where the file does not have them.
     position: Array | None
     #: Functions that make the curves.
     _makers: Sequence[Callable[[], MeasuredCurve]]
+    #: File of each curve, and its number there, from 1 on; empty for one file.
+    _places: Sequence[tuple[str, int]] = ()
+    #: Reasons why files of a set are not read, by their names.
+    unread: dict[str, Remark] = field(default_factory=dict)
 
     def __repr__(self) -> str:
-        return f"MeasuredCurves: {len(self)} of {self.name}"
+        unread = f"; {len(self.unread)} files are not read, see .unread" if self.unread else ""
+        return f"MeasuredCurves: {len(self)} of {self.name}{unread}"
+
+    @property
+    def places(self) -> list[tuple[str, int]]:
+        """File of each curve, and its number in that file, from 1 on."""
+        return [*self._places] or [(self.name, i) for i in range(1, len(self) + 1)]
 
     def __len__(self) -> int:
         return len(self._makers)
@@ -344,7 +361,8 @@ class MeasuredCurves(Sequence[MeasuredCurve]):
     def __getitem__(self, index):
         position = None if self.position is None else frozen(self.position[index])
         if isinstance(index, slice):
-            return replace(self, _makers=self._makers[index], position=position)
+            places = self.places[index]
+            return replace(self, _makers=self._makers[index], position=position, _places=places)
         return replace(self._makers[index](), position=position)
 
 

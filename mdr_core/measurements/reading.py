@@ -1,16 +1,21 @@
 """Measured force–depth curves from files of instruments."""
 
 import re
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..base import check
 from ..base.remark import MeasurementError, Remark, Remedy
+from ..show.progress import progress
 from .files.afm import SUFFIXES, from_afm, is_afm_text, refuse_binary
 from .files.columns import SIZES
+from .files.folder import curves_of_set, set_of
 from .files.question import UnknownColumns
 from .files.several import curves_of_text
 from .files.split import WORDS
@@ -81,14 +86,19 @@ def _first_told(curves):
 
 
 def read_curves(
-    path: str | PathLike[str],
+    path: str | PathLike[str] | Sequence[str | PathLike[str]],
     *,
     spring_constant: float | None = None,
     sensitivity: float | None = None,
     columns: dict[str, Any] | list[dict[str, Any]] | None = None,
     by: int | str | list[int | str] | None = None,
 ) -> MeasuredCurves:
-    """Read all measured curves of a file of an instrument and open the file once.
+    """Read all measured curves of a file of an instrument, or of many files.
+
+    Many files are a folder, a list of paths, a pattern, or a zip of texts, which is read in memory. Their
+    order is the natural one of their names. What cannot be read is listed in `unread`, with the reason,
+    and the rest is read. A question is asked once for all files with the same heads and units, and its
+    answer holds for these; what is told without a question holds for all files.
 
     A table is read where it says plainly what it is: depth and force each have one column with an exact
     name and a plain unit, as "Depth (nm)" and "Load (mN)", no other column may be meant, and the depth does
@@ -104,10 +114,10 @@ def read_curves(
 
     Parameters
     ----------
-    path : path-like
-        A table as text in UTF-8, UTF-16 or Windows-1252, with columns separated by commas, semicolons, tabs
-        or blanks; an Excel file (.xls, .xlsx), of which each sheet with a curve is read; or an
-        AFM file (.jpk-…, .h5, .ibw, .zip, .tab; text of AFM Workshop, Optics11 and NT-MDT), by
+    path : path-like, or list of path-like
+        Of one file: a table as text in UTF-8, UTF-16 or Windows-1252, with columns separated by commas,
+        semicolons, tabs or blanks; an Excel file (.xls, .xlsx), of which each sheet with a curve is read;
+        or an AFM file (.jpk-…, .h5, .ibw, .zip, .tab; text of AFM Workshop, Optics11 and NT-MDT), by
         `afmformats`. Of AFM files the depth is minus the position of the tip, −(height + F/k) with the
         stiffness k of the cantilever, and its zero is not first contact.
     spring_constant : float, optional
@@ -140,7 +150,8 @@ def read_curves(
         If a table does not say plainly what its columns are, or may be of several curves or of results; if
         a stiffness or a sensitivity is needed. It is a ValueError.
     ValueError
-        If most lines are no rows of numbers; if a stiffness or a sensitivity is given that nothing uses, or
+        If no file of many can be read; if they are more than 1,000 or have more than 0.5 GB together; if
+        most lines are no rows of numbers; if a stiffness or a sensitivity is given that nothing uses, or
         `by` separates nothing; if a file is too large; if it is binary and not read.
     OSError
         If there is no such file (FileNotFoundError), whatever its name ends with, or it may not be read.
@@ -160,29 +171,62 @@ def read_curves(
     >>> print(len(curves), round(curves[1].force.max(), 9))
     2 0.004
     """
-    path = Path(path)
-    # A file that is missing or may not be read is the system's error, whatever would read it.
-    with path.open("rb"):
-        pass
-    suffix, given = path.suffix.lower(), {}
+    given = {}
     if spring_constant is not None:
         given["spring constant"] = check.positive_number("spring_constant", spring_constant, unit="N/m")
     if sensitivity is not None:
         given["sensitivity"] = check.positive_number("sensitivity", sensitivity, unit="m/V")
-    own = {"spring_constant": given.get("spring constant"), "sensitivity": given.get("sensitivity")}
-    options = {"columns": columns or None, "by": by, "given": own}
+    options = {"columns": columns or None, "by": by, "given": given}
+    found = set_of(path, _of_path, _of_text)
+    if found is None:
+        return _of_path(Path(path), options)
+    name, files = found
+    with progress(len(files), "files") as done:
+        curves, unread = curves_of_set(files, options, done)
+    return _joined(name, curves, {each: Remark.of(error, "invalid") for each, error in unread.items()})
+
+
+def _joined(name, curves, unread):
+    """The curves of several files, by the names of these, as one."""
+    positions = [each.position for each in curves.values()]
+    known = all(each is not None for each in positions)
+    return MeasuredCurves(
+        name,
+        check.frozen(np.concatenate(positions)) if known else None,
+        [make for each in curves.values() for make in each._makers],
+        [(file, i) for file, each in curves.items() for i in range(1, len(each) + 1)],
+        unread,
+    )
+
+
+def _of_path(path, options):
+    """`MeasuredCurves` of one file."""
+    # A file that is missing or may not be read is the system's error, whatever would read it.
+    with path.open("rb"):
+        pass
     if is_workbook(path):
-        return MeasuredCurves(path.name, None, from_workbook(path, options))
-    if suffix.startswith(SUFFIXES):
-        if columns or by is not None:
+        return MeasuredCurves(path.name, None, from_workbook(path, _in_words(options)))
+    if path.suffix.lower().startswith(SUFFIXES):
+        if options["columns"] or options["by"] is not None:
             raise MeasurementError(
                 f"{path.name} is no table: leave out the choice of columns and of curves"
             )
+        return from_afm(path, options["given"])
+    return _of_text(path.name, path.read_bytes(), options, path)
+
+
+def _of_text(name, data, options, path=None):
+    """`MeasuredCurves` of the bytes of a text, of a file that an AFM may have written if it has a path."""
+    refuse_binary(Path(name), data)
+    text, given = decoded(data), options["given"]
+    of_nova = name.lower().endswith(".txt") and len(given) == 2 and not re.search("[A-Za-z]", text[:1000])
+    told = options["columns"] or options["by"] is not None
+    if path is not None and not told and (of_nova or is_afm_text(text)):
         return from_afm(path, given)
-    data = path.read_bytes()
-    refuse_binary(path, data)
-    text = decoded(data)
-    of_nova = suffix == ".txt" and len(given) == 2 and not re.search("[A-Za-z]", text[:1000])
-    if not columns and by is None and (of_nova or is_afm_text(text)):
-        return from_afm(path, given)
-    return MeasuredCurves(path.name, None, curves_of_text(text, path.name, options))
+    return MeasuredCurves(name, None, curves_of_text(text, name, _in_words(options)))
+
+
+def _in_words(options):
+    """Options with the constants of a cantilever by the names of arguments."""
+    constants = {name.replace(" ", "_"): value for name, value in options["given"].items()}
+    return options | {"given": dict.fromkeys(("spring_constant", "sensitivity")) | constants}

@@ -29,6 +29,7 @@ class Columns:
     remarks: tuple[tuple[Remark, ...], ...] = ()
     unread: dict[int, Remark] = field(default_factory=dict)
     stiffness: Any = None
+    places: tuple[tuple[str, int], ...] = ()
 
 
 def columns_of(depth, force, time, *, skip=False):
@@ -36,8 +37,15 @@ def columns_of(depth, force, time, *, skip=False):
     if isinstance(depth, MeasuredCurve):
         _refuse_force(force)
         time = depth.time if time is ... else time
-        return Columns(depth.depth, depth.force, time, (depth.remarks,), stiffness=depth.stiffness)
-    if _are_curves(depth):
+        return Columns(
+            depth.depth,
+            depth.force,
+            time,
+            (depth.remarks,),
+            stiffness=depth.stiffness,
+            places=((depth.name, 1),),
+        )
+    if are_curves(depth):
         _refuse_force(force)
         return _of_many(depth, time, skip)
     if force is None:
@@ -51,10 +59,18 @@ def columns_of(depth, force, time, *, skip=False):
     return Columns(depth, force, None if time is ... else time)
 
 
-def _are_curves(depth):
+def are_curves(depth):
+    """Whether what is given as depth are many measured curves."""
     if isinstance(depth, MeasuredCurves):
         return True
     return isinstance(depth, list | tuple) and any(isinstance(each, MeasuredCurve) for each in depth)
+
+
+def places_of(curves):
+    """File of each of many measured curves, or its name, and its number in the file."""
+    if isinstance(curves, MeasuredCurves):
+        return curves.places
+    return [(curve.name, 1) for curve in curves]
 
 
 def _refuse_force(force):
@@ -85,7 +101,12 @@ def _of_many(curves, time, skip):
 
     remarks = tuple(() if curve is None else curve.remarks for curve in taken)
     return Columns(
-        column("depth"), column("force"), column("time") if time is ... else time, remarks, unread
+        column("depth"),
+        column("force"),
+        column("time") if time is ... else time,
+        remarks,
+        unread,
+        places=tuple(places_of(curves)),
     )
 
 

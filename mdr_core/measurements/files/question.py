@@ -89,6 +89,12 @@ class UnknownColumns(MDRError):
         """The same question with another suggestion."""
         return _again(*self._with(suggestion))
 
+    def of_files(self, count: int) -> "UnknownColumns":
+        """The same question for a number of files with these heads."""
+        again, (*given, options) = self.__reduce__()
+        end = "" if f"{self.why}{self._hint}".endswith((".", "?")) else "."
+        return again(*given, options | {"hint": f"{self._hint}{end} {count} files have these heads"})
+
     def _with(self, suggestion):
         given = {"hint": self._hint, "results": self.results, "text": self._text, "remedy": self.remedy}
         return self.why, self.table, self.file, suggestion, given

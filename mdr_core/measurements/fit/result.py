@@ -16,6 +16,7 @@ from ...solver.contact.indentation import Indentation
 from ...solver.contact.live_interval import LiveInterval
 from ...solver.impacts.scaling import HardnessClass
 from ...solver.medium.medium import Medium
+from ..common.curve_table import CurveTable, table_of
 from ..unloading.oliver_pharr_result import OLIVER_PHARR, OliverPharr
 from .classes import ClassFit, class_of_hardness, fit_again, fits_of_classes, rows_on_class
 from .dataset import SAMPLES, dataset_of
@@ -77,6 +78,8 @@ class IndentationFit(Fit):
     _read: tuple[tuple[Remark, ...], ...]
     _remarks: tuple[tuple[Remark, ...], ...]
     _lengths: np.ndarray
+    #: File of each curve, and its number there, from 1 on.
+    _places: tuple[tuple[str, int], ...]
 
     _names = tuple(PARAMETERS)
     _zero_unless_asked = (*CLASSES.values(), "eta", "tilt", "drag", "work_of_adhesion")
@@ -116,6 +119,7 @@ class IndentationFit(Fit):
             _read=tuple(self._read[i] for i in curves.ravel()),
             _remarks=tuple(self._remarks[i] for i in curves.ravel()),
             _lengths=self._lengths[index],
+            _places=tuple(self._places[i] for i in curves.ravel()),
             **{name: getattr(self, name)[index] for name in _OF_CURVES},
             **{name: v if v is None else v[index][..., :longest] for name, v in samples.items()},
         )
@@ -200,6 +204,30 @@ class IndentationFit(Fit):
         check_single(self, "plot")
         self._refuse_invalid("plot")
         return plot_fit(self)
+
+    def table(self) -> CurveTable:
+        """A table of the curves to be saved: what is `quoted` of each, and H of its unloading."""
+        held = {n: v for n, v in self._values().items() if n not in self.standard_errors and np.any(v)}
+        quantities = {n: PARAMETERS[n].quantity for n in held}
+        texts = [f"{q.symbol} = {engineering(held[n], q.unit)}" for n, q in quantities.items()]
+        settings = {"method": str(self.model)} | ({"held": ", ".join(texts)} if texts else {})
+        results = [self.invalid.get(i) or self[i] for i in range(len(self))] if self.shape else [self]
+        return table_of(self.profile, self._places, results, settings)
+
+    @property
+    def samples(self) -> tuple[Array, Array]:
+        """Measured depth (m) and force (N)."""
+        return self.depth, self.force
+
+    @property
+    def evaluated(self):
+        """What a `CurveTable` has of one curve."""
+        E = self.quoted.value, self.quoted.standard_error
+        E, H = (np.nan, np.nan) if E[0] is None else E, (np.nan, np.nan)
+        result, _ = self.unloading
+        if result is not None and self._yields and self.quoted.source:
+            H = float(result.hardness), float(result.standard_errors["hardness"])
+        return (*E, *H, self.quoted.source or "", self.quoted.reason, self.remarks)
 
     def to_xarray(self, position: ArrayLike | None = None) -> "xarray.Dataset":
         """Everything as a dataset: parameters, errors and covariance, and of each sample what was measured,
@@ -305,10 +333,10 @@ def _medium(medium):
     return medium if np.isnan(medium.E_star).any() else Medium(**medium.__getstate__())
 
 
-def collected(profile, measured, depth_noise, solutions, reasons, read):
+def collected(profile, measured, depth_noise, solutions, reasons, read, places):
     """One result of the solutions, in the order of the curves; `reasons` are those of invalid ones.
 
-    `read` are the remarks of curves that were read from files.
+    `read` are the remarks of curves that were read from files, `places` their files and numbers there.
     """
     count, free = len(measured.depth), solutions[0].curves.free
     rows = np.concatenate([solution.rows for solution in solutions])
@@ -340,6 +368,7 @@ def collected(profile, measured, depth_noise, solutions, reasons, read):
         _read=tuple(map(tuple, read)) or ((),) * count,
         _remarks=tuple(remarks),
         _lengths=measured.lengths,
+        _places=tuple(places) or tuple(("", i) for i in range(1, count + 1)),
     )
     return fit[0] if measured.single else fit
 

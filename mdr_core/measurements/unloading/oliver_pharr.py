@@ -1,5 +1,6 @@
 """Modulus and hardness from unloadings or a measured stiffness, by the method of Oliver and Pharr."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -7,16 +8,18 @@ import numpy as np
 from ...base import check
 from ...base.check import ArrayLike
 from ...base.remark import MeasurementError, Remark, Remedy
+from ...show.progress import progress
 from ...show.quantities import engineering
 from ...solver.applicability import check_pair
 from ...solver.contact.integrals import integrals
 from ...solver.contact.live_interval import LiveInterval
 from ...solver.medium.medium import Medium
 from ...solver.profiles.profile import Profile
-from ..common.columns import Times, arrays_of, columns_of
+from ..common.columns import Times, are_curves, arrays_of, columns_of, places_of
+from ..common.curve_table import CurveTable, table_of
 from ..common.doubts import apart, doubts, of_ideal_tip, out_of_order, saturated
 from ..common.errors import roughness
-from ..measured_curve import MeasuredCurve, last_hold, rate_in, segments_of
+from ..measured_curve import MeasuredCurve, MeasuredCurves, last_hold, rate_in, segments_of
 from . import creep as creeping
 from .first_contact import elastic_exponents
 from .iso_14577 import iso_numbers, remark_on_beginning
@@ -29,7 +32,7 @@ from .zero import zero_of
 @check.keywords_explained
 def oliver_pharr(
     profile: Profile,
-    depth: ArrayLike | MeasuredCurve,
+    depth: ArrayLike | MeasuredCurve | MeasuredCurves | Sequence[MeasuredCurve],
     force: ArrayLike | None = None,
     *,
     time: Times = ...,
@@ -37,7 +40,7 @@ def oliver_pharr(
     epsilon: float = 0.75,
     beta: float = 1.0,
     cycles: bool = False,
-) -> "OliverPharr":
+) -> "OliverPharr | CurveTable":
     """Compute modulus and hardness from the unloadings of a force–depth curve by Oliver and Pharr (1992).
 
     F = α (h − h_f)^m is fitted to the upper half of the unloading. F and its slope S at the largest depth h
@@ -51,7 +54,7 @@ def oliver_pharr(
         The indenter.
     depth, force : array_like
         Depths (m) and forces (N), (N,), in the order of time. Samples with NaN are left out. First contact
-        is subtracted if the record begins in the air. Instead of both, a `MeasuredCurve`.
+        is subtracted if the record begins in the air. Instead of both, a `MeasuredCurve`, or many.
     time : array_like, optional
         Increasing times (s): the stiffness is corrected for creep in a hold. A `MeasuredCurve` has its own;
         None ignores them.
@@ -69,7 +72,8 @@ def oliver_pharr(
     Returns
     -------
     OliverPharr
-        With `stiffness` of each sample, `OverDepth`.
+        With `stiffness` of each sample, `OverDepth`; of many curves a `CurveTable`, with NaN and the reason
+        for those that cannot be evaluated.
 
     Raises
     ------
@@ -90,9 +94,14 @@ def oliver_pharr(
     """
     check_pair(profile, Medium(1.0), "an unloading")
     constants = check.positive_number("epsilon", epsilon, zero=True), check.positive_number("beta", beta)
+    if are_curves(depth):
+        if force is not None or stiffness is not None or cycles:
+            text = "many curves are evaluated without force, stiffness and cycles: leave these out"
+            raise check.MDRError(text)
+        return _table(profile, depth, time, constants)
     given = columns_of(depth, force, None if stiffness is not None and time is ... else time)
     time = given.time
-    read = _remarks_of_one(given.remarks)
+    read = given.remarks[0] if given.remarks else ()
     stiffness = _measured_stiffness(given, stiffness)
     if stiffness is not None and (time is not None or cycles):
         raise check.MDRError("stiffness is measured at each sample: give it without time and cycles")
@@ -116,10 +125,26 @@ def oliver_pharr(
     numbers = check.frozen(numbers if cycles else numbers[0])
     result = _collected(profile, corrected, iso, contact, constants[0], numbers, (*remarks, *found))
     result = _with_other_readings(result, read, in_contact, constants)
+    result = replace(result, samples=(depth, force))
     if time is None:
         return result
     before = _collected(profile, uncorrected, iso, contact, constants[0], numbers, ())
     return replace(result, uncorrected=before)
+
+
+def _table(profile, curves, time, constants):
+    """`CurveTable` of many measured curves."""
+    epsilon, beta = constants
+    results = []
+    with progress(len(curves), "curves") as done:
+        for i in range(len(curves)):
+            try:
+                results.append(oliver_pharr(profile, curves[i], time=time, epsilon=epsilon, beta=beta))
+            except ValueError as error:
+                results.append(Remark.of(error, "invalid"))
+            done(1)
+    method = f"Oliver and Pharr, ε = {epsilon:g}, β = {beta:g}"
+    return table_of(profile, places_of(curves), results, {"method": method})
 
 
 def _of_parts(profile, depth, force, time, constants, contact, cycles):
@@ -368,15 +393,6 @@ def _of_elastic_unloading(profile, depth):
     depths = np.linspace(min(depth, profile.known_depth), 0.0, _SAMPLES)
     force = integrals(profile).radius_integral(LiveInterval.elastic(depths))
     return laws_of(depths, force).exponents[1]
-
-
-def _remarks_of_one(remarks):
-    """The remarks of one curve that was read from a file."""
-    if len(remarks) > 1:
-        raise check.MDRError(
-            f"oliver_pharr takes one curve, got {len(remarks)}: give one of them, as in curves[0]"
-        )
-    return remarks[0] if remarks else ()
 
 
 def _measured_stiffness(given, stiffness):

@@ -1,17 +1,21 @@
 """Results of the method of Oliver and Pharr: for unloadings, and over the depth of a measured stiffness."""
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
+from ...base.check import Array
+from ...base.errors import MDRError
 from ...base.remark import Remark
-from ...base.results import Record
+from ...base.results import Record, check_single
+from ...show.measured import plot_unloading
 from ...show.quantities import QUANTITIES, Quantity, described, engineering
 from ...show.report import limit_rows, rows, with_error
 from ...solver.profiles.profile import Profile
 from ..common.sample import SampleModulus, sample_modulus
 from .iso_14577 import is_pyramid
+from .unloading import parts_of
 
 if TYPE_CHECKING:
     import pandas
@@ -30,6 +34,8 @@ OLIVER_PHARR = QUANTITIES | {
 #: Quantities of ISO 14577, which a record may lack, and those that are printed in per cent.
 ISO_14577 = ("elastic_work_ratio", "indentation_creep", "martens_hardness")
 _RATIOS = ISO_14577[:2]
+#: Points of an unloading that is drawn.
+_DRAWN = 100
 _NO_PYRAMID = "none: of Berkovich and Vickers pyramids only, cones of 70.2° to 70.4°"
 
 
@@ -79,6 +85,8 @@ class OliverPharr(Record):
     elastic_work_ratio: Any = None
     indentation_creep: Any = None
     martens_hardness: Any = None
+    #: Depth (m) from first contact and force (N) of the samples.
+    samples: tuple[Array, Array] | None = None
 
     _dimensions = ("unloading",)
     _quantities = (
@@ -121,6 +129,30 @@ class OliverPharr(Record):
             If the tip is softer than the contact.
         """
         return sample_modulus(self.E_star, self.standard_errors["E_star"], nu, tip)
+
+    def plot(self) -> Any:
+        """The curve, the fitted unloading and its contact depth, of one unloading, as HoloViews elements.
+
+        Depths count from first contact. A correction for creep shifts the unloading.
+        """
+        check_single(self, "plot")
+        depth, force = self.samples
+        part = (parts_of(force) or [slice(None)])[int(self.unloading) - 1]
+        top = depth[part].max()
+        most = self.hardness * np.pi * self.profile.radius_at_height(self.contact_depth) ** 2
+        # F = α (h − h_f)^m with the slope S at the largest depth.
+        h = np.linspace(top - self.exponent * most / self.stiffness, top, _DRAWN)
+        law = most * ((h - h[0]) / (top - h[0])) ** self.exponent
+        E = with_error(self.E_star, self.standard_errors["E_star"], "Pa")
+        heading = f"{type(self.profile).__name__}: E* {E}"
+        return plot_unloading(heading, depth, force, (h, law), float(self.contact_depth))
+
+    @property
+    def evaluated(self):
+        """What a `CurveTable` has of one curve."""
+        errors = self.standard_errors
+        numbers = self.E_star, errors["E_star"], self.hardness, errors["hardness"]
+        return (*map(float, numbers), "unloading", "by Oliver and Pharr", self.remarks)
 
     def to_dict(self) -> dict[str, Any]:
         """Values by name, in SI units, and their standard errors, whose names end in `_error`."""
@@ -175,6 +207,10 @@ class OverDepth(OliverPharr):
     _dimensions = ("sample",)
     _quantities = ("depth", "stiffness", "contact_depth", "E_star", "hardness", "contact_point")
     _shown = ("stiffness", "contact_depth", "E_star", "hardness")
+
+    def plot(self) -> NoReturn:
+        """Raises MDRError: a measured stiffness has no unloading that is fitted."""
+        raise MDRError("plot shows a fitted unloading: leave out stiffness")
 
     def _rows(self):
         if not self.shape:

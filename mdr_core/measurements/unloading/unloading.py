@@ -103,7 +103,7 @@ def _part(depth, force, upper, lower):
     """Depths (m) minus the largest one, and forces (N), of the unloading between shares of the force."""
     start = last_at_top(depth)
     h, F = depth[start:] - depth[start], force[start:]
-    share = F / np.abs(F).max()
+    share = F / (np.abs(F).max() or 1.0)
     below = np.flatnonzero(share < lower)
     end = below[0] if below.size else np.argmin(F) + 1
     first = np.flatnonzero(share[:end] >= upper)

@@ -1,0 +1,154 @@
+"""A table of E* and H of many curves, with the source of each modulus and the reason for it."""
+
+from dataclasses import dataclass, fields, replace
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO, TextIO
+
+import numpy as np
+
+from ...base.check import Array, frozen
+from ...base.remark import Remark
+from ...show.measured import plot_measured
+from ...show.progress import progress
+from ...show.quantities import described, engineering
+from ...show.report import imported, lines_of, with_error
+from .sample import sample_modulus
+
+if TYPE_CHECKING:
+    import pandas
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class CurveTable:
+    """E* and H of many curves, a row for each: of `oliver_pharr`, or of a fit by ``fit.table()``.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import mdr_core as mdr
+    >>> d = np.append(np.linspace(0, 60e-9, 100), np.linspace(60e-9, 0, 100))
+    >>> F = mdr.indent(mdr.Cone(slope=0.3), mdr.Medium(E_star=10e9), d).force
+    >>> curves = [mdr.MeasuredCurve(d, k * F, name=f"{k}.txt") for k in (1, 2, 3)]
+    >>> table = mdr.oliver_pharr(mdr.Cone(slope=0.3), curves, epsilon=2 - 4 / np.pi)
+    >>> print(table.sample_modulus(nu=0.3))
+    CurveTable: 3 curves
+      tip                      Cone, s 0.3
+      method                   Oliver and Pharr, ε = 0.72676, β = 1
+      sample                   Poisson ratio 0.3, rigid tip
+      E*                       20 ± 10 GPa, mean ± standard deviation of 3 curves
+      hardness                 3.0 ± 1.5 GPa, mean ± standard deviation of 3 curves
+      E                        18.2 ± 9.1 GPa, mean ± standard deviation of 3 curves
+    """
+
+    #: The tip, the method, and constants, in words.
+    settings: dict[str, str]
+    #: File of each curve, or its name, and number of the curve in the file, from 1 on.
+    file: list[str]
+    number: list[int]
+    #: E*, H and their standard errors (Pa), NaN for a curve without a result.
+    E_star: Array
+    E_star_error: Array
+    hardness: Array
+    hardness_error: Array
+    #: Source of E*, "unloading", "fit" or nothing, and the reason.
+    quoted: list[str]
+    reason: list[str]
+    remarks: list[str]
+    #: Young's modulus of the sample and its standard error (Pa), None before `sample_modulus`.
+    E: Array | None = None
+    E_error: Array | None = None
+    #: Result of each curve, or the `Remark` with the reason why it is missing.
+    results: list[Any]
+
+    def __len__(self) -> int:
+        return len(self.file)
+
+    def __repr__(self) -> str:
+        return lines_of(f"CurveTable: {len(self)} curves", [*self.settings.items(), *self._means()])
+
+    def _means(self):
+        for name, row in self._summary().items():
+            mean = with_error(row["mean"], row["standard deviation"], "Pa")
+            yield name, f"{mean}, mean ± standard deviation of {row['n']} curves"
+
+    def _summary(self):
+        """Statistics of each quantity that a curve has."""
+        rows = {}
+        for name, column in {"E*": self.E_star, "hardness": self.hardness, "E": self.E}.items():
+            values = np.array([]) if column is None else column[np.isfinite(column)]
+            if values.size:
+                low, middle, high = np.quantile(values, [0.25, 0.5, 0.75])
+                deviation = np.std(values, ddof=1) if values.size > 1 else np.inf
+                rows[name] = {"n": values.size, "mean": values.mean(), "standard deviation": deviation}
+                rows[name] |= {"median": middle, "lower quartile": low, "upper quartile": high}
+        return rows
+
+    def sample_modulus(self, nu: float, tip: tuple[float, float] | None = None) -> "CurveTable":
+        """The same table with Young's modulus of the sample, see `OliverPharr.sample_modulus`."""
+        E, error = sample_modulus(self.E_star, self.E_star_error, nu, tip)
+        text = "rigid tip" if tip is None else f"tip with {engineering(tip[0], 'Pa')} and {tip[1]:g}"
+        settings = self.settings | {"sample": f"Poisson ratio {nu:g}, {text}"}
+        return replace(self, E=frozen(E), E_error=frozen(error), settings=settings)
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """The table in SI units; `attrs` has the settings."""
+        pandas = imported("pandas", "to_pandas()")
+        names = [each.name for each in fields(self) if each.name not in ("settings", "results")]
+        columns = {name: column for name in names if (column := getattr(self, name)) is not None}
+        table = pandas.DataFrame(columns, index=pandas.RangeIndex(len(self), name="curve"))
+        table.attrs.update(self.settings)
+        return table
+
+    def summary(self) -> "pandas.DataFrame":
+        """Number of curves, mean, standard deviation, median and quartiles (Pa) of E*, H and E."""
+        return imported("pandas", "summary()").DataFrame.from_dict(self._summary(), orient="index")
+
+    def to_csv(self, file: str | PathLike[str] | TextIO) -> None:
+        """Write the table as CSV, after lines with settings and summary, which begin with #."""
+        head = "".join(f"# {name}: {text}\n" for name, text in self.settings.items())
+        summary = self.summary().to_csv(lineterminator="\n")
+        head += "".join(f"# {line}\n" for line in summary.splitlines())
+        text = head + self._written().to_csv(lineterminator="\n")
+        if isinstance(file, str | PathLike):
+            Path(file).write_text(text, encoding="utf-8", newline="\n")
+        else:
+            file.write(text)
+
+    def to_excel(self, file: str | PathLike[str] | BinaryIO) -> None:
+        """Write settings, summary and table, one below the other, to a sheet of an Excel file."""
+        imported("openpyxl", "to_excel()")
+        pandas, row = imported("pandas", "to_excel()"), 0
+        with pandas.ExcelWriter(file, engine="openpyxl") as book:
+            for part in (pandas.Series(self.settings, name=""), self.summary(), self._written()):
+                part.to_excel(book, sheet_name="curves", startrow=row)
+                row += len(part) + 2
+
+    def _written(self):
+        """The table, without names of files that a program for spreadsheets takes for a formula."""
+        return self.to_pandas().replace({"file": {r"^(?=[=+\-@])": "'"}}, regex=True)
+
+    def plot(self) -> Any:
+        """Force over depth of all curves as a HoloViews element."""
+        samples = [each.samples for each in self.results if not isinstance(each, Remark)]
+        return plot_measured(f"{len(self)} curves", samples)
+
+
+def table_of(profile, places, results, settings):
+    """`CurveTable` of curves with their files and numbers; a `Remark` takes the place of a missing result."""
+    rows = []
+    with progress(len(results), "curves") as done:
+        for each in results:
+            rows.append(_none(each) if isinstance(each, Remark) else each.evaluated)
+            done(1)
+    E, E_error, H, H_error, quoted, reasons, remarks = map(list, zip(*rows, strict=True))
+    files, numbers = map(list, zip(*places, strict=True))
+    return CurveTable(
+        settings={"tip": described(profile)} | settings, file=files, number=numbers,
+        E_star=frozen(E), E_star_error=frozen(E_error), hardness=frozen(H), hardness_error=frozen(H_error),
+        quoted=quoted, reason=reasons, remarks=["; ".join(each) for each in remarks], results=results,
+    )  # fmt: skip
+
+
+def _none(remark):
+    return (*[np.nan] * 4, "", remark.text, (remark,))
