@@ -2,6 +2,7 @@
 
 import atexit
 import os
+import re
 import shutil
 import tempfile
 from contextlib import suppress
@@ -9,6 +10,7 @@ from functools import cache
 from pathlib import Path
 
 from .errors import Refused
+from .upload import SESSION_BYTES, SET_FILES
 
 try:
     import fcntl
@@ -17,6 +19,7 @@ except ImportError:
     fcntl = None  # type: ignore[assignment]
 
 _PREFIX, _LOCK = "mdr-explorer-", "in use"
+TOO_MANY = "At most {} files with {:g} MB together are read: drop a part of them"
 NOT_KEPT = "The server cannot keep this file for reading, as its disk is full. Try again later"
 
 
@@ -25,25 +28,41 @@ class Files:
 
     def __init__(self) -> None:
         self._folder: Path | None = None
-        self._count = 0
+        self.paths: list[str] = []
+        self._bytes = 0
 
-    def keep(self, data: bytes, suffix: str = "") -> str:
-        """Keep a file instead of the last one, and return its path, a new one each time. Raises Refused."""
+    def keep(self, data: bytes, name: str = "") -> str:
+        """Keep a file instead of the last ones; return its path, a new one each time. Raises Refused."""
         self.clear()
-        self._count += 1
+        return self.add(data, name)
+
+    def add(self, data: bytes, name: str) -> str:
+        """Keep a file beside the last ones, within bounds, and return its path. Raises Refused."""
+        self._bytes += len(data)
+        if self._bytes > SESSION_BYTES or len(self.paths) >= SET_FILES:
+            raise Refused(TOO_MANY.format(SET_FILES, SESSION_BYTES / 1e6))
         try:
-            self._folder = Path(tempfile.mkdtemp(dir=own()))
-            path = self._folder / f"file {self._count}{suffix}"
+            self._folder = self._folder or Path(tempfile.mkdtemp(dir=own()))
+            path = self._folder / safe_name(name)
+            if path.exists():
+                path = path.with_name(f"{len(self.paths) + 1} {path.name}")
             path.write_bytes(data)
         except OSError:
             raise Refused(NOT_KEPT) from None
+        self.paths.append(str(path))
         return str(path)
 
     def clear(self) -> None:
         """Remove what is kept."""
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)
-        self._folder = None
+        self._folder, self.paths, self._bytes = None, [], 0
+
+
+def safe_name(name: str) -> str:
+    """Name of a file without what a system could take for something else, and of a length that all take."""
+    path = Path(re.sub(r"[^\w. -]", "_", name.replace("/", " ")).strip(". "))
+    return f"{path.stem[:40] or 'file'}{path.suffix[:20]}"
 
 
 @cache

@@ -9,6 +9,8 @@ MAX_SAMPLES = 60
 #: Most bytes of a tip, of a measured curve, of all files of a session on their way, and of a part. As text
 #: a part has a third more, and a message at most 8 MB.
 TIP_BYTES, CURVE_BYTES, SESSION_BYTES, PART_BYTES = 5_000_000, 50_000_000, 100_000_000, 2_000_000
+#: Most files that are read as one set.
+SET_FILES = 1_000
 #: Bytes of a part beside its own.
 _LISTED = 64
 

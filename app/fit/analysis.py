@@ -1,13 +1,14 @@
 """Reading and fitting without a page: jobs of a process, whose arguments and results can be sent."""
 
 import json
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,8 +23,12 @@ from .choices import IN_TIME, MEDIA
 
 #: Most characters of the name of a column, and of a remark, which may quote the file.
 _HEAD, _REMARK = 80, 500
+#: Most files that are listed as not read.
+_UNREAD = 20
 #: Most samples that are fitted and drawn: of more, one in two, three … is taken.
 MOST = 2000
+#: Most samples of a curve that is drawn beside all others.
+_DRAWN = 150
 #: Kinds of remarks on what changes a number by more than its error, by the source of that.
 _OF_THE_NUMBER = {"unloading": {"zero", "creep", "tip"}, "fit": {"drift", "drag", "tilt", "tip"}}
 #: E* (Pa): nothing of constant hardness has less than the first, polymers have more than the second, and
@@ -36,18 +41,37 @@ _DIFFERS, _NOT_ELASTIC = 1.5, 10.0
 # Reading.
 
 
+#: One file, or those of a set.
+Paths = str | list[str]
+
+
 @lru_cache(maxsize=1)
-def _curves(path: str, given: str) -> Any:
-    return mdr.read_curves(path, **json.loads(given))
+def _curves(given: str) -> Any:
+    path, options = json.loads(given)
+    return mdr.read_curves(path, **options)
 
 
-def _read_curves(path: str, given: dict[str, Any]) -> Any:
-    """The curves of a file, which is read once for all of them."""
-    return _curves(path, json.dumps(given))
+def _read_curves(path: Paths, given: dict[str, Any]) -> Any:
+    """The curves of a file or a set, which is read once for all of them."""
+    return _curves(json.dumps([path, given]))
 
 
-def read(path: str, options: dict[str, Any], number: int) -> tuple[Any, int, Any]:
-    """Return a curve of a file or its last one, the number of curves, and a question or None.
+class Row(NamedTuple):
+    """A curve of several: its name and place, E* and H with their errors (Pa) or None, why, and samples."""
+
+    name: str
+    position: Any = None
+    E: float | None = None
+    E_error: float | None = None
+    H: float | None = None
+    H_error: float | None = None
+    source: str = ""
+    reason: str = ""
+    samples: Any = None
+
+
+def read(path: Paths, options: dict[str, Any], number: int) -> tuple[Any, int, Any, list[str]]:
+    """Return a curve of a file or its last one, the number of curves, a question or None, what is not read.
 
     The question has a text with remedies, the first rows of the table, and what is suggested. If the
     suggestion is complete, it has samples of the first curve.
@@ -57,20 +81,28 @@ def read(path: str, options: dict[str, Any], number: int) -> tuple[Any, int, Any
         curves = _read_curves(path, options)
         count = len(curves)
         curve = curves[min(number, count - 1)]
+        unread = [_named(name, each.text)[:_REMARK] for name, each in curves.unread.items()][:_UNREAD]
         remarks = tuple(with_text(each, each.text[:_REMARK]) for each in curve.remarks)
-        return replace(curve, table=curve.table and _first_rows(curve.table), remarks=remarks), count, None
+        table = curve.table and _first_rows(curve.table)
+        return replace(curve, table=table, remarks=remarks), count, None, unread
     except UnknownColumns as error:
         text, remedy = error_text(error)
         question = SimpleNamespace(
             text=text, remedy=remedy, table=_first_rows(error.table), suggestion=error.suggestion,
             preview=_preview(path, options, error),
         )  # fmt: skip
-        return None, count, question
+        return None, count, question, []
     except (ValueError, ImportError, MemoryError):
         raise
     except Exception as error:
         # What packages raise about a damaged file.
-        raise ValueError(f"{Path(path).name} cannot be read: {type(error).__name__}, {error}") from error
+        name = Path(path).name if isinstance(path, str) else "a file"
+        raise ValueError(f"{name} cannot be read: {type(error).__name__}, {error}") from error
+
+
+def _named(name: str, text: str) -> str:
+    """Return a text that says the name of its file."""
+    return text if name in text else f"{name}: {text}"
 
 
 def _first_rows(table: Any) -> Any:
@@ -79,7 +111,7 @@ def _first_rows(table: Any) -> Any:
     return replace(few, heads={column: head[:_HEAD] for column, head in few.heads.items()})
 
 
-def _preview(path: str, options: dict[str, Any], error: UnknownColumns) -> Any:
+def _preview(path: Paths, options: dict[str, Any], error: UnknownColumns) -> Any:
     """Return the samples of the first curve that has the columns of a suggestion, or None."""
     if not error.complete:
         return None
@@ -150,19 +182,33 @@ def fit(curve: Any, asked: dict[str, Any]) -> SimpleNamespace:
     )  # fmt: skip
 
 
-def fit_all(path: str, given: dict[str, Any], asked: dict[str, Any]) -> Iterator[Any]:
-    """Yield number, E* to quote, its error (Pa), and the source or why there is no E*, for each curve."""
+def fit_all(
+    path: Paths, given: dict[str, Any], asked: dict[str, Any], first: int = 0, last: int | None = None
+) -> Iterator[Row]:
+    """Yield a `Row` for each curve from `first` to before `last`: E* to quote, or why there is none."""
     curves = _read_curves(path, given)
-    for number in range(len(curves)):
+    files = Counter(file for file, _ in curves.places)
+    for i, (file, number) in list(enumerate(curves.places))[first:last]:
+        alone = len(files) > 1 and files[file] == 1
+        row = Row(file if alone else f"{file}, {number}" if len(files) > 1 else f"{number}")
         try:
-            curve = curves[number]
+            curve = curves[i]
+            step = -(-len(curve) // _DRAWN)
+            drawn = curve.depth[::step].tolist(), curve.force[::step].tolist()
+            position = None if curve.position is None else curve.position.tolist()
+            row = row._replace(position=position, samples=drawn)
             if doubt := deflection(curve):
-                yield number, None, None, doubt.text
+                yield row._replace(reason=doubt.text)
                 continue
-            quoted = fit(curve, asked).quoted
-            yield number, quoted.value, quoted.standard_error, quoted.reason
+            found = fit(curve, asked)
+            quoted, H = found.quoted, found.unloading
+            row = row._replace(E=quoted.value, E_error=quoted.standard_error, reason=quoted.reason)
+            row = row._replace(source=quoted.source or "")
+            if H is not None and quoted.value is not None:
+                row = row._replace(H=float(H.hardness), H_error=float(H.standard_errors["hardness"]))
+            yield row
         except ValueError as error:
-            yield number, None, None, error_text(error)[0]
+            yield row._replace(reason=error_text(error)[0])
 
 
 def deflection(curve: Any) -> Remark | None:

@@ -97,11 +97,17 @@ def _float(value: Any) -> float | None:
     return None if value is None else float(value)
 
 
-def curves_csv(file: str, rows: list[tuple[Any, ...]]) -> str:
-    """Return E* and its error for each curve of a file as a table."""
-    table: list[Any] = [["curve", "E* (Pa)", "standard error (Pa)", "source, or why there is no number"]]
-    table += [[number + 1, _float(E), _float(error), reason] for number, E, error, reason in rows]
-    return tables.as_csv([f"mdr_core {mdr.__version__}: curves of {file}"], table)
+def table_of(rows: list[Any], settings: dict[str, str], moduli: tuple[Any, Any] | None) -> mdr.CurveTable:
+    """Return curves that were fitted as a table, with Young's modulus by ν and the material of the tip."""
+    columns = {name: [getattr(row, name) for row in rows] for name in ("E", "E_error", "H", "H_error")}
+    E, E_error, H, H_error = (np.array(column, float) for column in columns.values())
+    table = mdr.CurveTable(
+        settings=settings, file=[row.name for row in rows], number=[*range(1, len(rows) + 1)],
+        E_star=E, E_star_error=E_error, hardness=H, hardness_error=H_error,
+        quoted=[row.source for row in rows], reason=[row.reason for row in rows],
+        remarks=[""] * len(rows), results=[],
+    )  # fmt: skip
+    return table.sample_modulus(*moduli) if moduli else table
 
 
 def rounded(value: float, error: float | None) -> float:

@@ -18,8 +18,8 @@ from .widgets import FileField, UnitInput, button, fold, select, show_errors
 
 _PART, _GROUP = Markup("<h2>{}</h2>"), Markup('<h3 class="group">{}</h3>')
 _FILE = Markup("<b>{}</b>{}: {} samples")
+_UNREAD = Markup('<p class="refused">Not read: {}</p>')
 _LINKED = Markup("This link was made with <b>{}</b>: drop that file here.")
-_TOGETHER = Markup("{}. Of {} files that were dropped together this one was taken: drop one at a time.")
 #: Shown in empty fields of corrections.
 _NO_CORRECTION = {"drift": "0 nm/s", "frame": "0 nm/mN", "depth_noise": "0 nm"}
 #: What parts the curves of a table, besides the values of a column.
@@ -38,7 +38,7 @@ class Form:
         uploads = Uploads()
         self.drop = FileField(
             uploads, CURVE_BYTES, partial(page.do, page.take_file), page.refuse,
-            label=f"Drop a file of depth and force here (up to {CURVE_BYTES / 1e6:g} MB)",
+            label=f"Drop files of depth and force here (up to {CURVE_BYTES / 1e6:g} MB)",
         )  # fmt: skip
         self.tip_file = FileField(
             uploads, TIP_BYTES, partial(page.do, page.take_tip), page.refuse_tip,
@@ -104,11 +104,22 @@ class Form:
 
     def modulus(self, quoted: Any) -> tuple[float, float] | None:
         """Return Young's modulus of the sample and its error (Pa), None without Poisson's ratio."""
+        materials = self.materials()
+        return None if materials is None or quoted.value is None else quoted.sample_modulus(*materials)
+
+    def materials(self) -> tuple[float, tuple[float, float] | None] | None:
+        """Return Poisson's ratio of the sample, and modulus (Pa) and Poisson's ratio of the tip."""
         poisson, tip_modulus, tip_poisson = map(self.value, MODULI)
-        if poisson is None or quoted.value is None:
-            return None
         tip = None if tip_modulus is None else (tip_modulus, tip_poisson or 0.0)
-        return quoted.sample_modulus(poisson, tip)
+        return None if poisson is None else (poisson, tip)
+
+    def settings(self) -> dict[str, str]:
+        """Return tip, sample and typed numbers in words."""
+        shown = {"tip": TIPS[self.tip.value].label, "kind of sample": MEDIA[self.medium.value].label}
+        for name, value in self.unusual_numbers().items():
+            known = (NUMBERS | FITTED)[name]
+            shown[known.label] = "fitted" if value is None else written(value, known.kind)
+        return shown
 
     def unusual_numbers(self) -> dict[str, float | None]:
         """Return numbers that differ from the first ones of the kind of sample, None for an empty field."""
@@ -203,10 +214,9 @@ class Form:
         if page.curve is not None:
             of = f", curve {page.results.number.value} of {page.count}" if page.count > 1 else ""
             about = _FILE.format(page.file, of, len(page.curve))
+            about += Markup("").join(map(_UNREAD.format, page.unread))
         elif page.file and not page.path and not page.busy:
             about = _LINKED.format(page.file)
-        if page.others:
-            about = _TOGETHER.format(about or page.file, page.others + 1)
         show(self.about, object=about)
 
 

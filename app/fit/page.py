@@ -1,6 +1,6 @@
 """The page of one person for a measurement: a file in, the number to quote out."""
 
-import re
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -36,9 +36,14 @@ _LANDMARKS = {
 }
 #: Beginnings of the suffixes of files that are no tables.
 _AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
-#: Seconds after a file in which others begin that were dropped together with it. The browser sends two
-#: files at once, and the next two 2 s later.
-_SECOND, _NEXT = 0.5, 3.0
+#: Most curves that are fitted by one job.
+_CURVES = 100
+#: Seconds after a file in which others come that were dropped together with it, as one set.
+_TOGETHER = 0.7
+
+
+def _nothing() -> None:
+    pass
 
 
 class Measurement(Actions):
@@ -49,9 +54,11 @@ class Measurement(Actions):
 
     def __init__(self, link: str = "", worker: Worker | Here | None = None):
         super().__init__(worker)
-        # The file, its path on the server, the name of the example that it is, and when it was taken (s).
-        self.file, self.path, self._example, self._taken_at = "", "", "", -_NEXT
+        # The file or the set, its path or paths on the server, the name of the example that it is, and when
+        # it was taken (s).
+        self.file, self.path, self._example, self._taken_at = "", "", "", -_TOGETHER
         self._files, self._tip_files = Files(), Files()
+        self._prevent_reading: Callable[[], None] = _nothing
         #: Columns and what parts curves, as the reader is given them; and for tables with known heads.
         self.options: dict[str, Any] = {}
         self._known: dict[Any, tuple[dict[str, Any], dict[str, float]]] = {}
@@ -61,8 +68,9 @@ class Measurement(Actions):
         self.count = 0
         #: The fit, Young's modulus of the sample and its error (Pa), and rows of all curves.
         self.found = self.E = None
-        self.rows: list[tuple[Any, ...]] = []
-        self.others = 0
+        self.rows: list[analysis.Row] = []
+        #: Files of a set that are not read, and why.
+        self.unread: list[str] = []
         #: Whether the user has stopped what ran: the next change begins it again.
         self.cancelled = False
         # Samples that are fitted, () for those of the kind of sample, which was the last one.
@@ -102,7 +110,8 @@ class Measurement(Actions):
 
     def message(self, text: str, remedy: tuple[Any, ...] = ()) -> Refused:
         """Return a text with the name of the file that was dropped, instead of that of the kept one."""
-        return Refused(text.replace(Path(self.path).name or "\0", self.file), remedy)
+        kept = Path(self.path).name if isinstance(self.path, str) else ""
+        return Refused(text.replace(kept or "\0", self.file), remedy)
 
     def cancel(self) -> None:
         """Stop what runs."""
@@ -136,7 +145,7 @@ class Measurement(Actions):
             for name, value in numbers.items():
                 self.form.numbers[name].set(value)
             self.results.number.value = 1
-        self.options, self._samples, self.others = {}, (), 0
+        self.options, self._samples = {}, ()
 
     def link(self) -> query.Link:
         """Return the link of what is typed and chosen."""
@@ -147,14 +156,13 @@ class Measurement(Actions):
     # Files.
 
     async def take_file(self, name: str, data: bytes, began: float) -> None:
-        """Read a file that was dropped. Tip and sample stay, unless they were those of an example."""
+        """Read a file that was dropped, or a set. Tip and sample stay, unless they were an example's."""
         now = monotonic()
-        if began < self._taken_at + (_NEXT if self.others else _SECOND):
-            self._taken_at, self.others = now, self.others + 1
-            self.form.show_about(self)
+        together, self._taken_at = began < self._taken_at + _TOGETHER, now
+        if together:
+            self._take_together(name, data)
             return
-        self._taken_at, self.others, name = now, 0, in_line(name)
-        form = self.form
+        form, name = self.form, in_line(name)
         if self._example:
             self._begin("", "", dict.fromkeys(form.numbers))
         elif name != self.file:
@@ -172,9 +180,25 @@ class Measurement(Actions):
     async def _take(self, name: str, data: bytes, example: str = "") -> None:
         self.file, self._example, self.cancelled = name, example, False
         self.curve, self.question, self.found, self.count, self.path = None, None, None, 0, ""
-        suffix = re.sub(r"[^\w.-]", "", Path(name).suffix)[:20] if "\0" not in name else ""
-        self.path = self._files.keep(data, suffix)
+        self.path = self._files.keep(data, name)
         await self.read()
+
+    def _take_together(self, name: str, data: bytes) -> None:
+        """Read a file with those that were dropped before it, once no further one follows."""
+        self.stop()
+        self._prevent_reading()
+        self._prevent_reading = _nothing
+        self.curve, self.question, self.found, self.count, self.path = None, None, None, 0, ""
+        self._files.add(data, name)
+        self.path = [*self._files.paths]
+        self.file, self.busy = f"{len(self.path)} files", f"Taking {len(self.path)} files"
+        # All of the page once, and then the number of files.
+        (self.show if len(self.path) == 2 else self.results.show_headline)()
+        self._prevent_reading = self.host.later(self._read_together, round(1000 * _TOGETHER))
+
+    def _read_together(self) -> None:
+        self._prevent_reading = _nothing
+        self.do(self.read)
 
     async def take_tip(self, name: str, data: bytes, began: float) -> None:
         """Read a measured tip, beside a job on the curve."""
@@ -199,7 +223,10 @@ class Measurement(Actions):
     @property
     def is_afm(self) -> bool:
         """Whether the file is no table."""
-        return Path(self.path).suffix.lower().startswith(_AFM)
+        if self.curve is not None:
+            return self.curve.source.startswith("as afmformats")
+        first = self.path if isinstance(self.path, str) else self.path[0]
+        return self.question is None and Path(first).suffix.lower().startswith(_AFM)
 
     @property
     def table(self) -> Any:
@@ -221,6 +248,7 @@ class Measurement(Actions):
 
     async def read(self) -> None:
         """Read the curve of the file, and fit it; or ask what its columns are."""
+        confirmed = self.question is not None
         self.curve = self.taken = self.found = self.question = None
         self.rows = []
         if not self.path:
@@ -229,7 +257,7 @@ class Measurement(Actions):
         options = self.form.given(*CANTILEVER) | self.options
         number = self.results.number.value - 1
         answer = await self.run(f"Reading {self.file}", "fit.analysis.read", self.path, options, number)
-        curve, self.count, question = answer
+        curve, self.count, question, self.unread = answer
         with self.setting():
             self.results.number.value = max(1, min(self.results.number.value, self.count))
         if question is not None:
@@ -244,6 +272,8 @@ class Measurement(Actions):
             with self.setting():
                 shown = columns if isinstance(columns, list) else curve.columns
                 self.form.columns.show(self.table, shown, self.options.get("by"))
+        if confirmed:
+            show(self.form.reader, collapsed=True)
         await self.fit()
 
     async def _ask(self, question: Any) -> None:
@@ -374,16 +404,19 @@ class Measurement(Actions):
         """Fit each curve of the file as the one that is shown."""
         self.rows = []
 
-        def one(row: tuple[Any, ...]) -> None:
-            number, E, error, reason = row
-            self.rows.append((number, E, error, self.message(reason).text))
+        def one(row: analysis.Row) -> None:
+            self.rows.append(row._replace(reason=self.message(row.reason).text))
             self.busy = f"Fitting curve {min(len(self.rows) + 1, self.count)} of {self.count}"
             self.results.show_headline()
             self.results.show_progress()
 
         options = self.form.given(*CANTILEVER) | self.options
-        jobs = self.path, options, self.form.request(True, self.ends if self._samples else ())
-        await self.run(f"Fitting curve 1 of {self.count}", "fit.analysis.fit_all", *jobs, part=one)
+        request = self.form.request(True, self.ends if self._samples else ())
+        # A job may take some time only, and others have their turn between two of them.
+        for first in range(0, self.count, _CURVES):
+            text, last = f"Fitting curve {first + 1} of {self.count}", min(first + _CURVES, self.count)
+            given = self.path, options, request, first, last
+            await self.run(text, "fit.analysis.fit_all", *given, part=one)
         self.show()
 
     @pn.io.hold()

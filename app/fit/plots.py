@@ -4,13 +4,14 @@ from typing import Any
 
 import bokeh.models as bk
 import numpy as np
+import panel as pn
 from bokeh.plotting import figure
 
 from mdr_core.show.figures import ROLES
 from mdr_core.show.units import fitting
 
 from ..figures import add_zoom
-from ..ui import JS
+from ..ui import JS, WIDE
 
 _NAMES = "others", "measured", "model", "noise", "residuals"
 _FIGURES = {
@@ -32,12 +33,8 @@ class Plots:
         for each, name in ((self.force, "force"), (self.residual, "residual")):
             add_zoom(each)
             # The same width inside the axes, so that depths stand below each other.
-            each.update(min_border_left=76, min_border_right=20, outline_line_color=None)
-            each.update(background_fill_color=None, border_fill_color=None)
-            each.html_attributes = {"role": "figure", "aria-label": _FIGURES[name]}
-            each.axis.axis_label_text_font_style = "normal"
-            each.axis.minor_tick_line_color = None
-            each.axis.axis_label_text_font_size = each.axis.major_label_text_font_size = "12px"
+            each.update(min_border_left=76, min_border_right=20)
+            _style(each, _FIGURES[name])
             each.xgrid.visible = False
             each.js_on_change("inner_width", bk.CustomJS(code=JS["canvas"]))
         self.sources = {name: bk.ColumnDataSource({"x": [], "y": []}, name=name) for name in _NAMES}
@@ -96,6 +93,71 @@ class Plots:
         depth = self.force.x_range, *_reach(taken.depth / length.factor, 0.03)
         _set(depth, (self.force.y_range, *_reach(taken.force / force.factor, 0.08)))
         _set((self.residual.y_range, *_reach(np.append(data["residuals"][1], data["noise"][1]), 0.12)))
+
+
+class AllCurves:
+    """One figure of all curves of a file or a set; of a map, moduli at their positions."""
+
+    def __init__(self) -> None:
+        look = {"sizing_mode": "stretch_width", "height": 280, "output_backend": "canvas", "tools": "save"}
+        self.figure = figure(name="all curves", x_range=(0, 1), y_range=(0, 1), **look)
+        self.figure.toolbar.logo = None
+        _style(self.figure, "All curves, or a map of the moduli")
+        self.curves = bk.ColumnDataSource({"x": [], "y": []}, name="curves")
+        self.map = bk.ColumnDataSource({"x": [], "y": [], "E": []}, name="map")
+        self._lines = self.figure.multi_line("x", "y", source=self.curves)
+        colours = bk.LinearColorMapper(palette="Viridis256")
+        look = {"marker": "square", "size": 14, "line_color": None}
+        field = {"field": "E", "transform": colours}
+        self._places = self.figure.scatter("x", "y", source=self.map, fill_color=field, **look)
+        self._bar = bk.ColorBar(color_mapper=colours, background_fill_color=None)
+        self.figure.add_layout(self._bar, "right")
+        ink, bar = ROLES["ink"], self._bar
+        self.looks = [(self._lines.glyph, "line_color", ROLES["measured"])]
+        self.looks += [(bar, f"{name}_text_color", ink) for name in ("title", "major_label")]
+        for model, name, colour in self.looks:
+            setattr(model, name, colour[0])
+        self.view = pn.Column(
+            pn.pane.Bokeh(self.figure, **WIDE), visible=False, css_classes=["all"], **WIDE
+        )
+
+    def show(self, rows: list[Any]) -> None:
+        """Show the curves of rows, or E* at their positions where all have one."""
+        known = [row for row in rows if row.samples is not None]
+        found = [row for row in rows if row.E is not None]
+        placed = bool(found) and all(row.position is not None for row in rows)
+        self._lines.visible, self._places.visible, self._bar.visible = not placed, placed, placed
+        self.curves.data, self.map.data = {"x": [], "y": []}, {"x": [], "y": [], "E": []}
+        if placed:
+            (x, y), E = np.array([row.position for row in found]).T, np.array([row.E for row in found])
+            length, pressure = fitting(float(np.ptp(x)), "length"), fitting(float(E.max()), "pressure")
+            self.map.data = {"x": x / length.factor, "y": y / length.factor, "E": E / pressure.factor}
+            self._bar.title = f"E* ({pressure.name})"
+            labels, drawn = (f"x ({length.name})", f"y ({length.name})"), self.map.data
+        elif known:
+            depths, forces = zip(*(row.samples for row in known), strict=True)
+            length = fitting(max(max(map(abs, each)) for each in depths), "length")
+            force = fitting(max(max(map(abs, each)) for each in forces), "force")
+            self.curves.data = {
+                "x": [np.array(each) / length.factor for each in depths],
+                "y": [np.array(each) / force.factor for each in forces],
+            }
+            labels = f"measured depth z ({length.name})", f"force F ({force.name})"
+            drawn = self.curves.data
+        else:
+            return
+        self.figure.xaxis.axis_label, self.figure.yaxis.axis_label = labels
+        x, y = (np.concatenate([np.ravel(each) for each in (*drawn[name],)]) for name in "xy")
+        _set((self.figure.x_range, *_reach(x, 0.05)), (self.figure.y_range, *_reach(y, 0.08)))
+
+
+def _style(plot: Any, name: str) -> None:
+    """Give a figure its name and the look of all plots."""
+    plot.update(background_fill_color=None, border_fill_color=None, outline_line_color=None)
+    plot.html_attributes = {"role": "figure", "aria-label": name}
+    plot.axis.axis_label_text_font_style = "normal"
+    plot.axis.minor_tick_line_color = None
+    plot.axis.axis_label_text_font_size = plot.axis.major_label_text_font_size = "12px"
 
 
 def _reach(values: np.ndarray, margin: float) -> tuple[float, float]:

@@ -1,7 +1,8 @@
 """The right column: the number to quote, why it is that one, the curve over the model, and its files."""
 
 from functools import partial
-from io import StringIO
+from importlib.util import find_spec
+from io import BytesIO, StringIO
 from pathlib import Path
 from typing import Any
 
@@ -11,16 +12,20 @@ from bokeh.events import DocumentReady
 from bokeh.models import CustomJS
 from markupsafe import Markup
 
+import mdr_core as mdr
+
 from ..ui import JS, WIDE, html, show
 from . import export, texts
 from .choices import CLASS_NAMES, MEDIA, OF_CLASS, TIPS
-from .plots import Plots
+from .plots import AllCurves, Plots
 from .remedies import remedy_button
 from .widgets import ERROR, button, download, fold
 
 _HERE = Path(__file__).parent
 _SLIDER = (_HERE / "slider.css").read_text(encoding="utf-8")
 _NAMES = (_HERE / "names.js").read_text(encoding="utf-8")
+#: Files that are dropped together are sent at once; a browser would send two every two seconds.
+_DROPS = "FilePond.setOptions({maxParallelUploads: 1000, itemInsertInterval: 0})"
 _BOTH = {"sizing_mode": "stretch_both", "margin": 0}
 _PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
 _REMARK = Markup("<p>{}</p>")
@@ -51,8 +56,8 @@ class Results:
             fold("Remarks", self.remarks, css_classes=["fold", "remarks-fold"]),
         ]
         self.plots = Plots()
-        shade = CustomJS(args={"looks": self.plots.looks}, code=JS["shade"])
-        for code in (shade, CustomJS(code=_NAMES)):
+        shade = CustomJS(args={"looks": self.plots.looks + self.all_curves.looks}, code=JS["shade"])
+        for code in (shade, CustomJS(code=_NAMES), CustomJS(code=_DROPS)):
             page.document.js_on_event(DocumentReady, code)
         panes = (pn.pane.Bokeh(each, **_BOTH) for each in (self.plots.force, self.plots.residual))
         self.figures = pn.Column(*panes, css_classes=["plots-of-fit"], visible=False, **_BOTH)
@@ -103,14 +108,26 @@ class Results:
         self.all = button("Fit all", partial(page.do, page.fit_all))
         self.progress = pn.indicators.Progress(value=0, max=1, visible=False, margin=0, width=220)
         self.summary, self.list = html("", "note"), html("", "curves", visible=False)
-        self.curves_file = download(
-            "All as CSV", lambda: StringIO(export.curves_csv(page.file, page.rows)), filename="curves.csv",
-            visible=False,
-        )  # fmt: skip
-        bar = pn.Row(self.number, self.all, self.progress, self.curves_file, css_classes=["tools"], **WIDE)
-        self.several = pn.Column(
-            bar, self.summary, self.list, css_classes=["several"], visible=False, **WIDE
-        )
+        files = {"CSV": (StringIO, "to_csv", "csv"), "Excel": (BytesIO, "to_excel", "xlsx")}
+        self.curves_files = pn.Row(css_classes=["tools"], visible=False, sizing_mode=None, margin=0)
+        for name, (kind, write, suffix) in files.items():
+            # A static page has no package that writes Excel files.
+            if suffix == "csv" or find_spec("openpyxl"):
+                saved = partial(self._saved, kind, write)
+                self.curves_files.append(download(f"All as {name}", saved, filename=f"curves.{suffix}"))
+        tools = self.number, self.all, self.progress, self.curves_files
+        bar = pn.Row(*tools, css_classes=["tools"], **WIDE)
+        self.all_curves = AllCurves()
+        parts = bar, self.summary, self.list, self.all_curves.view
+        self.several = pn.Column(*parts, css_classes=["several"], visible=False, **WIDE)
+
+    def _saved(self, kind: Any, write: str) -> Any:
+        """Return a file of all curves that are fitted."""
+        page, file = self._page, kind()
+        settings = {"made by": f"mdr_core {mdr.__version__}", "file": page.file} | page.form.settings()
+        getattr(export.table_of(page.rows, settings, page.form.materials()), write)(file)
+        file.seek(0)
+        return file
 
     def _take_class(self) -> None:
         medium = self._page.form.medium
@@ -253,7 +270,10 @@ class Results:
         show(self.all, label=f"Fit all {page.count}", disabled=not ready)
         self.show_progress()
         done = bool(page.rows) and not page.busy
-        show(self.curves_file, visible=done)
+        show(self.curves_files, visible=done)
+        show(self.all_curves.view, visible=done)
+        if done:
+            self.all_curves.show(page.rows)
         show(self.list, visible=done, object=texts.curves_table(page.rows, page.file) if done else "")
 
     def show_progress(self) -> None:

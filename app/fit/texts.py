@@ -158,23 +158,37 @@ def classes_table(found: Any, own: str) -> Markup:
     return table + Markup("<p>{}</p>").format(verdict(found))
 
 
-def curves_table(rows: list[tuple[Any, ...]], file: str) -> Markup:
-    """Return the curves of a file, those without a number first."""
-    ordered = sorted(rows, key=lambda row: (row[1] is not None, row[0]))
+def curves_table(rows: list[Any], file: str) -> Markup:
+    """Return the curves of a file or a set, those without a number first."""
+    ordered = sorted(rows, key=lambda row: row.E is not None)
     cells = (
-        (number + 1, "–" if E is None else amount(E, error, "Pa"), sentence(reason, file))
-        for number, E, error, reason in ordered[:_LISTED]
-    )
+        (row.name, *(_found(*pair) for pair in ((row.E, row.E_error), (row.H, row.H_error))),
+         sentence(row.reason, file))
+        for row in ordered[:_LISTED]
+    )  # fmt: skip
     beyond = _MORE.format(len(rows) - _LISTED) if len(rows) > _LISTED else ""
-    return _table(("curve", "E*", "source, or why there is no number"), *cells) + beyond
+    return _table(("curve", "E*", "H", "source, or why there is no number"), *cells) + beyond
 
 
-def curves_summary(rows: list[tuple[Any, ...]], count: int) -> str:
-    """Return how many curves are fitted, and the median of E*."""
-    found = [row[1] for row in rows if row[1] is not None]
-    median = amount(float(np.median(found)), None, "Pa") if found else "none"
-    lost = f"{len(rows) - len(found)} without a number to quote."
-    return f"{len(rows)} of {count} curves fitted: median E* {median}; {lost}" if rows else ""
+def _found(value: float | None, error: float | None) -> str:
+    return "–" if value is None else amount(value, error, "Pa")
+
+
+def curves_summary(rows: list[Any], count: int) -> str:
+    """Return how many curves are fitted, mean and standard deviation of E* and H, and the medians."""
+    if not rows:
+        return ""
+    parts = [f"{len(rows)} of {count} curves fitted"]
+    for symbol, values in (("E*", [row.E for row in rows]), ("H", [row.H for row in rows])):
+        found = [value for value in values if value is not None]
+        if found:
+            mean = amount(
+                float(np.mean(found)), float(np.std(found, ddof=1)) if len(found) > 1 else None, "Pa"
+            )
+            median = amount(float(np.median(found)), None, "Pa")
+            parts.append(f"{symbol} = {mean}, mean ± standard deviation of {len(found)}, median {median}")
+    lost = sum(row.E is None for row in rows)
+    return "; ".join((*parts, f"{lost} without a number to quote")) + "."
 
 
 def limits(found: Any, tip: str, medium: str) -> list[str]:

@@ -12,11 +12,13 @@ from pathlib import Path
 from time import monotonic
 
 import numpy as np
+import pandas
 import panel as pn
 import pytest
 
 import mdr_core as mdr
 from app import link
+from app.common import folders
 from app.common.process import Here, Replaced
 from app.fit import query
 from app.fit.choices import MEDIA
@@ -188,20 +190,66 @@ def test_a_link_to_a_curve_beyond_the_file_shows_the_last_one():
     assert page.found.fit.medium.E_star == approx(3e4, rel=1e-4)
 
 
-def test_of_files_that_come_together_the_first_is_taken_and_the_next_drop_is_another():
-    """The browser begins two at once, and the next two 2 s after these."""
-    page, now = page_of(), monotonic()
-    for name, began in (("a.csv", now), ("b.csv", now), ("c.csv", now + 2)):
-        page.do(page.take_file, name, curve_file(), began)
-    assert page.file == "a.csv"
-    assert "Of 3 files" in text(page.form.about)
-    # A file that is dropped at once after one that was refused is another one.
+def take_set(page, files):
+    """Drop files together; the action of the last one reads them all."""
+    now = monotonic()
+    for name, data in files.items():
+        page.do(page.take_file, name, data, now)
+
+
+def test_files_that_come_together_are_one_set_and_the_next_drop_is_another():
+    page = page_of()
+    choose(page, tip="berkovich", medium="constant")
+    files = {f"lab/run {k}.csv": curve_file(mdr.Medium(k * 40e9, hardness=14e9)) for k in (1, 2, 10)}
+    take_set(page, files | {"lab/notes.txt": b"nothing"})
+    assert (page.file, page.count) == ("4 files", 3)
+    assert "notes.txt" in text(page.form.about)
+    # In the order of their names, 2 before 10.
+    page.do(page.fit_all)
+    assert [row.name for row in page.rows] == ["lab run 1.csv", "lab run 2.csv", "lab run 10.csv"]
+    assert [row.E / GLASS.E_star for row in page.rows] == approx([0.5, 1, 5], rel=1e-3)
+    take_file(page, "next.csv", curve_file())
+    assert (page.file, page.count, page.rows) == ("next.csv", 1, [])
+    assert "notes.txt" not in text(page.form.about)
+    # A file that is dropped after one that was refused is another one.
     take_file(page, "wrong.csv", b"nothing")
-    for name in ("right.csv", "another.csv"):
-        # The browser shows the file for a second before it sends it.
-        page.do(page.take_file, name, curve_file(), monotonic() + 1)
-        assert page.file == name
-        assert "together" not in text(page.form.about)
+    take_file(page, "right.csv", curve_file())
+    assert page.file == "right.csv"
+
+
+def test_a_set_asks_once_and_a_zip_is_one_too():
+    force = mdr.indent(TIP, GLASS, DEPTH).force
+    rows = "\n".join(f"{1e9 * h:.6f};{1e3 * f:.9f}" for h, f in zip(DEPTH, force, strict=True))
+    files = {f"{k}.csv": f"Tiefe (nm);Kraft (mN)\n{rows}".encode() for k in range(3)}
+    archive = BytesIO()
+    with zipfile.ZipFile(archive, "w") as file:
+        for name, data in files.items():
+            file.writestr(name, data)
+    for drop in (
+        lambda page: take_set(page, files),
+        lambda page: take_file(page, "a.zip", archive.getvalue()),
+    ):
+        page = page_of()
+        choose(page, tip="berkovich", medium="constant")
+        drop(page)
+        assert page.question is not None
+        assert not page.form.reader.collapsed
+        press(page.form.columns.confirm)
+        assert page.form.reader.collapsed
+        assert page.count == 3
+        press(page.results.all)
+        assert [row.E for row in page.rows] == approx([GLASS.E_star] * 3, rel=1e-3)
+
+
+def test_a_set_has_bounds(monkeypatch):
+    monkeypatch.setattr(folders, "SET_FILES", 2)
+    page = page_of()
+    take_set(page, {f"{k}.csv": curve_file() for k in range(3)})
+    # Those before the bound are not read without a word.
+    assert "At most 2 files" in text(page.form.errors)
+    assert page.curve is None
+    take_file(page, "next.csv", curve_file())
+    assert page.curve is not None
 
 
 def test_what_is_held_stays_and_what_is_freed_is_found():
@@ -755,25 +803,30 @@ def test_all_curves_of_a_file_are_fitted_and_a_dead_one_says_why():
     assert "1 of 3 curves fitted" in page.results.summary.object
     page.worker.then = lambda: None
     press(page.results.all)
-    values = [row[1] for row in page.rows]
+    values = [row.E for row in page.rows]
     assert values[0] == approx(2e4, rel=1e-4)
     assert values[1] is None
     assert values[2] == approx(3e4, rel=1e-4)
-    assert "median E* 25.0" in page.results.summary.object
+    assert "E* = 25.0" in page.results.summary.object
     assert "1 without a number" in page.results.summary.object
-    rows = re.findall(r"<th>(\d)</th><td>(.*?)</td><td>(.*?)</td>", page.results.list.object)
+    rows = re.findall(r"<th>(\d)</th><td>(.*?)</td><td>(.*?)</td><td>(.*?)</td>", page.results.list.object)
     # Those without a number stand first.
     assert [row[0] for row in rows] == ["2", "1", "3"]
     assert rows[0][1] == "–"
-    assert len(plain(rows[0][2])) > 20
-    lines = page.results.curves_file.callback().read().splitlines()
-    assert len(lines) == 5
-    assert lines[3].startswith("2,,,")
+    assert len(plain(rows[0][3])) > 20
+    csv_file, excel_file = (each.callback() for each in page.results.curves_files)
+    table = pandas.read_csv(csv_file, comment="#", index_col=0)
+    assert table["E_star"].tolist() == approx([*values[:1], np.nan, *values[2:]], rel=1e-12, nan_ok=True)
+    cells = pandas.read_excel(excel_file, header=None).to_numpy().ravel().tolist()
+    # A workbook keeps 15 digits.
+    assert any(isinstance(each, float) and each == approx(values[2], rel=1e-14) for each in cells)
+    drawn = page.results.all_curves.curves.data
+    assert max(map(np.max, drawn["y"])) > 0
     # They are of this tip: of another one all are to be fitted again.
-    assert page.results.curves_file.visible
+    assert page.results.curves_files.visible
     choose(page, radius=2e-5)
     assert not page.results.list.visible
-    assert not page.results.curves_file.visible
+    assert not page.results.curves_files.visible
     assert page.results.summary.object == ""
     # So are those of columns that the file is no longer read by.
     press(page.results.all)

@@ -6,6 +6,7 @@ import zipfile
 from urllib.request import urlopen
 
 import numpy as np
+import pandas
 import pytest
 
 import mdr_core as mdr
@@ -254,18 +255,33 @@ def test_an_afm_file_without_a_stiffness_is_asked_for_it_above_the_fold(measurem
     assert number(measurement, "kPa").startswith("20")
 
 
-def test_of_several_files_that_are_dropped_together_one_is_taken_and_the_page_says_so(
-    measurement, tmp_path
-):
+def test_files_that_are_dropped_together_are_fitted_together_and_saved(measurement, tmp_path):
     page = measurement.page
-    files = [curve(tmp_path / f"run_{k}.csv", mdr.Medium(k * 1e10, hardness=14e9)) for k in (5, 6, 7)]
-    drop(measurement, *files)
-    page.get_by_text("Of 3 files that were dropped together").wait_for()
+    media = [mdr.Medium(k * 1e10, hardness=14e9) for k in range(3, 13)]
+    files = [curve(tmp_path / f"run_{k}.csv", each) for k, each in enumerate(media, 1)]
+    (tmp_path / "notes.txt").write_text("nothing")
+    drop(measurement, *files, tmp_path / "notes.txt")
+    page.get_by_text("11 files, curve 1 of 10: 400 samples").wait_for()
+    assert page.get_by_text("Not read: notes.txt").is_visible()
+    page.get_by_label("Tip", exact=True).select_option(label="Berkovich or Vickers (cone of 70.3°)")
+    page.get_by_text("Give the sample", exact=True).wait_for()
+    page.get_by_label("Sample", exact=True).select_option(
+        label="Glass, metal or ceramic: constant hardness"
+    )
+    page.get_by_role("button", name="Fit all 10").click()
+    page.get_by_text("10 of 10 curves fitted; E* = 75 ± 30 GPa, mean ± standard deviation of 10").wait_for()
+    names = page.locator(".curves th").all_inner_texts()
+    assert names == ["curve", *(f"run_{k}.csv" for k in range(1, 11))]
+    assert page.get_by_role("figure", name="All curves").is_visible()
+    for kind, write in (("CSV", pandas.read_csv), ("Excel", pandas.read_excel)):
+        with page.expect_download() as saved:
+            page.get_by_role("button", name=f"All as {kind}").click()
+        assert "run_10.csv" in str(write(saved.value.path(), header=None, names=range(20)).to_dict())
     # The next one is another.
-    page.wait_for_timeout(2000)
+    page.wait_for_timeout(1000)
     drop(measurement, curve(tmp_path / "next.csv", mdr.Medium(8e10, hardness=14e9)))
     page.get_by_text("next.csv: 400 samples").wait_for()
-    assert page.get_by_text("dropped together").count() == 0
+    assert page.get_by_text("Not read").count() == 0
 
 
 def test_a_long_job_is_cancelled_and_the_next_one_is_done(measurement, tmp_path):
@@ -284,7 +300,7 @@ def test_a_long_job_is_cancelled_and_the_next_one_is_done(measurement, tmp_path)
     page.get_by_role("button", name=f"Fit all {count}").click()
     page.get_by_text(re.compile(r"Fitting curve [2-9] of 60")).wait_for()
     page.locator("button.bk-btn:visible", has_text="Cancel").click()
-    page.get_by_text(re.compile(r"^\d+ of 60 curves fitted: median E\* 80")).wait_for()
+    page.get_by_text(re.compile(r"^\d+ of 60 curves fitted; E\* = 80")).wait_for()
     page.get_by_text("Fitting curve").wait_for(state="detached")
     measurement.press("Sample: gel by AFM")
     number(measurement, "kPa")

@@ -152,10 +152,11 @@ def test_a_soft_sample_of_constant_hardness_is_quoted_below_a_question():
 def test_the_curves_of_a_map_are_judged_as_one_is():
     page = opened(silica("um"))
     page.do(page.fit_all)
-    ((_, value, error, reason),) = page.rows
+    (row,) = page.rows
+    value, error, reason = row.E, row.E_error, row.reason
     assert (value, error) == (None, None)
     assert "below 1 MPa" in reason
-    assert "below 1 MPa" in page.results.curves_file.callback().read()
+    assert "below 1 MPa" in page.results.curves_files[0].callback().read()
 
 
 # What ± is, and what it is said of.
@@ -276,12 +277,12 @@ def test_a_map_without_a_stiffness_is_not_fitted(tmp_path):
     assert page.count == 2
     assert page.results.all.disabled
     page.do(page.fit_all)
-    assert [row[1] for row in page.rows] == [None, None]
-    assert all("includes the deflection" in row[3] for row in page.rows)
+    assert [row.E for row in page.rows] == [None, None]
+    assert all("includes the deflection" in row.reason for row in page.rows)
     choose(page, spring_constant=0.05)
     assert not page.results.all.disabled
     page.do(page.fit_all)
-    assert [row[1] for row in page.rows] == approx([20e3, 20e3], rel=1e-3)
+    assert [row.E for row in page.rows] == approx([20e3, 20e3], rel=1e-3)
 
 
 # Buttons that do a remedy.

@@ -258,7 +258,7 @@ async def test_parts_of_an_answer_come_in_order_and_are_those_without_a_process(
     parts, others = [], []
     for worker, part in ((sessions.workers[0], parts.append), (Here(), others.append)):
         await worker.run("fit.analysis.fit_all", str(path), {"by": "curve"}, asked, part=part)
-    assert [number for number, *_ in parts] == [0, 1, 2]
+    assert [row.name for row in parts] == ["1", "2", "3"]
     assert parts == others
 
     def broken(part):
@@ -313,7 +313,7 @@ def test_folders_of_a_killed_server_are_cleared_at_the_next_start_and_others_sta
         killed.wait(20)
         run([sys.executable, "-c", bare + "folders.clear()", "app"], **options, check=True, timeout=120)
         (left,) = tmp_path.iterdir()
-        assert [*left.rglob("file 1")]
+        assert [*left.rglob("file")]
         # At an orderly end nothing is left.
         other.communicate(b"\n", timeout=20)
         assert [*tmp_path.iterdir()] == []
@@ -321,8 +321,8 @@ def test_folders_of_a_killed_server_are_cleared_at_the_next_start_and_others_sta
 
 def test_a_file_is_kept_once_under_a_new_name_each_time():
     files = Files()
-    first = files.keep(b"1", ".csv")
-    second = files.keep(b"2", ".csv")
+    first = files.keep(b"1", "run.csv")
+    second = files.keep(b"2", "run.csv")
     assert first != second
     assert not os.path.exists(first)
     files.clear()
