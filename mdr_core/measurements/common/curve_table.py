@@ -135,7 +135,7 @@ class CurveTable:
 
 
 def table_of(profile, places, results, settings):
-    """`CurveTable` of curves with their files and numbers; a `Remark` takes the place of a missing result."""
+    """`CurveTable` of curves with files and numbers; a `Remark` takes the place of a missing result."""
     rows = []
     with progress(len(results), "curves") as done:
         for each in results:
