@@ -77,8 +77,8 @@ def test_what_has_no_meaning_is_refused(curve):
         mdr.fit_indentation(BERKOVICH, curve, force=curve.force)
     with pytest.raises(ValueError, match="force is missing"):
         mdr.fit_indentation(BERKOVICH, curve.depth)
-    with pytest.raises(ValueError, match="oliver_pharr takes one curve, got 2"):
-        mdr.oliver_pharr(BERKOVICH, [curve, curve])
+    with pytest.raises(ValueError, match="without force, stiffness and cycles"):
+        mdr.oliver_pharr(BERKOVICH, [curve, curve], cycles=True)
     with pytest.raises(ValueError, match="stiffness = True takes that of a MeasuredCurve"):
         mdr.oliver_pharr(BERKOVICH, curve, stiffness=True)
 
