@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ...base.errors import MDRError
 from .afm import is_afm_text
-from .packed import is_binary
+from .packed import is_binary, refuse_large
 from .question import UnknownColumns
 from .table import decoded
 
@@ -45,6 +45,7 @@ def _texts_in(path):
     """Bytes of the texts in a zip by name; empty for another file, and for a zip of an AFM."""
     if path.suffix.lower() != ".zip" or not zipfile.is_zipfile(path):
         return {}
+    refuse_large(path)
     try:
         with zipfile.ZipFile(path) as file:
             inside = {each.filename: each for each in file.infolist() if not each.is_dir()}
@@ -55,7 +56,7 @@ def _texts_in(path):
                 return {}
             _check_size(path.name, [inside[name].file_size for name in names])
             return {name: file.read(name) for name in sorted(names, key=_natural)}
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, IndexError) as error:
+    except (zipfile.BadZipFile, zlib.error, RuntimeError, IndexError) as error:
         raise MDRError(f"{path.name} cannot be unpacked, {error}: unpack it, and give its folder") from None
 
 

@@ -99,10 +99,7 @@ def test_a_workbook_that_unpacks_to_gigabytes_is_refused(tmp_path, monkeypatch):
         ValueError, match=r"run\.xlsx unpacks to 0\.006\d* GB, and at most 0\.005 GB are read"
     ):
         mdr.read_curves(path)
-    # One of an AFM has files that are no text.
-    archive = tmp_path / "run.zip"
-    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:
-        file.writestr("segments/0", bytes(6_000_000))
+    archive = path.rename(tmp_path / "run.zip")
     with pytest.raises(ValueError, match=r"run\.zip unpacks to 0\.006"):
         mdr.read_curves(archive)
 
