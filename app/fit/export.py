@@ -110,6 +110,18 @@ def table_of(rows: list[Any], settings: dict[str, str], moduli: tuple[Any, Any] 
     return table.sample_modulus(*moduli) if moduli else table
 
 
+def curves_csv(table: mdr.CurveTable) -> str:
+    """Return a table as CSV below its settings and its summary."""
+    frame, head = table.to_pandas(), [f"{name}: {text}" for name, text in table.settings.items()]
+    head += table.summary().to_csv(lineterminator="\n").splitlines()
+    rows = ([number, *map(_cell, row)] for number, row in enumerate(frame.itertuples(index=False), 1))
+    return tables.as_csv(head, [["curve", *frame.columns], *rows])
+
+
+def _cell(value: Any) -> Any:
+    return None if isinstance(value, float) and np.isnan(value) else value
+
+
 def rounded(value: float, error: float | None) -> float:
     """Return a number in the digits that are shown: two of its error, or four without one.
 

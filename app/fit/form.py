@@ -2,6 +2,7 @@
 
 from functools import partial
 from math import inf
+from pathlib import Path
 from typing import Any
 
 import panel as pn
@@ -10,11 +11,14 @@ from markupsafe import Markup
 from mdr_core.measurements.reading import SIZES
 from mdr_core.show.units import written
 
-from ..common.upload import CURVE_BYTES, TIP_BYTES, Uploads
+from ..common.errors import Refused
+from ..common.folders import Files
+from ..common.process import Here, Worker
+from ..common.upload import CURVE_BYTES, TIP_BYTES, Uploads, in_line
 from ..ui import WIDE, html, show
 from . import texts
 from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, IN_TIME, MEDIA, MODULI, NUMBERS, TIPS
-from .widgets import FileField, UnitInput, button, fold, select, show_errors
+from .widgets import ERROR, FileField, UnitInput, button, fold, select, show_errors
 
 _PART, _GROUP = Markup("<h2>{}</h2>"), Markup('<h3 class="group">{}</h3>')
 _FILE = Markup("<b>{}</b>{}: {} samples")
@@ -29,19 +33,22 @@ _BY = {
     "curves where the depth starts anew": "restart",
 }
 _CHOOSE = {"choose": ""}
+#: Beginnings of the suffixes of files that are no tables.
+_AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
 
 
 class Form:
     """The left column of a page."""
 
     def __init__(self, page: Any):
-        uploads = Uploads()
+        uploads, self._page = Uploads(), page
+        self._tip_files, self._tip_worker = Files(), Worker() if page.host.processes else Here()
         self.drop = FileField(
             uploads, CURVE_BYTES, partial(page.do, page.take_file), page.refuse,
             label=f"Drop files of depth and force here (up to {CURVE_BYTES / 1e6:g} MB)",
         )  # fmt: skip
         self.tip_file = FileField(
-            uploads, TIP_BYTES, partial(page.do, page.take_tip), page.refuse_tip,
+            uploads, TIP_BYTES, partial(page.do, self.take_tip), self.refuse_tip,
             label="Drop the file of the tip, radii and heights, here", visible=False,
         )  # fmt: skip
         self.about, self.errors, self.tip_about = html("", "note"), pn.Column(**WIDE), html("", "note")
@@ -85,6 +92,38 @@ class Form:
             fold("What the number assumes", html(texts.HELP)),
         ]  # fmt: skip
         return show_errors(pn.Column(*parts, css_classes=["asked"], width=360, margin=0))
+
+    async def take_tip(self, name: str, data: bytes, began: float) -> None:
+        """Read a measured tip, beside a job on the curve."""
+        name = in_line(name)
+        show(self.tip_about, object=f"Reading {name} …")
+        try:
+            path = self._tip_files.keep(data)
+            self.tip_samples, note = await self._tip_worker.run("common.tip.read", path, name)
+        except Refused as error:
+            self.refuse_tip(error.text)
+        else:
+            show(self.tip_about, object=note)
+            await self._page.fit()
+
+    def refuse_tip(self, text: str) -> None:
+        """Show why the file of a tip was not taken; the tip before it stays."""
+        stays = "" if self.tip_samples is None else "; the tip before it stays"
+        show(self.tip_about, object=ERROR.format(texts.sentence(f"{text.rstrip('.')}{stays}")))
+
+    @property
+    def is_afm(self) -> bool:
+        """Whether the file of the page is no table."""
+        page = self._page
+        if page.curve is not None:
+            return page.curve.source.startswith("as afmformats")
+        first = page.path if isinstance(page.path, str) else page.path[0]
+        return page.question is None and Path(first).suffix.lower().startswith(_AFM)
+
+    def close(self) -> None:
+        """End the process that reads a tip, and remove its file."""
+        self._tip_worker.stop()
+        self._tip_files.clear()
 
     # What is chosen.
 
@@ -201,11 +240,11 @@ class Form:
 
     def _show_reader(self, page: Any) -> None:
         """Show how the file is read, opened if something is missing."""
-        is_table, wanted = page.table is not None, page.wanted
-        show(self.reader, visible=is_table or bool(wanted) or page.is_afm)
+        is_table, wanted, is_afm = page.table is not None, page.wanted, self.is_afm
+        show(self.reader, visible=is_table or bool(wanted) or is_afm)
         if wanted:
             show(self.reader, collapsed=False)
-        show(self.columns.view, visible=is_table and not page.is_afm)
+        show(self.columns.view, visible=is_table and not is_afm)
         show(self.columns.confirm, visible=page.question is not None)
 
     def show_about(self, page: Any) -> None:

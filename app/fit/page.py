@@ -24,7 +24,6 @@ from .actions import Actions
 from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, MEDIA, NUMBERS
 from .form import Form
 from .results import Results
-from .texts import sentence
 from .widgets import ERROR
 
 _BOTH = {"sizing_mode": "stretch_both", "margin": 0}
@@ -34,16 +33,10 @@ _LANDMARKS = {
     "asked": ("complementary", "Curve, tip and sample"),
     "found": ("main", "Result"),
 }
-#: Beginnings of the suffixes of files that are no tables.
-_AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
 #: Most curves that are fitted by one job.
 _CURVES = 100
 #: Seconds after a file in which others come that were dropped together with it, as one set.
 _TOGETHER = 0.7
-
-
-def _nothing() -> None:
-    pass
 
 
 class Measurement(Actions):
@@ -57,8 +50,9 @@ class Measurement(Actions):
         # The file or the set, its path or paths on the server, the name of the example that it is, and when
         # it was taken (s).
         self.file, self.path, self._example, self._taken_at = "", "", "", -_TOGETHER
-        self._files, self._tip_files = Files(), Files()
-        self._prevent_reading: Callable[[], None] = _nothing
+        self._files = Files()
+        # What prevents that a set is read, None if that does not wait.
+        self._waiting: Callable[[], None] | None = None
         #: Columns and what parts curves, as the reader is given them; and for tables with known heads.
         self.options: dict[str, Any] = {}
         self._known: dict[Any, tuple[dict[str, Any], dict[str, float]]] = {}
@@ -76,7 +70,6 @@ class Measurement(Actions):
         # Samples that are fitted, () for those of the kind of sample, which was the last one.
         self._samples: tuple[int, ...] = ()
         self._medium = ""
-        self._tip_worker = Worker() if self.host.processes else Here()
         self.form, self.results = Form(self), Results(self)
         self._view()
         self._open(query.read(link))
@@ -104,9 +97,8 @@ class Measurement(Actions):
     def close(self) -> None:
         """End the process, and remove the files."""
         self.worker.stop()
-        self._tip_worker.stop()
         self._files.clear()
-        self._tip_files.clear()
+        self.form.close()
 
     def message(self, text: str, remedy: tuple[Any, ...] = ()) -> Refused:
         """Return a text with the name of the file that was dropped, instead of that of the kept one."""
@@ -186,47 +178,22 @@ class Measurement(Actions):
     def _take_together(self, name: str, data: bytes) -> None:
         """Read a file with those that were dropped before it, once no further one follows."""
         self.stop()
-        self._prevent_reading()
-        self._prevent_reading = _nothing
+        if self._waiting:
+            self._waiting()
+        self._waiting = None
         self.curve, self.question, self.found, self.count, self.path = None, None, None, 0, ""
         self._files.add(data, name)
         self.path = [*self._files.paths]
         self.file, self.busy = f"{len(self.path)} files", f"Taking {len(self.path)} files"
         # All of the page once, and then the number of files.
         (self.show if len(self.path) == 2 else self.results.show_headline)()
-        self._prevent_reading = self.host.later(self._read_together, round(1000 * _TOGETHER))
+        self._waiting = self.host.later(self._read_together, round(1000 * _TOGETHER))
 
     def _read_together(self) -> None:
-        self._prevent_reading = _nothing
+        self._waiting = None
         self.do(self.read)
 
-    async def take_tip(self, name: str, data: bytes, began: float) -> None:
-        """Read a measured tip, beside a job on the curve."""
-        name = in_line(name)
-        show(self.form.tip_about, object=f"Reading {name} …")
-        try:
-            path = self._tip_files.keep(data)
-            self.form.tip_samples, note = await self._tip_worker.run("common.tip.read", path, name)
-        except Refused as error:
-            self.refuse_tip(error.text)
-        else:
-            show(self.form.tip_about, object=note)
-            await self.fit()
-
-    def refuse_tip(self, text: str) -> None:
-        """Show why the file of a tip was not taken; the tip before it stays."""
-        stays = "" if self.form.tip_samples is None else "; the tip before it stays"
-        show(self.form.tip_about, object=ERROR.format(sentence(f"{text.rstrip('.')}{stays}")))
-
     # Reading.
-
-    @property
-    def is_afm(self) -> bool:
-        """Whether the file is no table."""
-        if self.curve is not None:
-            return self.curve.source.startswith("as afmformats")
-        first = self.path if isinstance(self.path, str) else self.path[0]
-        return self.question is None and Path(first).suffix.lower().startswith(_AFM)
 
     @property
     def table(self) -> Any:

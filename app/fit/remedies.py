@@ -49,7 +49,7 @@ def remedy_button(remedy: Remedy, page: Any) -> Any:
             return button(f"Subtract a drift of {drift}", partial(set_number, si=value))
         case "give" if what == "profile":
             return _leading(page, "Choose another tip", "profile")
-        case "give" | "unit" if page.table is not None and not page.is_afm:
+        case "give" | "unit" if page.table is not None and not page.form.is_afm:
             return _of_table(remedy, page)
         case "part" if page.curve is not None and page.part != what and what in ("loading", "unloading"):
             return button(f"Take the {what}", partial(page.do, page.part_chosen, what))

@@ -108,24 +108,29 @@ class Results:
         self.all = button("Fit all", partial(page.do, page.fit_all))
         self.progress = pn.indicators.Progress(value=0, max=1, visible=False, margin=0, width=220)
         self.summary, self.list = html("", "note"), html("", "curves", visible=False)
-        files = {"CSV": (StringIO, "to_csv", "csv"), "Excel": (BytesIO, "to_excel", "xlsx")}
-        self.curves_files = pn.Row(css_classes=["tools"], visible=False, sizing_mode=None, margin=0)
-        for name, (kind, write, suffix) in files.items():
-            # A static page has no package that writes Excel files.
-            if suffix == "csv" or find_spec("openpyxl"):
-                saved = partial(self._saved, kind, write)
-                self.curves_files.append(download(f"All as {name}", saved, filename=f"curves.{suffix}"))
+        csv = download(
+            "All as CSV", lambda: StringIO(export.curves_csv(self._table())), filename="curves.csv"
+        )
+        excel = download("All as Excel", self._excel, filename="curves.xlsx")
+        # A static page has no package that writes Excel files.
+        excel.visible = find_spec("openpyxl") is not None
+        files = {"visible": False, "sizing_mode": None, "margin": 0}
+        self.curves_files = pn.Row(csv, excel, css_classes=["tools"], **files)
         tools = self.number, self.all, self.progress, self.curves_files
         bar = pn.Row(*tools, css_classes=["tools"], **WIDE)
         self.all_curves = AllCurves()
         parts = bar, self.summary, self.list, self.all_curves.view
         self.several = pn.Column(*parts, css_classes=["several"], visible=False, **WIDE)
 
-    def _saved(self, kind: Any, write: str) -> Any:
-        """Return a file of all curves that are fitted."""
-        page, file = self._page, kind()
+    def _table(self) -> mdr.CurveTable:
+        """Return all curves that are fitted, as a table."""
+        page = self._page
         settings = {"made by": f"mdr_core {mdr.__version__}", "file": page.file} | page.form.settings()
-        getattr(export.table_of(page.rows, settings, page.form.materials()), write)(file)
+        return export.table_of(page.rows, settings, page.form.materials())
+
+    def _excel(self) -> BytesIO:
+        file = BytesIO()
+        self._table().to_excel(file)
         file.seek(0)
         return file
 

@@ -342,6 +342,15 @@ class MeasuredCurves(Sequence[MeasuredCurve]):
     #: Reasons why files of a set are not read, by their names.
     unread: dict[str, Remark] = field(default_factory=dict)
 
+    @classmethod
+    def joined(cls, name: str, files: "dict[str, MeasuredCurves]", unread: dict[str, Remark]) -> Self:
+        """The curves of several files, by the names of these, as one; `unread` are reasons of others."""
+        positions = [each.position for each in files.values() if each.position is not None]
+        position = frozen(np.concatenate(positions)) if len(positions) == len(files) else None
+        makers = [make for each in files.values() for make in each._makers]
+        places = [(file, i) for file, each in files.items() for i in range(1, len(each) + 1)]
+        return cls(name, position, makers, places, unread)
+
     def __repr__(self) -> str:
         unread = f"; {len(self.unread)} files are not read, see .unread" if self.unread else ""
         return f"MeasuredCurves: {len(self)} of {self.name}{unread}"

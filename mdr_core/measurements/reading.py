@@ -8,8 +8,6 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ..base import check
 from ..base.remark import MeasurementError, Remark, Remedy
 from ..show.progress import progress
@@ -183,20 +181,8 @@ def read_curves(
     name, files = found
     with progress(len(files), "files") as done:
         curves, unread = curves_of_set(files, options, done)
-    return _joined(name, curves, {each: Remark.of(error, "invalid") for each, error in unread.items()})
-
-
-def _joined(name, curves, unread):
-    """The curves of several files, by the names of these, as one."""
-    positions = [each.position for each in curves.values()]
-    known = all(each is not None for each in positions)
-    return MeasuredCurves(
-        name,
-        check.frozen(np.concatenate(positions)) if known else None,
-        [make for each in curves.values() for make in each._makers],
-        [(file, i) for file, each in curves.items() for i in range(1, len(each) + 1)],
-        unread,
-    )
+    reasons = {each: Remark.of(error, "invalid") for each, error in unread.items()}
+    return MeasuredCurves.joined(name, curves, reasons)
 
 
 def _of_path(path, options):

@@ -34,7 +34,7 @@ def take_file(page, name, data):
 
 
 def take_tip(page, name, data):
-    page.do(page.take_tip, name, data, inf)
+    page.do(page.form.take_tip, name, data, inf)
 
 
 def take_sample(page, name):

@@ -8,7 +8,8 @@ import pytest
 import mdr_core as mdr
 from app import tables
 from app.extras import share
-from app.fit.export import curves_csv
+from app.fit.analysis import Row
+from app.fit.export import curves_csv, table_of
 from app.state import preset_state
 
 from .states import view_of
@@ -23,8 +24,8 @@ NAMES = (
 @pytest.mark.parametrize("delimiter", [",", ";"])
 def test_no_cell_of_somebodys_text_is_a_formula(delimiter):
     for name in NAMES:
-        rows = [(0, 1e9, 2e7, name), (1, None, None, f"no contact in {name}")]
-        text = curves_csv(name, rows)
+        rows = [Row(name, E=1e9, E_error=2e7), Row("2", reason=f"{name}: no contact")]
+        text = curves_csv(table_of(rows, {"file": name}, None))
         for row in csv.reader(text.splitlines(), delimiter=delimiter):
             for cell in row:
                 assert not cell.startswith(("=", "+", "-", "@", "\t")), cell

@@ -125,8 +125,9 @@ class CurveTable:
                 row += len(part) + 2
 
     def _written(self):
-        """The table, without names of files that a program for spreadsheets takes for a formula."""
-        return self.to_pandas().replace({"file": {r"^(?=[=+\-@])": "'"}}, regex=True)
+        """The table without texts that a program for spreadsheets takes for a formula, as "=1+1.csv"."""
+        texts = {name: {r"^(?=[=+\-@])": "'"} for name in ("file", "reason", "remarks")}
+        return self.to_pandas().replace(texts, regex=True)
 
     def plot(self) -> Any:
         """Force over depth of all curves as a HoloViews element."""
