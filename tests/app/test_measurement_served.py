@@ -262,7 +262,7 @@ def test_files_that_are_dropped_together_are_fitted_together_and_saved(measureme
     (tmp_path / "notes.txt").write_text("nothing")
     drop(measurement, *files, tmp_path / "notes.txt")
     page.get_by_text("11 files, curve 1 of 10: 400 samples").wait_for()
-    assert page.get_by_text("Not read: notes.txt").is_visible()
+    page.get_by_text("Not read: notes.txt").wait_for()
     page.get_by_label("Tip", exact=True).select_option(label="Berkovich or Vickers (cone of 70.3°)")
     page.get_by_text("Give the sample", exact=True).wait_for()
     page.get_by_label("Sample", exact=True).select_option(
@@ -272,7 +272,7 @@ def test_files_that_are_dropped_together_are_fitted_together_and_saved(measureme
     page.get_by_text("10 of 10 curves fitted; E* = 75 ± 30 GPa, mean ± standard deviation of 10").wait_for()
     names = page.locator(".curves th").all_inner_texts()
     assert names == ["curve", *(f"run_{k}.csv" for k in range(1, 11))]
-    assert page.get_by_role("figure", name="All curves").is_visible()
+    page.get_by_role("figure", name="All curves").wait_for()
     for kind, write in (("CSV", pandas.read_csv), ("Excel", pandas.read_excel)):
         with page.expect_download() as saved:
             page.get_by_role("button", name=f"All as {kind}").click()
