@@ -270,9 +270,10 @@ def test_files_that_are_dropped_together_are_fitted_together_and_saved(measureme
     )
     page.get_by_role("button", name="Fit all 10").click()
     page.get_by_text("10 of 10 curves fitted; E* = 75 ± 30 GPa, mean ± standard deviation of 10").wait_for()
+    # The list is there when all is done.
+    page.get_by_role("figure", name="All curves").wait_for()
     names = page.locator(".curves th").all_inner_texts()
     assert names == ["curve", *(f"run_{k}.csv" for k in range(1, 11))]
-    page.get_by_role("figure", name="All curves").wait_for()
     for kind, write in (("CSV", pandas.read_csv), ("Excel", pandas.read_excel)):
         with page.expect_download() as saved:
             page.get_by_role("button", name=f"All as {kind}").click()
