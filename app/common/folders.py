@@ -61,7 +61,7 @@ class Files:
 
 def safe_name(name: str) -> str:
     """Name of a file without what a system could take for something else, and of a length that all take."""
-    path = Path(re.sub(r"[^\w. -]", "_", name.replace("/", " ")).strip(". "))
+    path = Path(re.sub(r"[^\w. #+,;=@()&-]", "_", name.replace("/", " ")).strip(". "))
     return f"{path.stem[:40] or 'file'}{path.suffix[:20]}"
 
 

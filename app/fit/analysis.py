@@ -60,6 +60,8 @@ class Row(NamedTuple):
     """A curve of several: its name and place, E* and H with their errors (Pa) or None, why, and samples."""
 
     name: str
+    file: str = ""
+    number: int = 1
     position: Any = None
     E: float | None = None
     E_error: float | None = None
@@ -190,7 +192,8 @@ def fit_all(
     files = Counter(file for file, _ in curves.places)
     for i, (file, number) in list(enumerate(curves.places))[first:last]:
         alone = len(files) > 1 and files[file] == 1
-        row = Row(file if alone else f"{file}, {number}" if len(files) > 1 else f"{number}")
+        name = file if alone else f"{file}, {number}" if len(files) > 1 else f"{number}"
+        row = Row(name, file, number)
         try:
             curve = curves[i]
             step = -(-len(curve) // _DRAWN)

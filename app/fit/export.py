@@ -102,7 +102,7 @@ def table_of(rows: list[Any], settings: dict[str, str], moduli: tuple[Any, Any] 
     columns = {name: [getattr(row, name) for row in rows] for name in ("E", "E_error", "H", "H_error")}
     E, E_error, H, H_error = (np.array(column, float) for column in columns.values())
     table = mdr.CurveTable(
-        settings=settings, file=[row.name for row in rows], number=[*range(1, len(rows) + 1)],
+        settings=settings, file=[row.file for row in rows], number=[row.number for row in rows],
         E_star=E, E_star_error=E_error, hardness=H, hardness_error=H_error,
         quoted=[row.source for row in rows], reason=[row.reason for row in rows],
         remarks=[""] * len(rows), results=[],
@@ -114,8 +114,8 @@ def curves_csv(table: mdr.CurveTable) -> str:
     """Return a table as CSV below its settings and its summary."""
     frame, head = table.to_pandas(), [f"{name}: {text}" for name, text in table.settings.items()]
     head += table.summary().to_csv(lineterminator="\n").splitlines()
-    rows = ([number, *map(_cell, row)] for number, row in enumerate(frame.itertuples(index=False), 1))
-    return tables.as_csv(head, [["curve", *frame.columns], *rows])
+    rows = ([*map(_cell, row)] for row in frame.itertuples(index=False))
+    return tables.as_csv(head, [[*frame.columns], *rows])
 
 
 def _cell(value: Any) -> Any:

@@ -45,7 +45,7 @@ class Form:
         self._tip_files, self._tip_worker = Files(), Worker() if page.host.processes else Here()
         self.drop = FileField(
             uploads, CURVE_BYTES, partial(page.do, page.take_file), page.refuse,
-            label=f"Drop files of depth and force here (up to {CURVE_BYTES / 1e6:g} MB)",
+            label=f"Drop files of depth and force, or a zip (up to {CURVE_BYTES / 1e6:g} MB)",
         )  # fmt: skip
         self.tip_file = FileField(
             uploads, TIP_BYTES, partial(page.do, self.take_tip), self.refuse_tip,

@@ -126,6 +126,8 @@ class Results:
         """Return all curves that are fitted, as a table."""
         page = self._page
         settings = {"made by": f"mdr_core {mdr.__version__}", "file": page.file} | page.form.settings()
+        if page.unread:
+            settings["files not read"] = "; ".join(page.unread)
         return export.table_of(page.rows, settings, page.form.materials())
 
     def _excel(self) -> BytesIO:
@@ -286,7 +288,9 @@ class Results:
         page = self._page
         running = bool(page.busy) and bool(page.rows)
         show(self.progress, visible=running, max=max(page.count, 1), value=len(page.rows))
-        show(self.summary, object=texts.curves_summary(page.rows, page.count))
+        young = self._table().E if page.rows and page.form.materials() else None
+        found = [] if young is None else young.tolist()
+        show(self.summary, object=texts.curves_summary(page.rows, page.count, found))
 
     def fill(self, column: Any, remarks: Any, form: Markup = _REMARK) -> None:
         """Show remarks below each other, each with buttons for what one can do about it."""

@@ -174,13 +174,17 @@ def _found(value: float | None, error: float | None) -> str:
     return "–" if value is None else amount(value, error, "Pa")
 
 
-def curves_summary(rows: list[Any], count: int) -> str:
-    """Return how many curves are fitted, mean and standard deviation of E* and H, and the medians."""
+def curves_summary(rows: list[Any], count: int, young: list[float]) -> str:
+    """Return how many curves are fitted, mean and standard deviation of E*, H and E, and the medians.
+
+    `young` are Young's moduli (Pa) of the sample, NaN for a curve without one.
+    """
     if not rows:
         return ""
     parts = [f"{len(rows)} of {count} curves fitted"]
-    for symbol, values in (("E*", [row.E for row in rows]), ("H", [row.H for row in rows])):
-        found = [value for value in values if value is not None]
+    columns = {"E*": [row.E for row in rows], "E": young, "H": [row.H for row in rows]}
+    for symbol, values in columns.items():
+        found = [value for value in values if value is not None and np.isfinite(value)]
         if found:
             mean = amount(
                 float(np.mean(found)), float(np.std(found, ddof=1)) if len(found) > 1 else None, "Pa"

@@ -352,7 +352,8 @@ class MeasuredCurves(Sequence[MeasuredCurve]):
         return cls(name, position, makers, places, unread)
 
     def __repr__(self) -> str:
-        unread = f"; {len(self.unread)} files are not read, see .unread" if self.unread else ""
+        count = len(self.unread)
+        unread = f"; {count} file{'s are' if count > 1 else ' is'} not read, see .unread" if count else ""
         return f"MeasuredCurves: {len(self)} of {self.name}{unread}"
 
     @property

@@ -24,7 +24,7 @@ NAMES = (
 @pytest.mark.parametrize("delimiter", [",", ";"])
 def test_no_cell_of_somebodys_text_is_a_formula(delimiter):
     for name in NAMES:
-        rows = [Row(name, E=1e9, E_error=2e7), Row("2", reason=f"{name}: no contact")]
+        rows = [Row("1", name, E=1e9, E_error=2e7), Row("2", name, reason=f"{name}: no contact")]
         text = curves_csv(table_of(rows, {"file": name}, None))
         for row in csv.reader(text.splitlines(), delimiter=delimiter):
             for cell in row:

@@ -77,7 +77,7 @@ def test_a_question_is_asked_once_for_all_files_with_the_same_heads(tmp_path):
         (tmp_path / f"a{k}.csv").write_text(table(k + 1, "Tiefe (nm),Kraft (mN)\n"), encoding="utf-8")
     (tmp_path / "b.csv").write_text(table(5, "Weg (nm),Last (mN)\n"), encoding="utf-8")
     (tmp_path / "c.csv").write_text(table(6), encoding="utf-8")
-    with pytest.raises(mdr.UnknownColumns, match="3 files have these heads") as error:
+    with pytest.raises(mdr.UnknownColumns, match="3 files have this header") as error:
         mdr.read_curves(tmp_path)
     curves = mdr.read_curves(tmp_path, **error.value.suggestion)
     assert list(curves.unread) == ["b.csv"]
@@ -102,7 +102,7 @@ def test_constants_of_a_cantilever_hold_for_all_files(tmp_path):
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        (lambda files: [], "has no files"),
+        (lambda files: [], "has no files.*give a folder"),
         (lambda files: str(files / "*.tdms"), "has no files"),
         (lambda files: [files / "notes.txt"], "no samples"),
         (lambda files: [files / NAMES[0]] * 1001, "at most 1000"),
@@ -183,8 +183,8 @@ def test_a_table_has_a_row_for_each_curve_and_what_is_quoted(evaluate, tmp_path)
     assert summary.loc["E*", "standard deviation"] == approx(np.std(E, ddof=1), rel=1e-9)
     assert summary.loc["E*", "lower quartile"] == approx((E[0] + E[1]) / 2, rel=1e-9)
     table.to_csv(tmp_path / "table.csv")
-    again = pandas.read_csv(tmp_path / "table.csv", comment="#", index_col=0)
-    assert again["E"].tolist()[:3] == approx(sample, rel=1e-9)
+    again = pandas.read_csv(tmp_path / "table.csv", comment="#")
+    assert again["E of the sample (Pa)"].tolist()[:3] == approx(sample, rel=1e-9)
     head = (tmp_path / "table.csv").read_text(encoding="utf-8")
     assert "# sample: Poisson ratio 0.2, tip with 1.141 TPa and 0.07" in head
     pytest.importorskip("openpyxl")
@@ -195,6 +195,19 @@ def test_a_table_has_a_row_for_each_curve_and_what_is_quoted(evaluate, tmp_path)
     assert any(each == approx(E[2], rel=1e-14) for each in numbers)
 
 
+def test_a_table_says_what_is_missing_and_what_is_doubted(files, tmp_path):
+    """Files that are not read, curves without a result, and units that no material has."""
+    curves = mdr.read_curves(files)
+    table = mdr.oliver_pharr(TIP, [*curves, FLAT])
+    told = mdr.oliver_pharr(TIP, curves).settings
+    assert "notes.txt" in told["files not read"]
+    assert "none 1" in str(table)
+    soft = mdr.oliver_pharr(TIP, [mdr.MeasuredCurve(1e3 * PATH, LOAD, name=f"{k}.csv") for k in range(3)])
+    assert "3 of 3 curves: E* = " in str(soft)
+    soft.to_csv(tmp_path / "soft.csv")
+    assert "# remark units: 3 of 3 curves" in (tmp_path / "soft.csv").read_text(encoding="utf-8")
+
+
 def test_a_name_of_a_file_is_no_formula_in_a_table(tmp_path):
     openpyxl = pytest.importorskip("openpyxl")
     table = mdr.oliver_pharr(TIP, [mdr.MeasuredCurve(PATH, LOAD, name="=1+1.csv")])
@@ -203,7 +216,7 @@ def test_a_name_of_a_file_is_no_formula_in_a_table(tmp_path):
     assert "'=1+1.csv" in [cell.value for cell in cells]
     assert not any(cell.data_type == "f" for cell in cells)
     table.to_csv(tmp_path / "table.csv")
-    assert ",'=1+1.csv," in "," + (tmp_path / "table.csv").read_text(encoding="utf-8").replace("\n", ",")
+    assert "\n'=1+1.csv," in (tmp_path / "table.csv").read_text(encoding="utf-8")
 
 
 def drawn(overlay, label):

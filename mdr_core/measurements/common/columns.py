@@ -1,6 +1,7 @@
 """The columns of measured curves that are given as arrays, or as curves that were read from a file."""
 
 from dataclasses import dataclass, field
+from os import PathLike
 from types import EllipsisType
 from typing import Any
 
@@ -30,6 +31,15 @@ class Columns:
     unread: dict[int, Remark] = field(default_factory=dict)
     stiffness: Any = None
     places: tuple[tuple[str, int], ...] = ()
+    about: dict[str, str] = field(default_factory=dict)
+
+
+def unread_of(curves):
+    """What a table says of files that are not read."""
+    unread = getattr(curves, "unread", {})
+    return (
+        {"files not read": "; ".join(f"{name}: {each}" for name, each in unread.items())} if unread else {}
+    )
 
 
 def columns_of(depth, force, time, *, skip=False):
@@ -48,6 +58,10 @@ def columns_of(depth, force, time, *, skip=False):
     if are_curves(depth):
         _refuse_force(force)
         return _of_many(depth, time, skip)
+    if isinstance(depth, str | PathLike):
+        raise check.MDRError(
+            f"depth is a path, {str(depth)!r}: read it first, by read_curve or read_curves"
+        )
     if force is None:
         raise check.MDRError(
             "force is missing: give depth and force, or a MeasuredCurve in the place of depth"
@@ -107,6 +121,7 @@ def _of_many(curves, time, skip):
         remarks,
         unread,
         places=tuple(places_of(curves)),
+        about=unread_of(curves),
     )
 
 

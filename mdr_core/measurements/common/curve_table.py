@@ -1,5 +1,6 @@
 """A table of E* and H of many curves, with the source of each modulus and the reason for it."""
 
+from collections import Counter
 from dataclasses import dataclass, fields, replace
 from os import PathLike
 from pathlib import Path
@@ -8,7 +9,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, TextIO
 import numpy as np
 
 from ...base.check import Array, frozen
-from ...base.remark import Remark
+from ...base.remark import KINDS, Remark
 from ...show.measured import plot_measured
 from ...show.progress import progress
 from ...show.quantities import described, engineering
@@ -17,6 +18,15 @@ from .sample import sample_modulus
 
 if TYPE_CHECKING:
     import pandas
+
+#: Kinds of remarks that are no doubt about a number.
+_NO_DOUBT = {"taken", "changed", "left out", "errors", "constant"}
+#: Heads of columns in files, with their units.
+_HEADS = {
+    "E_star": "E* (Pa)", "E_star_error": "standard error of E* (Pa)", "hardness": "hardness H (Pa)",
+    "hardness_error": "standard error of H (Pa)", "quoted": "source of E*", "E": "E of the sample (Pa)",
+    "E_error": "standard error of E (Pa)",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -31,14 +41,16 @@ class CurveTable:
     >>> F = mdr.indent(mdr.Cone(slope=0.3), mdr.Medium(E_star=10e9), d).force
     >>> curves = [mdr.MeasuredCurve(d, k * F, name=f"{k}.txt") for k in (1, 2, 3)]
     >>> table = mdr.oliver_pharr(mdr.Cone(slope=0.3), curves, epsilon=2 - 4 / np.pi)
-    >>> print(table.sample_modulus(nu=0.3))
+    >>> for line in str(table.sample_modulus(nu=0.3)).splitlines()[:8]:
+    ...     print(line)
     CurveTable: 3 curves
       tip                      Cone, s 0.3
       method                   Oliver and Pharr, ε = 0.72676, β = 1
       sample                   Poisson ratio 0.3, rigid tip
-      E*                       20 ± 10 GPa, mean ± standard deviation of 3 curves
-      hardness                 3.0 ± 1.5 GPa, mean ± standard deviation of 3 curves
-      E                        18.2 ± 9.1 GPa, mean ± standard deviation of 3 curves
+      E*                       20 ± 10 GPa, mean ± standard deviation of 3 of 3 curves
+      hardness                 3.0 ± 1.5 GPa, mean ± standard deviation of 3 of 3 curves
+      E                        18.2 ± 9.1 GPa, mean ± standard deviation of 3 of 3 curves
+      source of E*             unloading 3
     """
 
     #: The tip, the method, and constants, in words.
@@ -51,7 +63,7 @@ class CurveTable:
     E_star_error: Array
     hardness: Array
     hardness_error: Array
-    #: Source of E*, "unloading", "fit" or nothing, and the reason.
+    #: Source of E*, "unloading", "fit" or nothing, and the reason. H is by Oliver and Pharr.
     quoted: list[str]
     reason: list[str]
     remarks: list[str]
@@ -65,12 +77,26 @@ class CurveTable:
         return len(self.file)
 
     def __repr__(self) -> str:
-        return lines_of(f"CurveTable: {len(self)} curves", [*self.settings.items(), *self._means()])
+        rows = [*self.settings.items(), *self._means(), *self._doubts()]
+        return lines_of(f"CurveTable: {len(self)} curves", [(name, f"{text:.200}") for name, text in rows])
 
     def _means(self):
         for name, row in self._summary().items():
             mean = with_error(row["mean"], row["standard deviation"], "Pa")
-            yield name, f"{mean}, mean ± standard deviation of {row['n']} curves"
+            yield name, f"{mean}, mean ± standard deviation of {row['n']} of {len(self)} curves"
+
+    def _doubts(self):
+        """Sources of E*, and of each kind of remark that is a doubt the first one, with their numbers."""
+        sources = Counter(self.quoted).most_common()
+        yield "source of E*", ", ".join(f"{name or 'none'} {count}" for name, count in sources)
+        found: dict[str, list[Remark]] = {kind: [] for kind in KINDS if kind not in _NO_DOUBT}
+        for each in self.results:
+            own = (each,) if isinstance(each, Remark) else each.remarks
+            for kind in {remark.kind for remark in own} & found.keys():
+                found[kind].append(next(remark for remark in own if remark.kind == kind))
+        for kind, remarks in found.items():
+            if remarks:
+                yield f"remark {kind}", f"{len(remarks)} of {len(self)} curves: {remarks[0]}"
 
     def _summary(self):
         """Statistics of each quantity that a curve has."""
@@ -102,14 +128,15 @@ class CurveTable:
 
     def summary(self) -> "pandas.DataFrame":
         """Number of curves, mean, standard deviation, median and quartiles (Pa) of E*, H and E."""
-        return imported("pandas", "summary()").DataFrame.from_dict(self._summary(), orient="index")
+        table = imported("pandas", "summary()").DataFrame.from_dict(self._summary(), orient="index")
+        return table.rename_axis("in Pa")
 
     def to_csv(self, file: str | PathLike[str] | TextIO) -> None:
         """Write the table as CSV, after lines with settings and summary, which begin with #."""
-        head = "".join(f"# {name}: {text}\n" for name, text in self.settings.items())
-        summary = self.summary().to_csv(lineterminator="\n")
-        head += "".join(f"# {line}\n" for line in summary.splitlines())
-        text = head + self._written().to_csv(lineterminator="\n")
+        head = [f"{name}: {text}" for name, text in (*self.settings.items(), *self._doubts())]
+        head += self.summary().to_csv(lineterminator="\n").splitlines()
+        text = "".join(f"# {line}\n" for line in head)
+        text += self._written().to_csv(lineterminator="\n", index=False)
         if isinstance(file, str | PathLike):
             Path(file).write_text(text, encoding="utf-8", newline="\n")
         else:
@@ -118,16 +145,20 @@ class CurveTable:
     def to_excel(self, file: str | PathLike[str] | BinaryIO) -> None:
         """Write settings, summary and table, one below the other, to a sheet of an Excel file."""
         imported("openpyxl", "to_excel()")
-        pandas, row = imported("pandas", "to_excel()"), 0
+        pandas = imported("pandas", "to_excel()")
+        head, summary = pandas.Series(self.settings | dict(self._doubts())), self.summary()
         with pandas.ExcelWriter(file, engine="openpyxl") as book:
-            for part in (pandas.Series(self.settings, name=""), self.summary(), self._written()):
-                part.to_excel(book, sheet_name="curves", startrow=row)
-                row += len(part) + 2
+            head.to_excel(book, sheet_name="curves", header=False)
+            summary.to_excel(book, sheet_name="curves", startrow=len(head) + 1)
+            below = len(head) + len(summary) + 3
+            self._written().to_excel(book, sheet_name="curves", startrow=below, index=False)
+            for column in "ABCDEFGH":
+                book.sheets["curves"].column_dimensions[column].width = 24
 
     def _written(self):
-        """The table without texts that a program for spreadsheets takes for a formula, as "=1+1.csv"."""
+        """The table with units, and no text that a spreadsheet takes for a formula, as "=1+1.csv"."""
         texts = {name: {r"^(?=[=+\-@])": "'"} for name in ("file", "reason", "remarks")}
-        return self.to_pandas().replace(texts, regex=True)
+        return self.to_pandas().replace(texts, regex=True).rename(columns=_HEADS)
 
     def plot(self) -> Any:
         """Force over depth of all curves as a HoloViews element."""

@@ -75,7 +75,8 @@ def _natural(path):
 
 def _check_size(name, sizes):
     if not sizes:
-        raise MDRError(f"{name} has no files: give a folder, a pattern or paths of one or more")
+        text = "give a folder with files, or a pattern as 'lab/*.txt', or 'lab/**/*.txt' for all below"
+        raise MDRError(f"{name} has no files: {text}")
     if len(sizes) > _FILES:
         raise MDRError(f"{name} has {len(sizes)} files, and at most {_FILES} are read: give a part of them")
     if sum(sizes) > _BYTES:

@@ -93,7 +93,7 @@ class UnknownColumns(MDRError):
         """The same question for a number of files with these heads."""
         again, (*given, options) = self.__reduce__()
         end = "" if f"{self.why}{self._hint}".endswith((".", "?")) else "."
-        return again(*given, options | {"hint": f"{self._hint}{end} {count} files have these heads"})
+        return again(*given, options | {"hint": f"{self._hint}{end} {count} files have this header"})
 
     def _with(self, suggestion):
         given = {"hint": self._hint, "results": self.results, "text": self._text, "remedy": self.remedy}

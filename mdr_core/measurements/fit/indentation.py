@@ -129,7 +129,9 @@ def fit_indentation(
             )
             done(rows.size)
     _refuse_all_invalid(reasons, len(measured.depth))
-    return collected(profile, measured, noise, solutions, reasons, columns.remarks, columns.places)
+    return collected(
+        profile, measured, noise, solutions, reasons, columns.remarks, columns.places, columns.about
+    )
 
 
 def _solutions(rows, curves, noise_known, reasons):

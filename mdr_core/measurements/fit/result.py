@@ -80,6 +80,8 @@ class IndentationFit(Fit):
     _lengths: np.ndarray
     #: File of each curve, and its number there, from 1 on.
     _places: tuple[tuple[str, int], ...]
+    #: What a table says of files that are not read.
+    _about: dict[str, str]
 
     _names = tuple(PARAMETERS)
     _zero_unless_asked = (*CLASSES.values(), "eta", "tilt", "drag", "work_of_adhesion")
@@ -210,7 +212,8 @@ class IndentationFit(Fit):
         held = {n: v for n, v in self._values().items() if n not in self.standard_errors and np.any(v)}
         quantities = {n: PARAMETERS[n].quantity for n in held}
         texts = [f"{q.symbol} = {engineering(held[n], q.unit)}" for n, q in quantities.items()]
-        settings = {"method": str(self.model)} | ({"held": ", ".join(texts)} if texts else {})
+        settings = {"method": f"{self.model}; hardness, and E* where it is quoted, by Oliver and Pharr"}
+        settings |= ({"held": ", ".join(texts)} if texts else {}) | self._about
         results = [self.invalid.get(i) or self[i] for i in range(len(self))] if self.shape else [self]
         return table_of(self.profile, self._places, results, settings)
 
@@ -333,7 +336,7 @@ def _medium(medium):
     return medium if np.isnan(medium.E_star).any() else Medium(**medium.__getstate__())
 
 
-def collected(profile, measured, depth_noise, solutions, reasons, read, places):
+def collected(profile, measured, depth_noise, solutions, reasons, read, places, about):
     """One result of the solutions, in the order of the curves; `reasons` are those of invalid ones.
 
     `read` are the remarks of curves that were read from files, `places` their files and numbers there.
@@ -368,6 +371,7 @@ def collected(profile, measured, depth_noise, solutions, reasons, read, places):
         _read=tuple(map(tuple, read)) or ((),) * count,
         _remarks=tuple(remarks),
         _lengths=measured.lengths,
+        _about=about,
         _places=tuple(places) or tuple(("", i) for i in range(1, count + 1)),
     )
     return fit[0] if measured.single else fit

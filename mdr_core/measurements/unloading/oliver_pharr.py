@@ -15,7 +15,7 @@ from ...solver.contact.integrals import integrals
 from ...solver.contact.live_interval import LiveInterval
 from ...solver.medium.medium import Medium
 from ...solver.profiles.profile import Profile
-from ..common.columns import Times, are_curves, arrays_of, columns_of, places_of
+from ..common.columns import Times, are_curves, arrays_of, columns_of, places_of, unread_of
 from ..common.curve_table import CurveTable, table_of
 from ..common.doubts import apart, doubts, of_ideal_tip, out_of_order, saturated
 from ..common.errors import roughness
@@ -144,7 +144,8 @@ def _table(profile, curves, time, constants):
                 results.append(Remark.of(error, "invalid"))
             done(1)
     method = f"Oliver and Pharr, ε = {epsilon:g}, β = {beta:g}"
-    return table_of(profile, places_of(curves), results, {"method": method})
+    settings = {"method": method} | unread_of(curves)
+    return table_of(profile, places_of(curves), results, settings)
 
 
 def _of_parts(profile, depth, force, time, constants, contact, cycles):
