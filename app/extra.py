@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from .courses import Course
 from .drives import Drive
-from .parts import Part
 from .plot import Overlay, Plot, View
 from .state import Entries, State
+
+if TYPE_CHECKING:
+    from .widgets import Part
 
 
 class Side(Protocol):

@@ -13,14 +13,13 @@ from markupsafe import Markup, escape
 from . import readouts
 from .courses import Course
 from .extra import EXTRAS, Side
-from .fields import Form
 from .figures import PLACES, Picture, drawn, legend, picture_of
-from .parts import Part, Parts, button, text
 from .plot import Plot, View
 from .plots import NAMED, PLOTS, visible
 from .quantities import QUANTITIES
 from .state import State
 from .ui import FULL, LAYOUT, WIDE, as_html, html, marked, show
+from .widgets import Form, Part, Parts, button, text
 
 #: Roles and names of the parts of the page, by their classes.
 LANDMARKS = {
@@ -30,6 +29,8 @@ LANDMARKS = {
     "share": ("region", "Share"),
 }
 _TITLE = text("name", Markup("<h1>Indentation explorer</h1>"), "name")
+#: The link to the page for measurements.
+_FIT = text("fit", Markup('<a href="?fit">Fit a measurement</a>'), "way")
 
 
 def _turned(state: State) -> State:
@@ -139,7 +140,7 @@ class Layout:
         self.header.show([_TITLE, preset, *undo, *redo, *opening])
         dark = button("Dark", partial(page.apply, _turned), pressed=view.state.dark)
         more = (each.header(page, view) for each in EXTRAS.values())
-        self.more.show([*filter(None, more), dark])
+        self.more.show([_FIT, *filter(None, more), dark])
         numbers = readouts.line(view.course)
         heads = text("heads", readouts.heads(numbers), "heads")
         page.messages.words = as_html(readouts.values(numbers, view.course.now))

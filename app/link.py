@@ -7,10 +7,24 @@ from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
 from .changes import equivalent, put
+from .common.units import in_full
 from .common.upload import MAX_SAMPLES
 from .courses import LAST_PROGRESS
 from .quantities import CHOICES, QUANTITIES
-from .state import LISTS, OF_EXTRAS, OPENING, State, checked, preset_state, used, used_by
+from .state import (
+    LISTS,
+    OF_EXTRAS,
+    OPENING,
+    PRESETS,
+    State,
+    altered,
+    checked,
+    formed,
+    preset_state,
+    regions,
+    used,
+    used_by,
+)
 
 #: Most characters of a link and of a text in it.
 MAX_LENGTH, _MAX_TEXT = 8000, 300
@@ -140,3 +154,37 @@ def _number(name: str, text: str) -> float:
         if isfinite(value := float(text)):
             return value
     raise ValueError(f"{name} = “{text:.40}” in this link is not a finite number")
+
+
+#: Letters of the name of a file, without what is in it: of 255 bytes, of which some letters take two.
+_LONGEST = 100
+
+
+def with_symbol(name: str, value: float) -> str:
+    """A number of the page with its symbol, in full."""
+    return f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}"
+
+
+def file_name(state: State, what: str) -> str:
+    """Name of a file of a scene: its preset, what differs from that, and what is in the file.
+
+    Examples
+    --------
+    >>> from app.state import preset_state
+    >>> file_name(preset_state("berkovich-gold").replace(max_depth=5e-9), "curves.csv")
+    'berkovich-gold_d_max=5nm_curves.csv'
+    """
+    known, preset = altered(state), PRESETS[state.preset].values
+    told = [state.preset, *(state[name] for name in known if name in CHOICES)]
+    changed = (name for name in used(state) if name in known or name not in preset)
+    told += [with_symbol(name, state[name]).replace("/", "-") for name in changed]
+    return re.sub(r"[^\w.=+-]+", "", "_".join(told))[:_LONGEST] + f"_{what}"
+
+
+def summary(state: State) -> str:
+    """Shape, medium and drive of a scene in one line."""
+    parts = regions(state)
+    names = [*parts["shape"], *parts["medium"], *used_by(state, "drive", "damping", "adhesion")]
+    numbers = [with_symbol(name, state[name]) for name in names if state[name]]
+    chosen = [state.chosen(name).label for name in formed(state)]
+    return ", ".join([state.chosen("shape").label, *numbers, *chosen])

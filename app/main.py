@@ -4,7 +4,7 @@ from urllib.parse import urlencode
 
 import panel as pn
 
-from . import private, theory
+from . import security, theory
 from .fit import page as fit
 from .page import Address, Page
 from .ui import SHEETS
@@ -18,7 +18,7 @@ _PAGES = {
 _ADDRESS = Address.from_request(pn.state.curdoc.session_context.request)
 _GIVEN = pn.state.session_args
 _QUERY = urlencode(_GIVEN, doseq=True)
-pn.state.curdoc.template = private.template()
+pn.state.curdoc.template = security.template()
 _name = next((name for name in _PAGES if name in _GIVEN), "")
 _made, _title, _sheets, _extensions = _PAGES.get(_name, (None, "Indentation explorer", [], []))
 pn.extension(*_extensions, notifications=True, css_files=[*SHEETS, *_sheets])

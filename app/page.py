@@ -18,14 +18,13 @@ from . import changes, link
 from .common.errors import in_words
 from .drives import follow
 from .extra import EXTRAS
-from .fields import Field
 from .host import Host, host_of
 from .layout import LANDMARKS, Layout, frames_in_steps
-from .parts import Part, choice
 from .plot import Along, View
 from .plots import NAMED, PLOTS
 from .state import VIEW, State, as_shown, preset_state
 from .ui import JS, Messages, landmarks, notice
+from .widgets import Field, Part, choice
 
 _LOG = logging.getLogger(__name__)
 Change = Callable[[State], State]

@@ -4,6 +4,8 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
+from bokeh.events import Pan, PanEnd, PanStart
+from bokeh.models import CustomJS
 
 from mdr_core.show import figures
 from mdr_core.show import springs as drawn
@@ -14,6 +16,7 @@ from mdr_core.show.units import written
 from .courses import Course, onset_depth
 from .plot import Along, Plot, View
 from .state import LISTS, Entries
+from .ui import JS
 
 # Axes, which other plots may share.
 
@@ -219,3 +222,23 @@ def visible(view: View) -> list[Plot]:
     """Plots that a view shows: the three, and the first optional one that applies."""
     optional = [PLOTS[name] for name in view.state.tiles if name not in NAMED]
     return [*map(PLOTS.get, NAMED), *[plot for plot in optional if plot.applies(view)][:1]]
+
+
+#: Plots that are dragged.
+DRAGGED = ("springs", "force")
+
+
+def drag_path(view: View) -> dict[str, Any]:
+    """Depth and force of all states in the units of the plots."""
+    course, d, force = view.course, view.axis(D).factor, view.axis(F).factor
+    found = {"d": course.states.depth / d, "F": course.states.force / force}
+    found = {name: [float(f"{value:.6g}") for value in values] for name, values in found.items()}
+    # A depth on a path that turns, or of an impact, is not one that can be set.
+    pressing = not course.turns and course.hit is None
+    return found | {"unit": d / view.axis(Z).factor, "pressing": pressing}
+
+
+def let_drag(figure: Any) -> None:
+    """Let a figure be dragged."""
+    for event in (PanStart, Pan, PanEnd):
+        figure.js_on_event(event, CustomJS(code=JS["drag"]))

@@ -2,7 +2,7 @@
 
 import gc
 
-from . import extras, page, private
+from . import extras, page, security
 from .common import folders
 from .fit import page as measurement
 
@@ -10,11 +10,11 @@ from .fit import page as measurement
 LOADED = (extras, page, measurement)
 
 folders.clear()
-private.no_components()
-private.no_packed_bytes()
-private.headers()
-private.own_sessions()
-private.websockets()
+security.no_components()
+security.no_packed_bytes()
+security.headers()
+security.own_sessions()
+security.websockets()
 
 
 def on_server_loaded(server_context):

@@ -101,3 +101,15 @@ def show(part, **values):
     news = {name: value for name, value in values.items() if getattr(part, name) != value}
     if news:
         part.param.update(**news)
+
+
+def button(name: str, **options: Any) -> pn.widgets.Button:
+    return pn.widgets.Button(label=name, css_classes=["button"], **{"margin": 0} | options)
+
+
+def field(kind: type, *classes: str, **options: Any) -> Any:
+    return kind(css_classes=["choice", *classes], **WIDE | options)
+
+
+def tools(*parts: Any, **options: Any) -> pn.Row:
+    return pn.Row(*parts, css_classes=["tools"], **WIDE | options)

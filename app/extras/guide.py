@@ -14,9 +14,8 @@ from ..courses import Course
 from ..extra import Extra
 from ..plot import View
 from ..readouts import readings, text
-from ..shared.widgets import button, field, tools
 from ..state import State, kept_extras
-from ..ui import WIDE, html, linked, own_html, replaced, show
+from ..ui import WIDE, button, field, html, linked, own_html, replaced, show, tools
 
 #: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
 TOURS = json.loads(Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))

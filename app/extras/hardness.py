@@ -11,7 +11,7 @@ from ..courses import Course
 from ..extra import Extra
 from ..figures import Logarithmic
 from ..plot import View, axis
-from ..shared.rest import Found, Resting, Searched
+from ..search import Found, Resting, Searched
 from ..ui import marked
 
 #: Decades of logarithmic axes of radii and of pressures.

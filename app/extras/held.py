@@ -13,20 +13,19 @@ from mdr_core.show.figures import NOTHING, Axis, both, label, line
 from mdr_core.show.springs import spring_line
 
 from .. import link
+from .. import ui as widgets
 from ..courses import Course
 from ..drives import follow, scene_of
 from ..extra import Entries, Extra
-from ..parts import Part, button
-from ..plot import Along, Overlay, View
+from ..link import with_symbol
+from ..plot import Along, Overlay, View, once
 from ..plots import PLOTS, D, F, P, R, X
 from ..readouts import line as readout_line
 from ..readouts import text
-from ..shared import widgets
-from ..shared.once import once
-from ..shared.rest import Searching
-from ..shared.summary import with_symbol
+from ..search import Searching
 from ..state import MEDIUM_CHOICES, OPENING, PRESETS, State, altered, formed, used
 from ..ui import WIDE, html, marked, show, symbol
+from ..widgets import Part, button
 
 #: Scenes that are held have each its own dashes.
 DASHES = ("dotdash", "dashed", "dotted", "solid")

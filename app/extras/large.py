@@ -7,10 +7,10 @@ from bokeh.models import Text
 
 from ..extra import Extra, Service
 from ..figures import Picture
-from ..parts import Part, button
 from ..plot import Plot, View
 from ..state import State
 from ..ui import show
+from ..widgets import Part, button
 
 #: Letters of a large plot, over those of the page.
 _SCALE = 1.5

@@ -19,11 +19,10 @@ from mdr_core.solver.oblique.oblique_motion import along_surface, oblique_motion
 from ..courses import Course, path_progress
 from ..drives import BEFORE_YIELD, INSTANTS, Impact
 from ..extra import Extra
-from ..plot import Along, Overlay, Plot, View
+from ..plot import Along, Overlay, Plot, T, View, line_at_time
 from ..plots import X, Z
 from ..quantities import QUANTITIES
-from ..shared.rest import Resting
-from ..shared.time import T, line_at_time
+from ..search import Resting
 
 #: Largest number of drawn elements, and halvings of their steps (errors about 10⁻⁵).
 _ELEMENTS, _HALVINGS = 300, 2

@@ -5,12 +5,12 @@ from typing import Any
 from ..courses import Course
 from ..extra import Extra, Service
 from ..figures import drawn, in_legend
-from ..parts import Part
+from ..link import file_name, summary
 from ..plot import Plot, View, rows_of
 from ..plots import visible
 from ..quantities import lowered
-from ..shared.summary import file_name, summary
 from ..state import State
+from ..widgets import Part
 
 #: Width and height of a picture in points, and where its plots are: left, top, width and height.
 _SIZE, _WHOLE = (840, 624), (0, 0, 840, 600)

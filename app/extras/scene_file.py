@@ -23,11 +23,10 @@ from .. import link, readouts
 from ..extra import EXTRAS, Extra
 from ..figures import PLACES, Picture, drawn, legend, picture_of
 from ..layout import frames, look
+from ..link import summary
 from ..plot import Plot, View
-from ..plots import NAMED, PLOTS
+from ..plots import DRAGGED, NAMED, PLOTS, drag_path, let_drag
 from ..quantities import CHOICES, QUANTITIES
-from ..shared.dragging import DRAGGED, TOUCH, let_drag, path
-from ..shared.summary import summary
 from ..state import MEDIUM_CHOICES, PRESETS, State, altered, as_shown, used, yield_constant
 from ..ui import CSS, HERE, JS, Messages, as_html, marked, symbol
 
@@ -36,7 +35,7 @@ _TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")
 _PLAYER = (HERE / "static" / "player.js").read_text(encoding="utf-8").replace("export ", "")
 #: The page's scripts of player and touch as functions, and what calls them.
 _CODE = f"""{_PLAYER}
-const touched = (figures, dragging) => {{\n{TOUCH}\n}}
+const touched = (figures, dragging) => {{\n{JS["touch"]}\n}}
 {_HERE.with_suffix(".js").read_text(encoding="utf-8")}"""
 _PAPER = "V. L. Popov, Facta Universitatis, Series: Mechanical Engineering 13(1), 2015, 39–46"
 
@@ -106,7 +105,7 @@ def _connect(document: Document, view: View, pictures: list[Picture], messages: 
         "sources": sources,
         "layers": [source for source, _ in columns],
         "looks": looks,
-        "dragging": {"path": json.dumps(path(view) | {"pressing": False})},
+        "dragging": {"path": json.dumps(drag_path(view) | {"pressing": False})},
         "look": look(view.course),
         # A tenth of its size.
         "packed": b64encode(compress(json.dumps(sent).encode(), 9)).decode(),

@@ -11,7 +11,7 @@ from ..courses import Course
 from ..extra import Extra
 from ..figures import Map
 from ..plot import axis
-from ..shared.rest import Found, Resting, Searched
+from ..search import Found, Resting, Searched
 
 #: Pixels down and along the radius.
 _PIXELS = (72, 96)

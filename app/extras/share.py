@@ -9,12 +9,11 @@ import panel as pn
 import mdr_core as mdr
 
 from ..extra import EXTRAS, Extra
+from ..link import file_name, summary
 from ..plot import View
 from ..readouts import readings
-from ..shared.summary import file_name, summary
-from ..shared.widgets import field, tools
 from ..tables import as_csv
-from ..ui import JS, WIDE, html, show
+from ..ui import JS, WIDE, field, html, show, tools
 
 
 def csv(view: View) -> str:

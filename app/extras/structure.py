@@ -15,12 +15,12 @@ from mdr_core.show.units import written
 from ..courses import Course
 from ..drives import DRIVES, Impact, follow
 from ..extra import Extra
-from ..parts import Part, button
 from ..plot import Plot, View
 from ..plots import PLOTS
 from ..quantities import QUANTITIES
 from ..state import State, medium, preset_values, profile, used_by
 from ..ui import marked
+from ..widgets import Part, button
 
 #: What is said of a body that never leaves.
 _STAYS = "The body never leaves the plate: waves take all of the energy that yield leaves, e = 0."

@@ -4,11 +4,11 @@ from app import changes, link
 from app.drives import follow
 from app.extras.guide import TOURS, step_state
 from app.extras.held import computed
-from app.parts import Parts
 from app.plot import View
 from app.readouts import readings
-from app.shared.rest import exact
+from app.search import exact
 from app.state import OF_EXTRAS, State, preset_state
+from app.widgets import Parts
 
 from .conftest import DROP, GOLD
 

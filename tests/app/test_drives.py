@@ -8,10 +8,10 @@ import mdr_core as mdr
 from app import changes, readouts
 from app.drives import DRIVES, follow, scene_of
 from app.extras import notes, share
+from app.link import summary
 from app.plot import View
 from app.plots import force
 from app.quantities import CHOICES
-from app.shared.summary import summary
 from app.state import PRESETS, medium, preset_state, profile
 
 from ..approx import approx

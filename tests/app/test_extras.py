@@ -15,8 +15,12 @@ from bokeh.core.has_props import HasProps, _default_resolver
 from app import changes
 from app.extra import EXTRAS
 from app.page import Page
-from app.plots import PLOTS
+from app.plot import rows_of
+from app.plots import NAMED, PLOTS
+from app.quantities import CHOICES, QUANTITIES
+from app.readouts import MOST
 from app.state import OF_EXTRAS, preset_state
+from mdr_core.show.units import UNITS
 
 from .conftest import DROP, ROOT, Explorer, Server
 
@@ -145,7 +149,7 @@ def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, n
     assert notices == []
     # Each word is there with the extra, so that it is missed without.
     shown = {word for word in words(name) if said(word, whole)}
-    assert shown or name in ("guide", "fit", "labels", "zoom", "pointed")
+    assert shown or name in ("guide", "labels", "zoom")
     # The form has the word "Hardness", too.
     others = {"Hardness"}.union(*(words(other) for other in EXTRAS if other != name))
     assert {word for word in shown - others if said(word, text)} == set()
@@ -164,7 +168,7 @@ def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, n
 
 def test_the_page_with_no_extras_at_all(browser, tmp_path):
     """Three plots, the form and the readouts are in use, without what extras share too."""
-    shutil.rmtree(copied(tmp_path, "app", *EXTRAS) / "shared")
+    copied(tmp_path, "app", *EXTRAS)
     server = Server(root=tmp_path)
     try:
         with browser.new_context(viewport={"width": 1280, "height": 720}) as context:
@@ -220,14 +224,34 @@ NUMBER = {
 }  # fmt: skip
 MISTAKES = {
     "nothing to load": ("", {}, "it ends with EXTRA = Extra"),
-    "a name that is taken": ({"plot": "energy"}, {}, "energy has a plot 'energy', too"),
-    "no tab": ({"tab": ""}, {}, "plot 'wrong' has no tab"),
-    "an unknown control": ({"controls": '("wrong.share",)'}, {}, "no choice or number 'wrong.share'"),
-    "another's number": ({}, {"numbers": [NUMBER | {"name": "share"}]}, "must be called 'wrong.share'"),
-    "an unknown unit": ({}, {"numbers": [NUMBER | {"kind": "loudness"}]}, "no unit of kind 'loudness'"),
     "no bounds": ({}, {"numbers": [{"name": "wrong.share"}]}, "wrong.json does not describe"),
     "an unknown field": ({}, {"numbers": [NUMBER | {"colour": "red"}]}, "wrong.json does not describe"),
 }
+
+
+def test_extras_have_names_of_their_own_and_known_units():
+    """What would fail on the page without a word: two of one name, a plot without a tab, unknown units."""
+    plots = [plot for extra in EXTRAS.values() for plot in extra.plots]
+    names = [plot.name for plot in plots]
+    assert len({*names, *NAMED}) == len(names) + len(NAMED)
+    folder = ROOT / "app" / "extras"
+    assert {*EXTRAS} == {path.stem for path in folder.glob("*.py")} - {"__init__"}
+    for plot in plots:
+        assert plot.tab
+        rows = [row.name for row in rows_of(plot)]
+        assert len({*rows}) == len(rows)
+        assert {along.kind for along in plot.axes} <= {*UNITS}
+        for name in plot.controls:
+            assert name in QUANTITIES or not any(each.uses for each in CHOICES[name].options.values())
+    for path in folder.glob("*.json"):
+        data = json.loads(path.read_text(encoding="utf-8"))
+        for number in data.get("numbers", ()):
+            assert number["name"].startswith(f"{path.stem}.")
+            assert QUANTITIES[number["name"]].kind in UNITS
+        for name, choice in data.get("choices", {}).items():
+            assert "label" not in choice or name.startswith(f"{path.stem}.")
+        for drive in data.get("choices", {}).get("drive", {}).get("options", {}).values():
+            assert len(drive.get("line", ())) <= MOST
 
 
 @pytest.mark.parametrize("case", MISTAKES)

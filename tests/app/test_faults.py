@@ -10,10 +10,10 @@ import pytest
 from app import changes
 from app.common.tip import read_tip
 from app.drives import EXACT, follow
-from app.extras.drag import Dragging
+from app.extras.pointer import Pointer
 from app.figures import Picture
 from app.page import Page
-from app.shared.rest import COMPUTING, FAULT
+from app.search import COMPUTING, FAULT
 from app.state import PRESETS, preset_state
 
 from ..approx import approx
@@ -121,8 +121,8 @@ def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
 
 def drag(page, depth):
     """What the browser sends while the indenter is dragged."""
-    (dragging,) = (each for each in page.services if isinstance(each, Dragging))
-    dragging.hand.depth = depth
+    (dragging,) = (each for each in page.services if isinstance(each, Pointer))
+    dragging.drag.depth = depth
 
 
 def test_the_indenter_is_dragged_to_a_depth_under_a_given_force_too(page):

@@ -16,7 +16,7 @@ from app.host import last
 from app.page import Page
 from app.plots import PLOTS
 from app.quantities import ASSETS
-from app.shared.rest import Searched, as_steps
+from app.search import Searched, as_steps
 from app.state import PRESETS, altered, medium, preset_state, profile
 from mdr_core.show.units import written
 

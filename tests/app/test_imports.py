@@ -32,7 +32,7 @@ def loaded(code, names):
 @pytest.mark.slow
 def test_the_explorer_loads_no_fits_and_no_readers():
     """Nor does making its page."""
-    code = "import app.page, app.extras, app.theory, app.private; app.page.Page('', False)"
+    code = "import app.page, app.extras, app.theory, app.security; app.page.Page('', False)"
     assert loaded(code, FITS) == []
 
 

@@ -9,8 +9,7 @@ import pytest
 from app.changes import choose
 from app.drives import follow
 from app.figures import drawn, in_legend, legend
-from app.labels import HEIGHT, WIDTH, box, width
-from app.plot import View, rows_of
+from app.plot import HEIGHT, WIDTH, View, box, rows_of, width
 from app.plots import NAMED, PLOTS
 from app.quantities import CHOICES
 from app.state import PRESETS, preset_state

@@ -7,7 +7,7 @@ import pytest
 
 from app import changes
 from app.drives import follow
-from app.extras import hardness, oblique, reading, sweep
+from app.extras import hardness, labels, oblique, sweep
 from app.extras.guide import TOURS, step_state, step_text
 from app.extras.notes import limits
 from app.plots import PLOTS, D, X
@@ -131,25 +131,23 @@ def test_the_state_is_read_in_words():
     course = follow(state)
     c = float(course.state.plastic_radius)
     text = f"yielded inside c = {c * 1e9:.1f} nm; elastic ring {ring * 1e9:.2f} nm wide"
-    assert reading.sentence(course, course.now) == text
+    assert labels.sentence(course, course.now) == text
     view = view_of(state)
     assert view.places(PLOTS["springs"], course.now)["reading"][2] == text
     onset = float(made.critical_depth)
     early = f"elastic; the axis yields first, at d = {onset * 1e9:.2f} nm"
-    assert {reading.sentence(course, i) for i in np.flatnonzero(course.states.depth[1:20] < onset) + 1} == {
+    assert {labels.sentence(course, i) for i in np.flatnonzero(course.states.depth[1:20] < onset) + 1} == {
         early
     }
-    assert reading.sentence(course, 0) == "no contact"
-    assert (
-        reading.sentence(course, len(course) - 1) == f"no contact; imprint of radius c = {c * 1e9:.1f} nm"
-    )
+    assert labels.sentence(course, 0) == "no contact"
+    assert labels.sentence(course, len(course) - 1) == f"no contact; imprint of radius c = {c * 1e9:.1f} nm"
     punch = follow(preset_state(PUNCH))
-    assert "the whole flat face yields first" in reading.sentence(punch, 1)
-    assert reading.sentence(punch, punch.peak) == "yielded inside c = 2.00 mm"
-    assert reading.sentence(follow(state_with(plasticity="none")), 9) == "elastic; nothing yields"
+    assert "the whole flat face yields first" in labels.sentence(punch, 1)
+    assert labels.sentence(punch, punch.peak) == "yielded inside c = 2.00 mm"
+    assert labels.sentence(follow(state_with(plasticity="none")), 9) == "elastic; nothing yields"
     # With adhesion the depth of the onset is not that of the springs.
     adhesive = follow(state_with("microsphere-pdms", adhesion="work"))
-    assert reading.sentence(adhesive, 0) == "elastic; the axis yields first"
+    assert labels.sentence(adhesive, 0) == "elastic; the axis yields first"
 
 
 def test_depths_with_a_plastic_zone_are_marked():

@@ -8,7 +8,7 @@ import tomllib
 
 import pytest
 
-from app import private
+from app import security
 
 from .conftest import ROOT, Explorer, Server
 
@@ -34,8 +34,8 @@ def test_the_app_loads_without_a_private_end_and_logs_one_line(end):
     """In a process of its own, because the names are taken away for good."""
     code = f"""import panel, bokeh.server.server, panel.io.server
 {ENDS[end]}
-from app import private, server_lifecycle
-print(private.template().count("block"))
+from app import security, server_lifecycle
+print(security.template().count("block"))
 """
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False
@@ -88,7 +88,7 @@ print(bytes(Deserializer().decode({"type": "bytes", "data": {"id": "1"}}, [besid
 
 
 def test_all_private_ends_are_there_in_the_versions_that_are_installed(caplog):
-    assert "bokeh-gl" in private.template()
+    assert "bokeh-gl" in security.template()
     assert caplog.text == ""
 
 
@@ -107,7 +107,7 @@ def without(browser, tmp_path_factory):
     shutil.copytree(ROOT / "app", root / "app", ignore=shutil.ignore_patterns("__pycache__"))
     for other in ("assets", "mdr_core"):
         (root / other).symlink_to(ROOT / other)
-    names = {root / "app/private.py": [], root / "app/js/private.js": IN_THE_BROWSER}
+    names = {root / "app/security.py": [], root / "app/js/private.js": IN_THE_BROWSER}
     for path, ends in names.items():
         text = path.read_text(encoding="utf-8")
         for end in ends or [each.rsplit(".", 1)[1] for each in ENDS]:

@@ -11,9 +11,9 @@ from app.common.tip import read_tip
 from app.drives import follow
 from app.extras.held import is_held, toggle_hold
 from app.extras.share import csv
-from app.fields import Field
 from app.page import Page
 from app.state import PRESETS, preset_state
+from app.widgets import Field
 from mdr_core.show.units import UNITS
 
 from ..approx import approx

@@ -14,7 +14,7 @@ from bokeh.util.token import get_token_payload
 
 from app import changes, ui
 from app.extras.scene_file import scene_file
-from app.private import is_own
+from app.security import is_own
 from app.state import preset_state
 
 from .conftest import CHROMIUM, FLAGS, ROOT, Explorer, Server

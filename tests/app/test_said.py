@@ -8,10 +8,10 @@ from app import readouts, theory
 from app.changes import choose, hit_again, put
 from app.extras import share, sweep
 from app.figures import Picture, drawn, ticks
+from app.link import file_name
 from app.page import Page
 from app.plots import PLOTS
 from app.quantities import CHOICES
-from app.shared.summary import file_name
 from app.state import PRESETS, preset_state
 from app.ui import CSS
 from mdr_core.show.units import written

@@ -7,10 +7,10 @@ from app import changes, link, readouts, ui
 from app.drives import follow
 from app.extras import held, notes
 from app.extras.guide import TOURS, step_state, step_text
+from app.link import summary
 from app.page import Page
 from app.plots import PLOTS, D, F, P, X, force, springs, visible
 from app.quantities import CHOICES, QUANTITIES
-from app.shared.summary import summary
 from app.state import preset_state
 from mdr_core.show.springs import SPRINGS
 

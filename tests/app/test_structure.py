@@ -8,8 +8,9 @@ import pytest
 import mdr_core as mdr
 from app import changes, link
 from app.drives import follow, scene_of
-from app.extras import energy, notes, share, sweep
+from app.extras import notes, share, sweep
 from app.extras import structure as structures
+from app.extras import time as in_time
 from app.extras.guide import step_state
 from app.page import Page
 from app.readouts import line
@@ -68,7 +69,7 @@ def test_the_numbers_are_those_of_the_library():
         # What waves carry away does not come back, what the support stores does.
         end = float(hit.structure_work) if key == PLATE else 0.0
         assert float(found[taken][-1]) == approx(end, rel=1e-9, abs=1e-12 * hit.mass)
-        total = sum(energy.energies(course).values())
+        total = sum(in_time.energies(course).values())
         np.testing.assert_allclose(total, state.mass * state.speed**2 / 2, rtol=1e-8)
         csv = share.csv(view_of(state))
         assert f"mdr.Structure({'impedance' if key == PLATE else 'stiffness'}=" in csv

@@ -4,10 +4,10 @@ import pytest
 
 from app import changes
 from app.common.units import read
-from app.fields import Field
 from app.page import Page
 from app.quantities import QUANTITIES
 from app.state import preset_state
+from app.widgets import Field
 from mdr_core.show.units import UNITS
 
 from ..approx import approx

@@ -15,7 +15,7 @@ from app.page import Page
 from app.plots import PLOTS
 from app.quantities import CHOICES, QUANTITIES, lowered
 from app.readouts import READOUTS, explained, heads, line
-from app.shared.rest import Searched
+from app.search import Searched
 from app.state import PRESETS, preset_state
 from app.ui import linked, marked
 

@@ -10,13 +10,13 @@ import numpy as np
 
 from mdr_core.show.figures import Axis
 
-from ..courses import Course, nearest
-from ..drives import DRIVES, EXACT
-from ..extra import Service
-from ..host import Steps, last
-from ..plot import Plot, View
-from ..plots import PLOTS, visible
-from ..state import State
+from .courses import Course, nearest
+from .drives import DRIVES, EXACT
+from .extra import Service
+from .host import Steps, last
+from .plot import Plot, View
+from .plots import PLOTS, visible
+from .state import State
 
 _LOG = logging.getLogger(__name__)
 #: How many exact courses are kept, the last ones that were found in any session.

@@ -1,13 +1,45 @@
-"""The plot *Energy*: where the energy is, over time."""
+"""The plots over time: *In time*, depth and force, and *Energy*, where the energy is."""
 
 import numpy as np
 
-from mdr_core.show.figures import NOTHING, area, line
+from mdr_core.show.figures import NOTHING, area, line, mark
 
 from ..courses import Course
 from ..extra import Extra
-from ..plot import Along, Plot, View
-from ..shared.time import T, line_at_time
+from ..plot import Along, Plot, T, View, line_at_time
+from ..plots import D, F
+
+
+def motion_places(view: View, i: int) -> dict:
+    time, states = view.course.motion.time, view.course.states
+    return {
+        "depth d": (time, states.depth),
+        "force F": (time, states.force),
+        "now": (time[[i]], states.depth[[i]]),
+        "F now": (time[[i]], states.force[[i]]),
+        "time": line_at_time(view, i, D),
+    }
+
+
+def _law(course: Course) -> str:
+    if course.hit is None:
+        return "prescribed  § 8, § 14"
+    return f"m d²{'(d + w)' if course.structure else 'd'}/dt² = −F,  § 9"
+
+
+MOTION = Plot(
+    "motion", "Depth and force over time",
+    _law,
+    (T, D, F),
+    (
+        line("depth d", "speed", 2.2, symbol="d"),
+        line("force F", "elastic", 2.2, "dashed", "F", axis=2),
+        line("time", "ink", 1.0, "dashed", legend=False),
+        mark("now"),
+        mark("F now", marker="diamond", size=11, axis=2, legend=False),
+    ),
+    motion_places, applies=lambda view: view.course.motion is not None, tab="In time", order=30,
+)  # fmt: skip
 
 
 def energies(course: Course) -> dict:
@@ -31,7 +63,7 @@ def _total(course: Course) -> tuple[float, float]:
 E = Along("E, energy", "energy", _total)
 
 
-def places(view: View, i: int) -> dict:
+def energy_places(view: View, i: int) -> dict:
     """What is stored, kinetic and lost on top of each other, and the present time."""
     time, rows = view.course.motion.time, {"time": line_at_time(view, i, E)}
     lower = np.zeros_like(time)
@@ -68,9 +100,9 @@ ENERGY = Plot(
         area("kinetic", "speed", 0.3),
         line("time", "ink", 1.0, "dashed", legend=False),
     ),
-    places,
+    energy_places,
     applies=lambda view: view.course.motion is not None, tab="Energy", order=40,
 )  # fmt: skip
 
 
-EXTRA = Extra("energy", plots=(ENERGY,))
+EXTRA = Extra("time", plots=(MOTION, ENERGY))

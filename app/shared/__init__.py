@@ -1,1 +1,0 @@
-"""What two extras or more share. The page needs nothing of it."""
