@@ -1,3 +1,1 @@
-"""The explorer: a served page over `mdr_core`."""
-
-from . import extras as extras
+"""Two served pages over `mdr_core`: the explorer, and one for measurements."""

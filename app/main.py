@@ -4,10 +4,11 @@ from urllib.parse import urlencode
 
 import panel as pn
 
-from . import security, theory
-from .fit import page as fit
-from .page import Address, Page
-from .ui import SHEETS
+from . import security
+from .common.ui import SHEETS
+from .explorer import theory
+from .explorer.page import Address, Page
+from .measurement import page as fit
 
 #: Pages beside the explorer by the name that opens them, the first one that is there: what makes a page of
 #: the query, its title, style sheets and extensions of Panel.

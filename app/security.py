@@ -19,7 +19,7 @@ from bokeh.settings import settings
 from bokeh.util.token import check_token_signature, get_session_id
 from tornado.web import HTTPError, RequestHandler
 
-from .ui import JS
+from .common.ui import JS
 
 _LOG = logging.getLogger(__name__)
 #: As wide as the screen: a phone would lay the page out for a desk. The theme is known before anything is

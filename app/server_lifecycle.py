@@ -2,9 +2,10 @@
 
 import gc
 
-from . import extras, page, security
+from . import security
 from .common import folders
-from .fit import page as measurement
+from .explorer import extras, page
+from .measurement import page as measurement
 
 #: Loaded here, so that the first visitor does not wait, and that the server does not start if one fails.
 LOADED = (extras, page, measurement)

@@ -18,7 +18,7 @@ IMPORTS = (
     (0.54, "scipy.optimize", "Starting SciPy", 1), (0.58, "scipy.integrate", "Starting SciPy", 0.5),
     (0.62, "mdr_core.solver.contact", "Starting the solver", 0.5),
     (0.68, "bokeh.models", "Starting Bokeh", 1.2), (0.72, "bokeh.plotting", "Starting Bokeh", 0.7),
-    (0.9, "panel", "Starting Panel", 3), (0.96, "app.browser", "Starting the explorer", 1),
+    (0.9, "panel", "Starting Panel", 3), (0.96, "app.explorer.browser", "Starting the explorer", 1),
 )  # fmt: skip
 #: Scripts of the served page in their order, below the folder of Bokeh or Panel; a test compares them.
 _OF_BOKEH = ("js/bokeh.min.js", "js/bokeh-widgets.min.js", "js/bokeh-tables.min.js")
@@ -40,9 +40,10 @@ def write(folder: Path, pyodide: str, integrity: dict[str, str]) -> list[license
     import bokeh
     import panel
 
-    from app import theory, ui
-    from app.extras.scene_file import scene_file
-    from app.page import Page
+    from app.common import ui
+    from app.explorer import theory
+    from app.explorer.extras.scene_file import scene_file
+    from app.explorer.page import Page
 
     dist = Path(panel.__file__).parent / "dist"
     own = f"static/panel/{panel.__version__}/dist"

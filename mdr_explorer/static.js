@@ -49,7 +49,7 @@ try {
   }
   await tell(1, "Drawing …", 1)
   await scripts
-  await python.pyimport("app.browser").start(location.search.slice(1), theme.own)
+  await python.pyimport("app.explorer.browser").start(location.search.slice(1), theme.own)
   panel.remove()
 } catch (error) {
   said.role = "alert"

@@ -6,7 +6,7 @@ from typing import Any
 from mdr_core.base.errors import InvalidArgument
 from mdr_core.show.units import KINDS, written
 
-from ..quantities import QUANTITIES, lowered
+from .quantities import QUANTITIES, lowered
 
 #: Most characters of a text, which may quote a file.
 _MOST = 2000

@@ -1,7 +1,7 @@
 """The program of a process: it answers the jobs that come on its input.
 
-A job is a function by its name in this package, such as "fit.analysis.read", and is loaded when it is first
-asked for. Nothing of the page is loaded, and no asyncio, which takes 0.1 s.
+A job is a function by its name in this package, such as "measurement.analysis.read". It is loaded when it
+is first asked for. Nothing of the page is loaded, and no asyncio, which takes 0.1 s.
 """
 
 import os

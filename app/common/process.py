@@ -19,8 +19,7 @@ _APP = Path(__file__).parents[1]
 
 #: Most processes of a server, and seconds without a job after which a process ends.
 PROCESSES, _REST = setting("MDR_EXPLORER_PROCESSES", 4), 300.0
-#: The program of a process. The package is made bare, of this folder: its own file loads the explorer, with
-#: which a start takes 1.4 s and 42 MB more.
+#: The program of a process. The package is made of this folder, whatever is on the path.
 _PROGRAM = """import sys, types
 app = sys.modules["app"] = types.ModuleType("app")
 app.__path__ = [sys.argv[1]]
@@ -118,7 +117,7 @@ class Worker:
         part: Callable[[Any], None] = _ignore,
         waits: Callable[[int], None] = _ignore,
     ) -> Any:
-        """Return what a job returns, a function by its name in this package such as "fit.analysis.read".
+        """Return what a job returns, a function by its name in this package, "measurement.analysis.read".
 
         `part` gets what the job yields before, `waits` how many wait before this one. A job that comes
         while another one runs replaces that. Raises Refused or Replaced.

@@ -9,8 +9,8 @@ from latex2mathml.converter import convert
 from sphinx import addnodes
 
 import mdr_core
-from app.extras.scene_file import scene_file
-from app.page import Page
+from app.explorer.extras.scene_file import scene_file
+from app.explorer.page import Page
 from mdr_core.base.remark import KINDS
 from mdr_explorer import static
 

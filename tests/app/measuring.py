@@ -11,8 +11,8 @@ import pytest
 
 import mdr_core as mdr
 from app.common.process import Here
-from app.fit import query
-from app.fit.page import Measurement
+from app.measurement import query
+from app.measurement.page import Measurement
 
 from .conftest import ROOT
 from .states import table

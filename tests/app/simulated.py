@@ -51,7 +51,7 @@ def browser():
 
 async def main(query):
     embedded = browser()
-    from app.browser import start
+    from app.explorer.browser import start
 
     await start(query, False)
     documents, items = embedded.call_args.args

@@ -1,14 +1,14 @@
 """States, courses and views for tests without a browser."""
 
-from app import changes, link
-from app.drives import follow
-from app.extras.guide import TOURS, step_state
-from app.extras.held import computed
-from app.plot import View
-from app.readouts import readings
-from app.search import exact
-from app.state import OF_EXTRAS, State, preset_state
-from app.widgets import Parts
+from app.explorer import changes, link
+from app.explorer.drives import follow
+from app.explorer.extras.guide import TOURS, step_state
+from app.explorer.extras.held import computed
+from app.explorer.plot import View
+from app.explorer.readouts import readings
+from app.explorer.search import exact
+from app.explorer.state import OF_EXTRAS, State, preset_state
+from app.explorer.widgets import Parts
 
 from .conftest import DROP, GOLD
 

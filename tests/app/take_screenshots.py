@@ -7,7 +7,7 @@ from io import BytesIO
 
 import numpy as np
 
-from app.state import PRESETS
+from app.explorer.state import PRESETS
 
 from .conftest import CHROMIUM, DROP, FLAGS, ROOT, Explorer, Server
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import trapezoid
 
 import mdr_core as mdr
-from app.state import PRESETS
+from app.explorer.state import PRESETS
 from mdr_core.show.units import UNITS
 
 from ..approx import approx

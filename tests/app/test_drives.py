@@ -5,14 +5,14 @@ import pytest
 from scipy.integrate import trapezoid
 
 import mdr_core as mdr
-from app import changes, readouts
-from app.drives import DRIVES, follow, scene_of
-from app.extras import notes, share
-from app.link import summary
-from app.plot import View
-from app.plots import force
-from app.quantities import CHOICES
-from app.state import PRESETS, medium, preset_state, profile
+from app.common.quantities import CHOICES
+from app.explorer import changes, readouts
+from app.explorer.drives import DRIVES, follow, scene_of
+from app.explorer.extras import notes, share
+from app.explorer.link import summary
+from app.explorer.plot import View
+from app.explorer.plots import force
+from app.explorer.state import PRESETS, medium, preset_state, profile
 
 from ..approx import approx
 from .conftest import DROP, ELASTIC

@@ -12,7 +12,7 @@ import pytest
 from scipy.optimize import curve_fit
 
 import mdr_core as mdr
-from app.quantities import ASSETS
+from app.common.quantities import ASSETS
 
 from ..approx import approx
 from .measuring import DATA, buttons, opened, saved

@@ -12,14 +12,14 @@ import numpy as np
 import pytest
 from bokeh.core.has_props import HasProps, _default_resolver
 
-from app import changes
-from app.extra import EXTRAS
-from app.page import Page
-from app.plot import rows_of
-from app.plots import NAMED, PLOTS
-from app.quantities import CHOICES, QUANTITIES
-from app.readouts import MOST
-from app.state import OF_EXTRAS, preset_state
+from app.common.quantities import CHOICES, QUANTITIES
+from app.explorer import changes
+from app.explorer.extra import EXTRAS
+from app.explorer.page import Page
+from app.explorer.plot import rows_of
+from app.explorer.plots import NAMED, PLOTS
+from app.explorer.readouts import MOST
+from app.explorer.state import OF_EXTRAS, preset_state
 from mdr_core.show.units import UNITS
 
 from .conftest import DROP, ROOT, Explorer, Server
@@ -33,7 +33,7 @@ def copied(folder, package, *without):
             (folder / other).symlink_to(ROOT / other)
     shutil.copytree(ROOT / "app", folder / package, ignore=shutil.ignore_patterns("__pycache__"))
     for name in without:
-        for path in (folder / package / "extras").glob(f"{name}*"):
+        for path in (folder / package / "explorer" / "extras").glob(f"{name}*"):
             shutil.rmtree(path) if path.is_dir() else path.unlink()
     return folder / package
 
@@ -139,7 +139,7 @@ def whole():
 @pytest.mark.parametrize("name", EXTRAS)
 def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, name, monkeypatch):
     copied(folder, f"without_{name}", name)
-    made = importlib.import_module(f"without_{name}.page")
+    made = importlib.import_module(f"without_{name}.explorer.page")
     assert set(made.EXTRAS) == set(EXTRAS) - {name}
     notices = []
     monkeypatch.setattr(made.Page, "notify", lambda page, text: notices.append(text))
@@ -195,10 +195,12 @@ def test_a_new_extra_is_a_file_of_its_own(folder):
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     (code,) = re.findall(r"```python\n(\"\"\"The plot \*Area\*.*?)```", text, re.DOTALL)
     (data,) = re.findall(r"```json\n(.*?)```", text, re.DOTALL)
-    extras = copied(folder, "with_area") / "extras"
+    extras = copied(folder, "with_area") / "explorer" / "extras"
     (extras / "area.py").write_text(code, encoding="utf-8")
     (extras / "area.json").write_text(data, encoding="utf-8")
-    page = importlib.import_module("with_area.page").Page(f"preset={DROP}&tiles=area&area.of=plastic")
+    page = importlib.import_module("with_area.explorer.page").Page(
+        f"preset={DROP}&tiles=area&area.of=plastic"
+    )
     assert page.layout.others(page.shown).look["value"] == "area"
     states = page.shown.course.states
     plot = page.layout.cards["area"].plot
@@ -234,7 +236,7 @@ def test_extras_have_names_of_their_own_and_known_units():
     plots = [plot for extra in EXTRAS.values() for plot in extra.plots]
     names = [plot.name for plot in plots]
     assert len({*names, *NAMED}) == len(names) + len(NAMED)
-    folder = ROOT / "app" / "extras"
+    folder = ROOT / "app" / "explorer" / "extras"
     assert {*EXTRAS} == {path.stem for path in folder.glob("*.py")} - {"__init__"}
     for plot in plots:
         assert plot.tab
@@ -259,32 +261,32 @@ def test_a_mistake_in_an_extra_is_refused_in_words(folder, case):
     given, data, message = MISTAKES[case]
     words = {"plot": "wrong", "tab": "Wrong", "controls": "()", "places": ""}
     package = "wrong_" + case.translate({ord(" "): "_", ord("'"): "_"})
-    extras = copied(folder, package) / "extras"
+    extras = copied(folder, package) / "explorer" / "extras"
     code = PLOT.format(**words | given) if isinstance(given, dict) else given
     (extras / "wrong.py").write_text(code, encoding="utf-8")
     (extras / "wrong.json").write_text(json.dumps(data), encoding="utf-8")
     with pytest.raises(ValueError, match=re.escape(message)):
-        importlib.import_module(f"{package}.page")
+        importlib.import_module(f"{package}.explorer.page")
 
 
 def test_a_row_that_a_plot_has_not_is_no_empty_curve(folder):
-    extras = copied(folder, "wrong_row") / "extras"
+    extras = copied(folder, "wrong_row") / "explorer" / "extras"
     code = PLOT.format(
         plot="wrong", tab="Wrong", controls="()", places='lambda view, i: {"y": ([0], [0])}, '
     )
     (extras / "wrong.py").write_text(code, encoding="utf-8")
-    page = importlib.import_module("wrong_row.page").Page()
-    plot = sys.modules["wrong_row.plots"].PLOTS["wrong"]
+    page = importlib.import_module("wrong_row.explorer.page").Page()
+    plot = sys.modules["wrong_row.explorer.plots"].PLOTS["wrong"]
     with pytest.raises(KeyError, match=r"places of rows that it has not: \['y'\]"):
         page.shown.places(plot, 0)
 
 
 def test_a_number_above_a_plot_is_set_there_and_in_the_link(folder):
-    extras = copied(folder, "with_number") / "extras"
+    extras = copied(folder, "with_number") / "explorer" / "extras"
     code = PLOT.format(plot="wrong", tab="Wrong", controls='("wrong.share",)', places="")
     (extras / "wrong.py").write_text(code, encoding="utf-8")
     (extras / "wrong.json").write_text(json.dumps({"numbers": [NUMBER]}), encoding="utf-8")
-    page = importlib.import_module("with_number.page").Page("tiles=wrong")
+    page = importlib.import_module("with_number.explorer.page").Page("tiles=wrong")
     field = page.layout.cards["wrong"].head.parts["wrong.share"]
     field.act({"text": "0.25"})
     assert page.state["wrong.share"] == 0.25

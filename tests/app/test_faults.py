@@ -7,14 +7,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from app import changes
 from app.common.tip import read_tip
-from app.drives import EXACT, follow
-from app.extras.pointer import Pointer
-from app.figures import Picture
-from app.page import Page
-from app.search import COMPUTING, FAULT
-from app.state import PRESETS, preset_state
+from app.explorer import changes
+from app.explorer.drives import EXACT, follow
+from app.explorer.extras.pointer import Pointer
+from app.explorer.figures import Picture
+from app.explorer.page import Page
+from app.explorer.search import COMPUTING, FAULT
+from app.explorer.state import PRESETS, preset_state
 
 from ..approx import approx
 from .conftest import DROP, GOLD

@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app import changes, link
-from app.drives import follow
-from app.extras import share, sweep
-from app.extras.hardness import found
-from app.extras.scene_file import scene_file
-from app.host import last
-from app.page import Page
-from app.plots import PLOTS
-from app.quantities import ASSETS
-from app.search import Searched, as_steps
-from app.state import PRESETS, altered, medium, preset_state, profile
+from app.common.host import last
+from app.common.quantities import ASSETS
+from app.explorer import changes, link
+from app.explorer.drives import follow
+from app.explorer.extras import share, sweep
+from app.explorer.extras.hardness import found
+from app.explorer.extras.scene_file import scene_file
+from app.explorer.page import Page
+from app.explorer.plots import PLOTS
+from app.explorer.search import Searched, as_steps
+from app.explorer.state import PRESETS, altered, medium, preset_state, profile
 from mdr_core.show.units import written
 
 from ..approx import approx

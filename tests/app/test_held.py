@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from markupsafe import Markup
 
-from app import changes, link
-from app.drives import follow
-from app.extras.held import DASHES, computed, difference, held_scene, is_held, numbers, toggle_hold
-from app.figures import Picture, drawn, legend
-from app.page import Page
-from app.plot import rows_of
-from app.plots import PLOTS, D, F, X, Z
-from app.state import medium
-from app.state import preset_state as preset
+from app.explorer import changes, link
+from app.explorer.drives import follow
+from app.explorer.extras.held import DASHES, computed, difference, held_scene, is_held, numbers, toggle_hold
+from app.explorer.figures import Picture, drawn, legend
+from app.explorer.page import Page
+from app.explorer.plot import rows_of
+from app.explorer.plots import PLOTS, D, F, X, Z
+from app.explorer.state import medium
+from app.explorer.state import preset_state as preset
 from mdr_core.show.units import written
 
 from ..approx import approx

@@ -12,13 +12,13 @@ from .conftest import ROOT
 
 APP = ROOT / "app"
 FITS = (
-    "app.fit",
+    "app.measurement",
     "mdr_core.measurements.fit",
     "mdr_core.measurements.files",
     "mdr_core.measurements.reading",
     "mdr_core.measurements.measured_curve",
 )
-PAGES = ("panel", "bokeh", "holoviews", "tornado", "app.page", "app.ui")
+PAGES = ("panel", "bokeh", "holoviews", "tornado", "app.explorer.page", "app.common.ui")
 
 
 def loaded(code, names):
@@ -32,14 +32,16 @@ def loaded(code, names):
 @pytest.mark.slow
 def test_the_explorer_loads_no_fits_and_no_readers():
     """Nor does making its page."""
-    code = "import app.page, app.extras, app.theory, app.security; app.page.Page('', False)"
+    code = "from app import explorer, security; from app.explorer import page, theory; page.Page('', False)"
     assert loaded(code, FITS) == []
 
 
 def test_a_process_that_reads_and_fits_loads_no_page():
     """It has no use for them, and a start would take a second more."""
     begins = _PROGRAM.partition("from ")[0]
-    assert loaded(begins + "import app.common.process, app.common.tip, app.fit.analysis", PAGES) == []
+    assert (
+        loaded(begins + "import app.common.process, app.common.tip, app.measurement.analysis", PAGES) == []
+    )
 
 
 def imported(path):
@@ -56,6 +58,10 @@ def imported(path):
 
 def test_the_page_for_measurements_is_imported_where_pages_are_served_alone():
     """So the explorer, and what both pages share, do without it."""
-    outside = [each for each in APP.rglob("*.py") if APP / "fit" not in each.parents]
-    found = {each for each in outside if any(f"{name}.".startswith("app.fit.") for name in imported(each))}
+    outside = [each for each in APP.rglob("*.py") if APP / "measurement" not in each.parents]
+    found = {
+        each
+        for each in outside
+        if any(f"{name}.".startswith("app.measurement.") for name in imported(each))
+    }
     assert found == {APP / "main.py", APP / "server_lifecycle.py"}

@@ -6,13 +6,13 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from app.changes import choose
-from app.drives import follow
-from app.figures import drawn, in_legend, legend
-from app.plot import HEIGHT, WIDTH, View, box, rows_of, width
-from app.plots import NAMED, PLOTS
-from app.quantities import CHOICES
-from app.state import PRESETS, preset_state
+from app.common.quantities import CHOICES
+from app.explorer.changes import choose
+from app.explorer.drives import follow
+from app.explorer.figures import drawn, in_legend, legend
+from app.explorer.plot import HEIGHT, WIDTH, View, box, rows_of, width
+from app.explorer.plots import NAMED, PLOTS
+from app.explorer.state import PRESETS, preset_state
 from mdr_core.show.figures import ROLES
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH, Explorer

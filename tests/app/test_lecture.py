@@ -5,13 +5,13 @@ import re
 import numpy as np
 import pytest
 
-from app import changes
-from app.drives import follow
-from app.extras import hardness, labels, oblique, sweep
-from app.extras.guide import TOURS, step_state, step_text
-from app.extras.notes import limits
-from app.plots import PLOTS, D, X
-from app.state import medium, preset_state
+from app.explorer import changes
+from app.explorer.drives import follow
+from app.explorer.extras import hardness, labels, oblique, sweep
+from app.explorer.extras.guide import TOURS, step_state, step_text
+from app.explorer.extras.notes import limits
+from app.explorer.plots import PLOTS, D, X
+from app.explorer.state import medium, preset_state
 
 from ..approx import approx
 from .conftest import DROP, ELASTIC, GOLD, PUNCH

@@ -5,9 +5,9 @@ import re
 import numpy as np
 import pytest
 
+from app.common.quantities import ASSETS
 from app.common.upload import TIP_BYTES, Uploaded
-from app.page import Page
-from app.quantities import ASSETS
+from app.explorer.page import Page
 
 from .states import part, table
 

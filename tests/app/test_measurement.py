@@ -17,13 +17,13 @@ import panel as pn
 import pytest
 
 import mdr_core as mdr
-from app import link
 from app.common import folders
 from app.common.process import Here, Replaced
-from app.fit import query
-from app.fit.choices import MEDIA
-from app.fit.export import rounded
-from app.state import medium, profile
+from app.explorer import link
+from app.explorer.state import medium, profile
+from app.measurement import query
+from app.measurement.choices import MEDIA
+from app.measurement.export import rounded
 
 from ..approx import approx
 from .conftest import ROOT

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app import changes
-from app.drives import follow, scene_of
-from app.figures import Picture
-from app.plots import PLOTS
-from app.state import PRESETS, State, preset_state
+from app.explorer import changes
+from app.explorer.drives import follow, scene_of
+from app.explorer.figures import Picture
+from app.explorer.plots import PLOTS
+from app.explorer.state import PRESETS, State, preset_state
 from mdr_core.show.units import UNITS, written
 
 from ..approx import approx

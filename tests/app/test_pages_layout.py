@@ -17,9 +17,8 @@ PRIVATE = re.compile(
 
 
 SCRIPTS = list(APP.rglob("*.js"))
-PAGE = list(APP.glob("*.py"))
-EXTRAS = list((APP / "extras").rglob("*.py"))
-FIT = list((APP / "fit").rglob("*.py"))
+EXPLORER = [*APP.glob("*.py"), *(APP / "explorer").rglob("*.py"), *(APP / "common").glob("*.py")]
+MEASUREMENT = list((APP / "measurement").glob("*.py"))
 
 
 def lines(paths):
@@ -27,9 +26,8 @@ def lines(paths):
 
 
 def test_files_can_be_read_at_once():
-    assert max(lines(PAGE)) <= 350
-    assert max(lines(EXTRAS)) <= 350
-    assert max(lines(FIT)) <= 400
+    assert max(lines(EXPLORER)) <= 370
+    assert max(lines(MEASUREMENT)) <= 400
 
 
 def test_nothing_private_of_the_toolkit_is_used():
@@ -70,7 +68,11 @@ def floor(path, below=()):
 def test_imports_point_down():
     floors = {path.relative_to(APP).as_posix(): floor(path) for path in APP.rglob("*.py")}
     # The seam is below the page, and above what extras bring.
-    assert floors["plot.py"] < floors["parts.py"] < floors["extra.py"] < floors["page.py"]
+    order = [floors[f"explorer/{name}.py"] for name in ("plot", "widgets", "page")]
+    assert order == sorted(order)
+    # What both pages use knows neither of them.
+    for path in (APP / "common").glob("*.py"):
+        assert all(each.parent == path.parent for each in imports(path))
 
 
 def test_scripts_stand_in_files_of_their_own():

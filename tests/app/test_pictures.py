@@ -5,8 +5,8 @@ import io
 import numpy as np
 import pytest
 
-from app.figures import drawn, legend
-from app.plots import PLOTS
+from app.explorer.figures import drawn, legend
+from app.explorer.plots import PLOTS
 from mdr_core.show.figures import ROLES
 
 from ..approx import approx

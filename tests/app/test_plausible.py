@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app.fit.texts import HELP
-from app.quantities import ASSETS
+from app.common.quantities import ASSETS
+from app.measurement.texts import HELP
 
 from ..approx import approx
 from .measuring import (

@@ -11,19 +11,19 @@ import pytest
 from scipy.integrate import trapezoid
 
 import mdr_core as mdr
-from app import changes
-from app.drives import follow, scene_of
-from app.extras import notes
-from app.extras.oblique import leaning
-from app.extras.section import section
-from app.extras.surface import Z as FAR_Z
-from app.extras.surface import surface
-from app.figures import Picture, drawn, legend, picture_of, ticks
-from app.layout import frames, marked_states
-from app.plot import Plot, View, rows_of
-from app.plots import NAMED, PLOTS, D, F, P, R, X, force, pressure
-from app.quantities import CHOICES, lowered
-from app.state import medium, preset_state, profile
+from app.common.quantities import CHOICES, lowered
+from app.explorer import changes
+from app.explorer.drives import follow, scene_of
+from app.explorer.extras import notes
+from app.explorer.extras.oblique import leaning
+from app.explorer.extras.section import section
+from app.explorer.extras.surface import Z as FAR_Z
+from app.explorer.extras.surface import surface
+from app.explorer.figures import Picture, drawn, legend, picture_of, ticks
+from app.explorer.layout import frames, marked_states
+from app.explorer.plot import Plot, View, rows_of
+from app.explorer.plots import NAMED, PLOTS, D, F, P, R, X, force, pressure
+from app.explorer.state import medium, preset_state, profile
 from mdr_core.show.figures import line, mark, radii
 from mdr_core.show.springs import SPRINGS
 from mdr_core.show.units import written

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
-from app.plot import View, rows_of
-from app.plots import PLOTS
+from app.explorer.plot import View, rows_of
+from app.explorer.plots import PLOTS
 
 from ..approx import approx
 from .states import solved, view_of, viscous

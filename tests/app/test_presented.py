@@ -5,9 +5,9 @@ import io
 import numpy as np
 import pytest
 
-from app import changes
-from app.page import Page
-from app.plots import PLOTS, D, F, R, X, Z
+from app.explorer import changes
+from app.explorer.page import Page
+from app.explorer.plots import PLOTS, D, F, R, X, Z
 
 from ..approx import approx
 from .conftest import Explorer

@@ -64,7 +64,7 @@ def in_a_loop(test):
 
 async def read(worker, path=SILICA, **told):
     """The number of curves of a file."""
-    return (await worker.run("fit.analysis.read", str(path), {}, 0, **told))[1]
+    return (await worker.run("measurement.analysis.read", str(path), {}, 0, **told))[1]
 
 
 async def begin(worker, path=SILICA, **told):
@@ -182,7 +182,7 @@ async def test_an_answer_comes_to_each_line(sessions, what, tmp_path):
     path = tmp_path / "long.csv"
     for rows in ("1, 2\n3, 4\n", f"{LONG[what]}\n" * 5):
         path.write_text(f"{LONG[what]}\n{rows}", encoding="utf-8")
-        for job, *given in (("fit.analysis.read", {}, 0), ("common.tip.read", "long.csv")):
+        for job, *given in (("measurement.analysis.read", {}, 0), ("common.tip.read", "long.csv")):
             run = sessions.workers[0].run(job, str(path), *given)
             (answer,) = await asyncio.gather(run, return_exceptions=True)
             assert isinstance(answer, tuple) or len(answer.text) <= 2000
@@ -257,7 +257,7 @@ async def test_parts_of_an_answer_come_in_order_and_are_those_without_a_process(
     asked = {"medium": "gel", "arguments": {}, "corrections": {}, "samples": (1, 1)}
     parts, others = [], []
     for worker, part in ((sessions.workers[0], parts.append), (Here(), others.append)):
-        await worker.run("fit.analysis.fit_all", str(path), {"by": "curve"}, asked, part=part)
+        await worker.run("measurement.analysis.fit_all", str(path), {"by": "curve"}, asked, part=part)
     assert [row.name for row in parts] == ["1", "2", "3"]
     assert parts == others
 
@@ -267,7 +267,7 @@ async def test_parts_of_an_answer_come_in_order_and_are_those_without_a_process(
     # The rest of a job whose parts the page cannot take is no answer to the next job.
     worker = sessions.workers[0]
     with pytest.raises(RuntimeError):
-        await worker.run("fit.analysis.fit_all", str(path), {"by": "curve"}, asked, part=broken)
+        await worker.run("measurement.analysis.fit_all", str(path), {"by": "curve"}, asked, part=broken)
     assert await read(worker) == 1
 
 

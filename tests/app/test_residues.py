@@ -6,14 +6,14 @@ from urllib.parse import parse_qsl
 import numpy as np
 import pytest
 
-from app import changes, link, readouts
 from app.common.tip import read_tip
-from app.drives import follow
-from app.extras.held import is_held, toggle_hold
-from app.extras.share import csv
-from app.page import Page
-from app.state import PRESETS, preset_state
-from app.widgets import Field
+from app.explorer import changes, link, readouts
+from app.explorer.drives import follow
+from app.explorer.extras.held import is_held, toggle_hold
+from app.explorer.extras.share import csv
+from app.explorer.page import Page
+from app.explorer.state import PRESETS, preset_state
+from app.explorer.widgets import Field
 from mdr_core.show.units import UNITS
 
 from ..approx import approx

@@ -12,10 +12,11 @@ import numpy as np
 import pytest
 from bokeh.util.token import get_token_payload
 
-from app import changes, ui
-from app.extras.scene_file import scene_file
+from app.common import ui
+from app.explorer import changes
+from app.explorer.extras.scene_file import scene_file
+from app.explorer.state import preset_state
 from app.security import is_own
-from app.state import preset_state
 
 from .conftest import CHROMIUM, FLAGS, ROOT, Explorer, Server
 from .states import view_of

@@ -4,16 +4,16 @@ import re
 
 import numpy as np
 
-from app import readouts, theory
-from app.changes import choose, hit_again, put
-from app.extras import share, sweep
-from app.figures import Picture, drawn, ticks
-from app.link import file_name
-from app.page import Page
-from app.plots import PLOTS
-from app.quantities import CHOICES
-from app.state import PRESETS, preset_state
-from app.ui import CSS
+from app.common.quantities import CHOICES
+from app.common.ui import CSS
+from app.explorer import readouts, theory
+from app.explorer.changes import choose, hit_again, put
+from app.explorer.extras import share, sweep
+from app.explorer.figures import Picture, drawn, ticks
+from app.explorer.link import file_name
+from app.explorer.page import Page
+from app.explorer.plots import PLOTS
+from app.explorer.state import PRESETS, preset_state
 from mdr_core.show.units import written
 
 from ..approx import approx

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
-from app import changes, readouts
-from app.extras.held import Held
-from app.extras.scene_file import scene_file
-from app.figures import Picture
-from app.plots import NAMED, PLOTS
-from app.state import PRESETS, preset_state
+from app.explorer import changes, readouts
+from app.explorer.extras.held import Held
+from app.explorer.extras.scene_file import scene_file
+from app.explorer.figures import Picture
+from app.explorer.plots import NAMED, PLOTS
+from app.explorer.state import PRESETS, preset_state
 
 from ..approx import approx
 from .conftest import DROP

@@ -3,8 +3,9 @@
 import re
 from pathlib import Path
 
-from app import drives, extra, plot, plots, quantities, state
-from app.page import Page
+from app.common import quantities
+from app.explorer import drives, extra, plot, plots, state
+from app.explorer.page import Page
 
 APP = Path(extra.__file__).parent
 PAGE = [path for path in APP.glob("*.py") if path.stem not in ("main", "server_lifecycle")]

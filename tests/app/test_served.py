@@ -16,9 +16,9 @@ from panel.io.server import WSHandler
 from panel.io.state import set_curdoc
 from tornado.locks import Lock
 
+from app.explorer.state import preset_state
+from app.explorer.widgets import Parts
 from app.security import websocket
-from app.state import preset_state
-from app.widgets import Parts
 
 from .conftest import ROOT, Explorer, Server, deployed, free_port
 from .test_page import assert_draws, now

@@ -8,14 +8,14 @@ import pytest
 from scipy.integrate import trapezoid
 
 import mdr_core as mdr
-from app import changes, link
+from app.common.quantities import CHOICES, QUANTITIES
 from app.common.tip import read_tip
 from app.common.upload import MAX_SAMPLES
-from app.drives import DRIVES, follow, scene_of, turning_point
-from app.extras import share
-from app.page import Page
-from app.quantities import CHOICES, QUANTITIES
-from app.state import OPENING, PRESETS, VIEW, altered, medium, preset_state, profile, used
+from app.explorer import changes, link
+from app.explorer.drives import DRIVES, follow, scene_of, turning_point
+from app.explorer.extras import share
+from app.explorer.page import Page
+from app.explorer.state import OPENING, PRESETS, VIEW, altered, medium, preset_state, profile, used
 
 from ..approx import approx
 from .conftest import DROP

@@ -3,15 +3,16 @@
 import numpy as np
 import pytest
 
-from app import changes, link, readouts, ui
-from app.drives import follow
-from app.extras import held, notes
-from app.extras.guide import TOURS, step_state, step_text
-from app.link import summary
-from app.page import Page
-from app.plots import PLOTS, D, F, P, X, force, springs, visible
-from app.quantities import CHOICES, QUANTITIES
-from app.state import preset_state
+from app.common import ui
+from app.common.quantities import CHOICES, QUANTITIES
+from app.explorer import changes, link, readouts
+from app.explorer.drives import follow
+from app.explorer.extras import held, notes
+from app.explorer.extras.guide import TOURS, step_state, step_text
+from app.explorer.link import summary
+from app.explorer.page import Page
+from app.explorer.plots import PLOTS, D, F, P, X, force, springs, visible
+from app.explorer.state import preset_state
 from mdr_core.show.springs import SPRINGS
 
 from ..approx import approx
@@ -91,7 +92,7 @@ def test_10_held_scenes_are_named_by_what_differs():
 
 
 def test_11_small_things_are_said_right():
-    assert "never cut" not in (ui.HERE / "extras" / "guide.html").read_text(encoding="utf-8")
+    assert "never cut" not in (ui.HERE / "explorer" / "extras" / "guide.html").read_text(encoding="utf-8")
     course = follow(state_with(plasticity="none"))
     said = {readouts.text(each, values, course.now) for each, values in readouts.readings(course).items()}
     assert "∞ m" not in said

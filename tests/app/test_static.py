@@ -24,9 +24,9 @@ import pytest
 import scipy
 
 import mdr_explorer
-from app.host import Sliced
-from app.page import Page
-from app.state import PRESETS, preset_state
+from app.common.host import Sliced
+from app.explorer.page import Page
+from app.explorer.state import PRESETS, preset_state
 from mdr_explorer import static
 
 from .conftest import DROP, ELASTIC, PUNCH, ROOT, Explorer
@@ -144,7 +144,7 @@ def test_scripts_and_sheets_are_those_of_the_served_page_in_its_order(written, s
 
 def test_the_theory_is_the_served_one_with_a_place_for_each_equation(written):
     text = (written[0] / "theory.html").read_text(encoding="utf-8")
-    from app import theory
+    from app.explorer import theory
 
     assert theory.html() in text
     assert 'id="eq-11"' in text
@@ -176,7 +176,7 @@ def test_the_sources_suffice_for_the_page_beside_what_is_compiled(written, tmp_p
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
     # The page, what it tells the browser beside it, and the address.
-    assert {"app.ui.Messages", "panel.models.location.Location"} <= {*found["roots"]}
+    assert {"app.common.ui.Messages", "panel.models.location.Location"} <= {*found["roots"]}
     assert found["places"] == len(found["roots"])
     assert "5.000 nm" in found["text"]
     # Each style sheet is a file of the folder, and no other host is asked.
@@ -278,7 +278,7 @@ class Slow(Sliced):
 def test_a_sweep_is_found_in_slices_and_a_press_makes_the_one_before_void(monkeypatch):
     """The page is pressed while a sweep is being found: that one is never shown, the next one is."""
     # Each step is a slice.
-    monkeypatch.setattr("app.host._SLICE", 0.0)
+    monkeypatch.setattr("app.common.host._SLICE", 0.0)
     host = Slow()
     # A ball: its sweep is not found at every move, and has lines of other classes of hardness.
     page = Page("preset=ball-glass_epoxy&tiles=sweep", host=host)

@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app import changes, link
-from app.drives import follow, scene_of
-from app.extras import notes, share, sweep
-from app.extras import structure as structures
-from app.extras import time as in_time
-from app.extras.guide import step_state
-from app.page import Page
-from app.readouts import line
-from app.state import PRESETS, altered, medium, preset_state, profile
+from app.explorer import changes, link
+from app.explorer.drives import follow, scene_of
+from app.explorer.extras import notes, share, sweep
+from app.explorer.extras import structure as structures
+from app.explorer.extras import time as in_time
+from app.explorer.extras.guide import step_state
+from app.explorer.page import Page
+from app.explorer.readouts import line
+from app.explorer.state import PRESETS, altered, medium, preset_state, profile
 
 from ..approx import approx
 from .conftest import DROP, GOLD, PUNCH

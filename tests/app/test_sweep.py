@@ -5,12 +5,12 @@ import re
 import numpy as np
 import pytest
 
-from app import changes
 from app.common.units import in_full
-from app.drives import follow
-from app.extras import sweep
-from app.extras.guide import TOURS, step_state
-from app.state import OPENING, medium, profile
+from app.explorer import changes
+from app.explorer.drives import follow
+from app.explorer.extras import sweep
+from app.explorer.extras.guide import TOURS, step_state
+from app.explorer.state import OPENING, medium, profile
 
 from ..approx import approx
 from .conftest import DROP, PUNCH

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app import tables
-from app.extras import share
-from app.fit.analysis import Row
-from app.fit.export import curves_csv, table_of
-from app.state import preset_state
+from app.common import tables
+from app.explorer.extras import share
+from app.explorer.state import preset_state
+from app.measurement.analysis import Row
+from app.measurement.export import curves_csv, table_of
 
 from .states import view_of
 

@@ -2,12 +2,12 @@
 
 import pytest
 
-from app import changes
+from app.common.quantities import QUANTITIES
 from app.common.units import read
-from app.page import Page
-from app.quantities import QUANTITIES
-from app.state import preset_state
-from app.widgets import Field
+from app.explorer import changes
+from app.explorer.page import Page
+from app.explorer.state import preset_state
+from app.explorer.widgets import Field
 from mdr_core.show.units import UNITS
 
 from ..approx import approx

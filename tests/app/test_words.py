@@ -6,18 +6,18 @@ from html import unescape
 import pytest
 
 import mdr_core as mdr
-from app import changes, theory
 from app.common.errors import in_words
+from app.common.quantities import CHOICES, QUANTITIES, lowered
 from app.common.tip import read_tip
-from app.drives import follow
-from app.extras.guide import TOURS
-from app.page import Page
-from app.plots import PLOTS
-from app.quantities import CHOICES, QUANTITIES, lowered
-from app.readouts import READOUTS, explained, heads, line
-from app.search import Searched
-from app.state import PRESETS, preset_state
-from app.ui import linked, marked
+from app.common.ui import linked, marked
+from app.explorer import changes, theory
+from app.explorer.drives import follow
+from app.explorer.extras.guide import TOURS
+from app.explorer.page import Page
+from app.explorer.plots import PLOTS
+from app.explorer.readouts import READOUTS, explained, heads, line
+from app.explorer.search import Searched
+from app.explorer.state import PRESETS, preset_state
 
 from ..approx import approx
 from .conftest import DROP

@@ -11,8 +11,8 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from app.extras.scene_file import scene_file
-from app.page import Page
+from app.explorer.extras.scene_file import scene_file
+from app.explorer.page import Page
 from tests.app.conftest import CHROMIUM, FLAGS, SCRIPT, Server
 
 PRESSES = 60

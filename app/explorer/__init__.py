@@ -1,0 +1,3 @@
+"""The explorer: one state, what you set on its page, and what is drawn."""
+
+from . import extras as extras

@@ -1,0 +1,83 @@
+"""The page in a browser by Pyodide, without a server: no threads, no processes, one document.
+
+Private ends of Panel and Pyodide are here alone, with what they gain.
+"""
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from functools import partial
+from typing import Any
+
+import js
+import panel as pn
+import pyodide.ffi
+from panel.io import pyodide as browser
+from tqdm import tqdm
+
+from ..common.host import Sliced, Steps
+from ..common.ui import SHEETS
+from .page import Address, Page
+
+# What JavaScript's null is for Python from version 0.28 of Pyodide on: Panel compares each value that the
+# browser sends with it. Before, null is None already, so that no value is this one.
+if not hasattr(pyodide.ffi, "jsnull"):
+    pyodide.ffi.jsnull = object()
+# It watches its bars by a thread.
+tqdm.monitor_interval = 0
+
+
+class Browser(Sliced):
+    """One page in its browser, which is drawn and pressed between slices of what is searched."""
+
+    def __init__(self) -> None:
+        self._shows = False
+        self._waiting: list[Callable[[], None]] = []
+
+    def shows(self) -> bool:
+        return self._shows
+
+    def once_shown(self, act: Callable[[], None]) -> None:
+        if self._shows:
+            act()
+        else:
+            self._waiting.append(act)
+
+    def shown(self) -> None:
+        """The browser shows the page from now on."""
+        self._shows = True
+        for act in self._waiting:
+            act()
+
+    def later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
+        return asyncio.get_running_loop().call_later(milliseconds / 1000, act).cancel
+
+    def soon(self, act: Callable[[], None]) -> None:
+        self.later(act, 0)
+
+    def run(self, act: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        pn.state.execute(act)
+
+    def search(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
+        # Not within the press that asks for it.
+        self.soon(lambda: self.make(steps, wanted, done))
+
+
+async def start(query: str, dark: bool) -> None:
+    """Show the page of a query in this browser, with the theme that it has kept."""
+    browser.init_doc()
+    document = pn.state.curdoc
+    pn.extension(notifications=True, css_files=SHEETS)
+    host = Browser()
+    page = Page(query, dark, host)
+    pn.panel(page).server_doc(document, "Indentation explorer", Address())
+    # Panel looks for the places of roots in the order of this attribute.
+    for k in range(len(document.roots)):
+        place = js.document.createElement("div")
+        place.id, place.style.display = f"root-{k}", "contents"
+        place.setAttribute("data-root-id", f"{k:03}")
+        js.document.body.append(place)
+    # What is sent is answered once the script that sends it has ended, as from a server.
+    answer = document.apply_json_patch
+    document.apply_json_patch = lambda patch, setter=None: host.soon(partial(answer, patch, setter=setter))
+    await browser.write_doc(document)
+    host.shown()

@@ -1,0 +1,151 @@
+"""Notes: in the form; and below the player assumptions, and what the numbers are."""
+
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache, partial
+from math import atan, degrees
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup
+
+from mdr_core.show.units import digits, written
+
+from ...common.quantities import CHOICES
+from ...common.ui import linked, marked
+from .. import readouts
+from ..courses import Course, onset_depth
+from ..extra import Extra
+from ..link import with_symbol
+from ..plot import Plot, View
+from ..plots import NAMED, PLOTS, visible
+from ..state import PRESETS, State, altered
+
+#: Standard acceleration of free fall (m/s²).
+_GRAVITY = 9.80665
+
+
+def form_notes(view: View) -> dict[str, str]:
+    """Notes (HTML) by the places of the form."""
+    state, course = view.state, view.course
+    shape, made = state.chosen("shape"), course.scene.medium
+    head = "Altered. " * bool(altered(state)) + "Where the preset's numbers come from, "
+    head += "and which of them are illustrative:"
+    energy = written(state.mass * state.speed**2 / 2, "energy")
+    height = written(state.speed**2 / (2 * _GRAVITY), "length")
+    slope = getattr(course.scene.profile, "slope", None)
+    angle = f"Half-angle {digits(degrees(atan(1 / slope)))}°" if slope else ""
+    of_tip = state.tip_note if state.shape == "sampled" else angle
+    eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
+    idle = "" if course.dashpots else "; no effect here, where pressing is quasi-static"
+    return {
+        "drive": f"Energy {energy}; equivalent drop height {height}" * (state.drive == "impact"),
+        "shape": Markup("<figcaption>{}<br>{}</figcaption>{}").format(
+            marked(shape.height), marked(shape.reduced), marked(of_tip)
+        ),
+        "medium": marked(law_of_hardness(course)),
+        "more": linked(f"η = {eta}, τ = 4η/E* = {tau} (1){idle}") if made.eta > 0 else "",
+        "sources": Markup("<p>{}</p><dl>{}</dl>").format(head, _sources(state.preset)),
+    }
+
+
+@cache
+def _sources(preset: str) -> Markup:
+    """Numbers of a preset, and where each comes from."""
+    known = PRESETS[preset]
+    row = Markup("<dt>{}</dt><dd>{}</dd>")
+    symbols = (marked(with_symbol(name, known.values[name])) for name in known.sources)
+    return Markup("").join(map(row.format, symbols, known.sources.values()))
+
+
+def law_of_hardness(course: Course) -> str:
+    """The hardness at the contact radius of the largest depth, and where yield begins."""
+    made, onset = course.scene.medium, onset_depth(course.scene)
+    a = float(course.turning_point.contact_radius)
+    if made.q_c == np.inf:
+        return "Nothing yields: q_c = ∞"
+    law = "q_c/a" if made.q_c else "f_c/a²" if made.f_c else "H"
+    hardness = written(float(made.hardness_at(a)), "pressure")
+    place = " at every a" if law == "H" else f" at a = {written(a, 'length')}"
+    starts = f"Yield starts at d_y = {written(onset, 'length')}"
+    if imprint := course.initial_plastic_depth:
+        starts = (
+            f"Over the imprint yield goes on at d = {written(onset_depth(course.scene, imprint), 'length')}"
+        )
+    elif onset == np.inf:
+        starts = "Nothing yields under this shape: H is too large"
+    elif onset == 0:
+        starts = "Yield starts at first contact, d_y = 0"
+    return f"σ_c = {law} = {hardness}{place}. {starts} " + ("(19)" if made.inverse_to_radius else "§ 20")
+
+
+_HEAD = "Numbers, equations, assumptions"
+
+
+def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
+    """Levels ("good", "note", "beyond") and sentences of the assumptions."""
+    for sentence in (*course.notes, course.pending):
+        if sentence:
+            yield "note", sentence
+    speed = [] if course.hit is None else [course.hit.speed_limit(state.density)]
+    for limit in sorted([*course.limits, *speed], key=lambda limit: limit.concerns != "result"):
+        # The fast limit is one without adhesion; what is still computed may have dashpots.
+        without = {"fast limit": course.adhesive, "viscosity": bool(course.pending)}
+        if without.get(limit.what):
+            continue
+        own = _own_words(limit, state)
+        yield ("note", own) if own else (limit.level, limit.sentence)
+
+
+#: What is said where E* is given without ν.
+_OF_INCOMPRESSIBLE = {
+    "Poisson ratio": "Dashpots parallel to the springs are exact only for ν = ½; ν is not given with E*.",
+    "coupling": "Friction is computed with ν = ½; ν is not given with E*.",
+}
+
+
+def _own_words(limit: Any, state: State) -> str:
+    """What the page says of a limit in the place of the core, or nothing."""
+    if limit.what == "viscosity":
+        remedy = " and in ".join(each.in_time for each in CHOICES["drive"].options.values() if each.in_time)
+        tau = written(limit.value, "time")
+        return f"Pressing is quasi-static here. Dashpots (τ = {tau}) act in {remedy}."
+    return _OF_INCOMPRESSIBLE.get(limit.what, "") if state.elasticity == "modulus" else ""
+
+
+_SENTENCE = Markup('<span class="{}">{}</span>')
+
+
+def below(view: View) -> Markup:
+    """Exceeded assumptions as HTML; the others fold, with what the numbers and the plots are."""
+    exceeded, others = Markup(""), Markup("")
+    for level, sentence in limits(view.course, view.state):
+        html = _SENTENCE.format(level, linked(sentence))
+        exceeded += html * (level == "beyond")
+        others += html * (level != "beyond")
+    others += readouts.explained(readouts.line(view.course))
+    others += _laws(view, visible(view), linked)
+    return exceeded + Markup("<details><summary>{}</summary>{}</details>").format(_HEAD, others)
+
+
+def _laws(view: View, plots: Iterable[Plot], link: Callable[[str], Markup]) -> Markup:
+    """The formula of each plot, with the numbers of its equations (HTML); `link` makes HTML of a text."""
+    laws = ((plot.title, link(plot.formula_of(view.course))) for plot in plots)
+    rows = (Markup("<dt>{}</dt><dd><em>{}</em></dd>").format(*each) for each in laws)
+    return Markup("<dl>{}</dl>").format(Markup("").join(rows))
+
+
+def told(view: View) -> list[tuple[str, str]]:
+    """All of them as HTML, without links to pages of the server."""
+    sentences = limits(view.course, view.state)
+    html = (_SENTENCE.format(level, marked(sentence)) for level, sentence in sentences)
+    numbers = readouts.explained(readouts.line(view.course), marked)
+    numbers += _laws(view, map(PLOTS.__getitem__, NAMED), marked)
+    return [("Assumptions and notes", Markup("").join(html)), ("What the numbers are", numbers)]
+
+
+def notes(view: View) -> dict[str, Any]:
+    """Notes by their places."""
+    return form_notes(view) | {"below": partial(below, view)}
+
+
+EXTRA = Extra("notes", order=30, notes=notes, told=told)

@@ -1,0 +1,175 @@
+"""The structure behind the medium in the drive *impact*: a thick block, a plate, or a support."""
+
+from dataclasses import dataclass, fields, replace
+from math import exp, inf, log
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup
+from scipy.optimize import brentq
+
+import mdr_core as mdr
+from mdr_core.show.units import written
+
+from ...common.quantities import QUANTITIES
+from ...common.ui import marked
+from ..courses import Course
+from ..drives import DRIVES, Impact, follow
+from ..extra import Extra
+from ..plot import Plot, View
+from ..plots import PLOTS
+from ..state import State, medium, preset_values, profile, used_by
+from ..widgets import Part, button
+
+#: What is said of a body that never leaves.
+_STAYS = "The body never leaves the plate: waves take all of the energy that yield leaves, e = 0."
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class StructureCourse(Course):
+    """A course of an impact on a plate or a support."""
+
+    @property
+    def in_place(self):
+        # Both radii are seen; what is damaged has the radius c.
+        taken = "structure_work" if self.structure.is_plate else "support_energy"
+        return {"damaged_area": taken, "contact_radius": "deflection"}
+
+    @property
+    def behind(self) -> SimpleNamespace:
+        """Results (SI) of the structure, and of the body that moves with it."""
+        motion, found = self.motion, {"max_deflection": self.hit.max_deflection}
+        found |= {"deflection": motion.deflection, "body_velocity": motion.body_velocity}
+        if self.structure.is_plate:
+            return SimpleNamespace(structure_work=motion.structure_work, **found)
+        return SimpleNamespace(support_energy=motion.support_energy, **found)
+
+    @property
+    def largest_terms(self):
+        own = {"deflection": self.hit.max_deflection, "body_velocity": self.hit.speed}
+        return super().largest_terms | own
+
+
+class OnStructure(Impact):
+    """The drive *impact* of the page, on a structure too."""
+
+    def given(self, state):
+        structure = structure_of(state)
+        return super().given(state) | ({} if structure is None else {"structure": structure})
+
+    def follow(self, scene, progress):
+        course = super().follow(scene, progress)
+        if course.structure is None:
+            return course
+        own = {field.name: getattr(course, field.name) for field in fields(course)}
+        notes = (_STAYS,) * bool(course.hit.captured)
+        return StructureCourse(**own | {"notes": notes})
+
+    def converted(self, state, choice, wanted):
+        """Numbers of a structure that nobody has set, so that it matters beside the present impact."""
+        if choice != "structure.behind" or wanted == "block" or _losses(state):
+            return {}
+        hit = follow(state).hit
+        # Under the present force a spring would store half of the energy, and waves of half a sine take it.
+        stiffness = float(hit.max_force**2 / (hit.mass * hit.speed**2))
+        if wanted == "support":
+            found = {"stiffness": float(f"{stiffness:.2g}")}
+        else:
+            found = _material(state)
+            of_one_metre = float(mdr.Structure.plate(1.0, **found).impedance)
+            thickness = (2 * stiffness * float(hit.contact_time) / of_one_metre) ** 0.5
+            found["thickness"] = float(f"{thickness:.2g}")
+        found = {f"structure.{name}": value for name, value in found.items()}
+        known = preset_values(state.preset).keys() | state.extras.keys()
+        return {name: QUANTITIES[name].bounded(each) for name, each in found.items() if name not in known}
+
+    def equivalent(self, state, turning_point):
+        """On a structure the speed is larger than that of the work alone."""
+        numbers = super().equivalent(state, turning_point)
+        given = self.given(state) | numbers
+        if "structure" not in given or hasattr(DRIVES[state.drive].make(state), "speed"):
+            return numbers
+        depth, shape, made = float(turning_point.depth), profile(state), medium(state)
+
+        def beyond(log_speed):
+            hit = mdr.impact(shape, made, **given | {"speed": exp(log_speed)})
+            return float(hit.max_depth) / depth - 1
+
+        low = log(numbers["speed"])
+        high = next(low + step for step in range(1, 40) if beyond(low + step) > 0)
+        return numbers | {"speed": exp(brentq(beyond, low, high, xtol=1e-9))}
+
+
+def _material(state: State) -> dict[str, float]:
+    """Modulus, Poisson ratio and density of a plate of the medium, where they are those of a body."""
+    if state.elasticity == "bodies":
+        nu = QUANTITIES["structure.nu"].bounded(state.nu_1)
+        return {"E": state.E_1, "nu": nu, "density": state.density}
+    return {name: state[f"structure.{name}"] for name in ("E", "nu", "density")}
+
+
+def _losses(state: State) -> str:
+    """What of the medium is not computed together with a structure, in words, or nothing."""
+    return "adhesion" if state.adhesion != "none" else "viscosity" if state.damping != "none" else ""
+
+
+def structure_of(state: State) -> mdr.Structure | None:
+    """The structure of a state, None for a thick block. Raises ValueError."""
+    behind = state["structure.behind"]
+    if behind == "block":
+        return None
+    if losses := _losses(state):
+        raise ValueError(
+            f"a {behind} is not computed together with {losses}: choose “thick block” as the structure, "
+            f"or no {losses} (More about the medium)"
+        )
+    own = {name.removeprefix("structure."): state[name] for name in used_by(state, "structure.behind")}
+    if behind == "support":
+        return mdr.Structure(**own)
+    # 0 is an edge that is not known.
+    edge = own.pop("edge") or None
+    if state["structure.plate"] == "bending":
+        D = own["D"]
+        # An isotropic plate by its bending stiffness: its Poisson ratio, here 0, does not matter.
+        return mdr.Structure.laminate(D, 0.0, D, D / 2, own["mass_per_area"], edge=edge)
+    return mdr.Structure.plate(**own, edge=edge)
+
+
+def notes(view: View) -> dict[str, str]:
+    """What the numbers of a plate make, and how far its edges must be."""
+    course = view.course
+    if not isinstance(course, StructureCourse) or not course.structure.is_plate:
+        return {}
+    plate = course.structure
+    # Z is 8√(D ρh).
+    stiffness, mass = plate.impedance * plate.wave_spread / 8, plate.impedance / plate.wave_spread / 8
+    parts = [
+        f"D = {written(float(stiffness), 'bending stiffness')}",
+        f"ρh = {written(float(mass), 'mass per area')}",
+        f"Z = 8√(D ρh) = {written(float(plate.impedance), 'drag')}",
+    ]
+    lines = [marked(", ".join(parts))]
+    if (far := _far(course)) < inf:
+        lines.append(marked(f"Edges farther than {written(far, 'length', 2)} are not felt"))
+    return {"form": Markup("<br>").join(lines)}
+
+
+def _far(course: StructureCourse) -> float:
+    """Distance (m) beyond which edges are not felt; infinite where the body never leaves."""
+    told = replace(course.hit, structure=replace(course.structure, edge=1.0))
+    (limit,) = (each for each in told.limits if each.what == "edges")
+    # The time that waves take is as the square of the distance.
+    return float(np.sqrt(limit.value / limit.bound))
+
+
+def e_over_h(page: Any, plot: Plot, view: View) -> Part | None:
+    """The button above the force that shows the restitution over the thickness of the plate."""
+    thickness = "structure.thickness"
+    if plot.name != "force" or "sweep" not in PLOTS or thickness not in used_by(view.state, "drive"):
+        return None
+    shown = {"tiles": ("sweep",), "sweep.swept": thickness, "sweep.against": "restitution"}
+    return button("e over h", lambda: page.apply(lambda state: state.replace(**shown)))
+
+
+EXTRA = Extra("structure", drives={"impact": OnStructure()}, notes=notes, on_plots=e_over_h)

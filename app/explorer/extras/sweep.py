@@ -1,0 +1,343 @@
+"""The plot *Sweep*: results over one number, with other classes and the limit of fast impacts."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from operator import attrgetter
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup
+
+import mdr_core as mdr
+from mdr_core.show.figures import NOTHING, line, mark
+from mdr_core.show.quantities import QUANTITIES as RESULTS
+from mdr_core.show.units import KINDS, digits
+
+from ...common.errors import in_words
+from ...common.host import last
+from ...common.quantities import CHOICES, QUANTITIES, Option, lowered, quantity, read_data
+from ...common.ui import marked
+from ...common.units import in_full
+from ..changes import CONSTANTS, option, shown
+from ..drives import DRIVES
+from ..extra import Extra
+from ..figures import Logarithmic
+from ..plot import OF_AXIS, Plot, View, axis
+from ..search import Found, Resting, Searched
+from ..state import PRESETS, State, medium, profile, used, used_by, yield_constant
+from ..widgets import Part, button, slider_range
+
+#: Functions of the core by drives.
+SOLVERS = {"depth": "indent", "force": "indent_to_force", "impact": "impact"}
+#: Points along the range, and of impacts in time, which take a millisecond each.
+POINTS, IN_TIME = 81, 31
+#: Names of the fast limit, which is that of class (b), and of the three classes: options and constants.
+FAST = "fast limit (23) (24), class (b)"
+CLASSES = {
+    "(a) hardness constant": ("constant", "volume_hardness"),
+    "(b) hardness ∝ 1/a": ("q_c", "q_c"),
+    "(c) hardness ∝ 1/a²": ("line", "f_c"),
+}
+#: Where the result of a fast limit is in that of an impact.
+_LIMITS = {
+    "damaged_area": "fast_limit.contact_area",
+    "max_depth": "fast_limit.max_depth",
+    "restitution": "fast_limit.restitution",
+}
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A sweep: the scene, the swept number with its range, and the result."""
+
+    state: State
+    swept: str
+    present: float
+    low: float
+    high: float
+    against: str
+    logarithmic: bool
+    #: Function of the core, "" if the drive has none.
+    solver: str
+
+    @property
+    def in_time(self):
+        """Whether it is of impacts with dashpots or on a structure."""
+        structure = DRIVES[self.state.drive].given(self.state).get("structure")
+        return self.solver == "impact" and (self.state.damping != "none" or structure is not None)
+
+    @property
+    def numbers(self):
+        space = np.geomspace if self.low > 0 else np.linspace
+        return space(self.low, self.high, IN_TIME if self.in_time else POINTS)
+
+    def at(self, numbers):
+        """The scene with values of the swept number."""
+        if self.swept == "energy":
+            return self.state.replace(speed=(2 * numbers / self.state.mass) ** 0.5)
+        return self.state.replace(**{self.swept: numbers})
+
+    def solve(self, numbers):
+        """Results of the core for values of the swept number."""
+        state = self.at(numbers)
+        given = DRIVES[state.drive].given(state)
+        return getattr(mdr, self.solver)(profile(state), medium(state), **given)
+
+    def column(self, numbers, quantity):
+        """A result at values of the swept number; NaN where the core refuses."""
+        try:
+            result = self.solve(numbers[:, None] if len(numbers) > 1 else float(numbers[0]))
+            return np.broadcast_to(attrgetter(quantity)(result), (len(numbers), 1))[:, 0]
+        except ValueError:
+            if len(numbers) == 1:
+                return np.full(1, np.nan)
+            return np.hstack([self.column(half, quantity) for half in np.array_split(numbers, 2)])
+
+    @property
+    def yields(self):
+        """Whether the medium yields at the present value."""
+        return self.column(np.array([self.present]), "plastic_work")[0] > 0
+
+    @property
+    def dry(self):
+        return not self.in_time and self.state.adhesion == "none"
+
+    def fast(self, numbers):
+        """The fast limit, of dry impacts on a virgin medium of class (b), and nothing elsewhere."""
+        virgin = self.solver == "impact" and self.dry and not self.state.plastic_depth
+        if virgin and self.against in _LIMITS and self.state.plasticity in ("q_c", "hardness"):
+            return {FAST: self.column(numbers, _LIMITS[self.against])}
+        return {}
+
+    def classes(self):
+        """Sweeps of the other classes of hardness, through the present value, by their rows."""
+        return dict(self.each_class())
+
+    def each_class(self):
+        """Rows of the other classes of hardness, and their sweeps through the present value, one by one."""
+        own = yield_constant(self.state)
+        others = {row: pair for row, pair in CLASSES.items() if pair[1] not in own}
+        constant = self.swept in used_by(self.state, "plasticity")
+        # Under a given force each constant is a search of its own.
+        if constant or not self.dry or not self.yields or self.solver == "indent_to_force":
+            return
+        for row, pair in others.items():
+            if each := self._through(*pair):
+                yield row, each
+
+    def _through(self, option, constant):
+        """The sweep of another class, with the constant that gives the present result; None without one.
+
+        The constant is looked for about that of the same hardness at the largest contact radius, and has
+        five digits, as in a field.
+        """
+        at = np.array([self.present])
+        wanted, a = (float(self.column(at, quantity)[0]) for quantity in (self.against, "contact_radius"))
+        same = float(medium(self.at(self.present)).hardness_at(a)) * a ** (CONSTANTS.index(constant))
+        other = replace(self, state=self.state.replace(plasticity=option), swept=constant)
+        found = crossing(lambda values: other.column(values, self.against) - wanted, same / 40, same * 30)
+        if found is None:
+            return None
+        return replace(other, state=other.state.replace(**{constant: shown(found)}), swept=self.swept)
+
+
+def crossing(function, low, high):
+    """Smallest number between two positive ones at which a function changes its sign; None without one.
+
+    The function takes an array, in which a number costs a small part of one by itself: so it is looked for
+    on a grid of equal ratios that is refined once, which leaves 10⁻³ of it, and then by a chord, 10⁻⁶.
+    """
+    for _ in range(2):
+        numbers = np.geomspace(low, high, POINTS)
+        values = function(numbers)
+        changes = np.flatnonzero(values[:-1] * values[1:] < 0)
+        if not changes.size:
+            return None
+        first = changes[0]
+        low, high = numbers[first : first + 2]
+    return low + (high - low) * values[first] / (values[first] - values[first + 1])
+
+
+_DATA = read_data(Path(__file__).with_suffix(".json"))
+_RESULTS = _DATA["results"]
+#: The energy of an impact, which is swept by the speed.
+_ENERGY = quantity(**_DATA["energy"])
+
+#: Dashes of the lines beside that of the scene.
+LINES = dict(zip((FAST, *CLASSES), ("dashed", "dotted", "dashed", "dotdash"), strict=True))
+#: Of a ratio, as the restitution, what is nothing beside its largest value.
+_NOTHING = 1e-3
+#: Shapes with closed forms.
+_SHAPES = ("cone", "paraboloid", "power_law")
+
+
+def known(name: str):
+    """A quantity that can be swept."""
+    return _ENERGY if name == "energy" else QUANTITIES[name]
+
+
+for _name in ("energy", *QUANTITIES):
+    _label = lowered(f"{known(_name).symbol}, {known(_name).label}")
+    CHOICES["sweep.swept"].options[_name] = Option(_label)
+
+
+def swept(state: State) -> list[str]:
+    """What can be swept, the first one if nothing is chosen."""
+    if state.drive not in SOLVERS:
+        names = CHOICES["sweep.swept"].options
+        return [each for each in names if each == "energy" or state[each] is not None]
+    own, impact = used_by(state, "drive"), state.drive == "impact"
+    idle = ("density",) if impact else ("density", "eta")
+    works = [each for each in used(state) if each not in idle and QUANTITIES[each].span >= 0]
+    return ["energy"] * impact + sorted(works, key=lambda each: each not in own)
+
+
+def against(state: State) -> list[str]:
+    """Results that can be drawn."""
+    return _RESULTS.get(state.drive) or list(CHOICES["sweep.against"].options)
+
+
+def _value(state: State, name: str) -> float:
+    return state.mass * state.speed**2 / 2 if name == "energy" else state[name]
+
+
+def asked(state: State) -> Sweep:
+    """The sweep of a state, over the range of a slider about the value of the preset."""
+    name = option(state, "sweep.swept")
+    value, middle = (_value(each, name) for each in (state, state.replace(**PRESETS[state.preset].values)))
+    low, _, high = slider_range(known(name), middle, value)
+    chosen = option(state, "sweep.against"), state["sweep.scale"] == "log", SOLVERS.get(state.drive, "")
+    return Sweep(state.scene_values, name, value, low, high, *chosen)
+
+
+def quick(sweep: Sweep) -> bool:
+    """Whether the sweep is fast enough for every move: shapes with closed forms."""
+    one_by_one = sweep.solver == "indent_to_force" and sweep.swept != "max_force"
+    return not (one_by_one or sweep.in_time) and sweep.state.shape in _SHAPES
+
+
+def found(course, sweep: Sweep) -> Found:
+    """Curve of the sweep with the present value and limits."""
+    return last(in_steps(course, sweep))
+
+
+def in_steps(course, sweep: Sweep) -> Iterator[Found | None]:
+    """`found`, after a step for each of its lines."""
+    if not sweep.solver:
+        yield Found({}, [], "This drive has no sweep: press to a depth or a force, or let a body hit.")
+        return
+    result = course.turning_point if course.hit is None else course.hit
+    numbers, present = sweep.numbers, getattr(result, sweep.against)
+    values = sweep.column(numbers, sweep.against)
+    yield None
+    inside = sweep.low <= sweep.present <= sweep.high
+    columns, classes = {"this scene": values} | sweep.fast(numbers), {}
+    for row, each in sweep.each_class() if inside else ():
+        yield None
+        classes[row], columns[row] = each, each.column(numbers, each.against)
+        yield None
+    rows = {name: (numbers, column) for name, column in columns.items()}
+    x, y = _axes(sweep, values, float(present))
+    if y.log:
+        rows = {name: (numbers, np.where(row > 0, row, np.nan)) for name, (_, row) in rows.items()}
+    visible = inside and (present > 0 or not y.log)
+    rows["present value"] = (np.array([sweep.present]), np.array([present])) if visible else NOTHING
+    yield Found(rows, [x, y], Markup(" ").join(_notes(sweep, numbers, values, classes, inside)))
+
+
+def _axes(sweep, values, present):
+    """Both logarithmic, to show powers, or linear; a ratio that is nearly 0 somewhere has a linear one."""
+    quantity, result = known(sweep.swept), RESULTS[sweep.against]
+    log = sweep.logarithmic and sweep.low > 0
+    # Over decades in the unit of the present value: J for 2.75 J, not kJ for the end of the range.
+    fits = min(sweep.present, sweep.high) if log else sweep.high
+    x = axis(lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, fits)
+    x = replace(x, start=sweep.low if log else min(sweep.low, 0.0), end=sweep.high, log=log)
+    sizes = np.append(values, present)
+    sizes = sizes[np.isfinite(sizes)]
+    title = CHOICES["sweep.against"].options[sweep.against].label
+    y = axis(title, KINDS[result.unit], max(sizes, default=1.0))
+    if not (log and (sizes > 0).any() and (result.unit or (sizes > _NOTHING * max(sizes)).all())):
+        return x, y
+    # At most six decades, between powers of ten.
+    least, most = max(min(sizes[sizes > 0]), 1e-6 * max(sizes)), max(sizes)
+    low, high = 10.0 ** np.floor(np.log10(least / y.factor)), 10.0 ** np.ceil(np.log10(most / y.factor))
+    return x, replace(y, start=low * y.factor, end=max(high, 10 * low) * y.factor, log=True)
+
+
+def _power(sweep):
+    """The power law at the present value, by its log–log slope; empty where the result is 0."""
+    pair = sweep.present * np.array([0.999, 1.001])
+    ends = sweep.column(pair, sweep.against)
+    if not (ends > 0).all():
+        return ""
+    slope = round(float(np.log(ends[1] / ends[0]) / np.log(pair[1] / pair[0])), 6)
+    return Markup("{}<sup>{}</sup>").format(marked(known(sweep.swept).symbol), digits(slope, 3))
+
+
+def _told(row, sweep):
+    """Class, constant and law of a sweep of another class."""
+    constant = QUANTITIES[CLASSES[row][1]]
+    value = in_full(sweep.state[constant.name], constant.kind)
+    told = [marked(f"{row.split()[0]} {constant.symbol} = {value}"), sweep.low > 0 and _power(sweep)]
+    return Markup(", ").join(part for part in told if part)
+
+
+def _notes(sweep, numbers, values, classes, inside):
+    quantity = known(sweep.swept)
+    if not inside:
+        shown = in_full(sweep.present, quantity.kind)
+        value = marked(f"{quantity.symbol} = {shown}")
+        yield Markup("The present value, {}, is outside the range.").format(value)
+    elif sweep.low > 0 and (power := _power(sweep)):
+        result = marked(RESULTS[sweep.against].symbol)
+        yield Markup("At the present value {} ∝ {}.").format(result, power)
+    if classes:
+        told = [_told(row, each) for row, each in classes.items()]
+        yield Markup("Through the same point: {}.").format(Markup("; ").join(told))
+    elif inside and not sweep.yields:
+        yield "Nothing yields at the present value."
+    refused = numbers[np.isnan(values)]
+    if refused.size:
+        try:
+            sweep.solve(float(refused[0]))
+        except ValueError as error:
+            yield marked(f"Not all of the range can be solved: {in_words(error)}.")
+
+
+@dataclass(frozen=True, eq=False)
+class SweepPlot(Searched):
+    """The plot, whose choices offer what applies to the drive."""
+
+    def options_of(self, state, control):
+        offered = {"sweep.swept": swept, "sweep.against": against}
+        return offered[control](state) if control in offered else super().options_of(state, control)
+
+
+SWEEP = SweepPlot(
+    "sweep", "Sweep", "one parameter varied, all others fixed  § 10, § 20", (),
+    (
+        *(line(name, "ink", 1.4, dash, OF_AXIS) for name, dash in LINES.items()),
+        line("this scene", "elastic", 2.4, symbol=OF_AXIS),
+        mark("present value"),
+    ),
+    find=in_steps, asks=asked, quick=quick, tab="Sweep", order=90, picture=Logarithmic,
+    controls=("sweep.swept", "sweep.against", "sweep.scale"),
+)  # fmt: skip
+
+
+def e_over_v(page: Any, plot: Plot, view: View) -> Part | None:
+    """The button above the force of an impact that shows the restitution over the speed."""
+    if plot.name != "force" or view.state.drive != "impact":
+        return None
+    shown = {"tiles": ("sweep",), "sweep.swept": "speed", "sweep.against": "restitution"}
+    return button("e over v", lambda: page.apply(lambda state: state.replace(**shown)))
+
+
+EXTRA = Extra(
+    "sweep",
+    plots=(SWEEP,),
+    on_plots=e_over_v,
+    service=Resting,
+)

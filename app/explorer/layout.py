@@ -1,0 +1,246 @@
+"""The layout of the page: header, side with one part at a time, player, and the plots in cards."""
+
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+import panel as pn
+from markupsafe import Markup, escape
+
+from ..common.quantities import QUANTITIES
+from ..common.ui import FULL, LAYOUT, WIDE, as_html, html, marked, show
+from . import readouts
+from .courses import Course
+from .extra import EXTRAS, Side
+from .figures import PLACES, Picture, drawn, legend, picture_of
+from .plot import Plot, View
+from .plots import NAMED, PLOTS, visible
+from .state import State
+from .widgets import Form, Part, Parts, button, text
+
+#: Roles and names of the parts of the page, by their classes.
+LANDMARKS = {
+    "above": ("banner", "Preset and tools"),
+    "side": ("complementary", "Drive, indenter and medium"),
+    "results": ("main", "Numbers and plots"),
+    "share": ("region", "Share"),
+}
+_TITLE = text("name", Markup("<h1>Indentation explorer</h1>"), "name")
+#: The link to the page for measurements.
+_FIT = text("fit", Markup('<a href="?fit">Fit a measurement</a>'), "way")
+
+
+def _turned(state: State) -> State:
+    """Dark instead of light, or back."""
+    return state.replace(dark=not state.dark)
+
+
+def opened(state: State, name: str) -> State:
+    """With an optional plot, or none, in the place of the one that is shown."""
+    return state.replace(tiles=(name,) if name else ())
+
+
+class Card:
+    """A plot in its card: title, buttons of extras, legend, choices, and a note."""
+
+    def __init__(self, plot: Plot, page: Any):
+        self.plot, self.picture, self._page, self._legend = plot, picture_of(plot), page, {}
+        self.head, figure = Parts("heading"), pn.pane.Bokeh(self.picture.figure, **FULL)
+        # Not seen before it is drawn: that may fail.
+        self.view = pn.Column(self.head, figure, css_classes=["card", plot.name], visible=False, **FULL)
+
+    def show_parts(self, view: View) -> None:
+        """Show the texts and buttons around the plot."""
+        plot, page = self.plot, self._page
+        # What is cut off by axes that stay leaves no gap: the plot would move while it is dragged.
+        kept = self._legend if view.kept else {}
+        self._legend = kept | drawn(view, plot)
+        # Its formula stands with the numbers.
+        title = Markup("<h3>{}</h3><span>{}</span>").format(plot.title, marked(plot.aside(view)))
+        buttons = (each.on_plots(page, plot, view) for each in EXTRAS.values())
+        key = text("key", legend(plot, self._legend), "key")
+        controls = [self._control(name) for name in plot.controls]
+        close = [button("Close", partial(page.apply, partial(opened, name="")))] * bool(plot.tab)
+        found = escape(plot.note_of(view))
+        # In two lines, which show the rest when they are pointed at, or large.
+        shown = Markup('<span title="{}">{}</span>').format(found.striptags(), found)
+        note = text("note", shown, "note found")
+        first = text("formula", title, "formula")
+        self.head.show([first, *controls, *filter(None, buttons), *close, key, note])
+
+    def _control(self, name: str) -> Part:
+        """A choice above the plot, as a list, which needs less room than its options; or a number."""
+        if name in QUANTITIES:
+            return self._page.number(name)
+        choice = self._page.choice(name)
+        return replace(choice, look=choice.look | {"radio": False})
+
+
+class Layout:
+    """Header, side and plots; parts of extras and cards are made when they are first seen, and stay."""
+
+    def __init__(self, page: Any):
+        self._page, self.form, self.cards = page, Form(page), {}
+        self.grid = pn.Column(css_classes=["plots"], **FULL)
+        for name in NAMED:
+            self._make(PLOTS[name])
+        #: Parts that have been made, and the name of the one that is open in each place.
+        self.parts: dict[str, Side] = {}
+        self.opened: dict[str, str] = {}
+        # On a phone what is less often used is below the plots.
+        self.header = Parts("header", stylesheets=LAYOUT)
+        self.more = Parts("more", stylesheets=LAYOUT)
+        self.line = Parts("top", stylesheets=LAYOUT)
+        self.player = Parts("player", stylesheets=LAYOUT)
+        self.below = html("", "lights")
+        look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
+        self._side = pn.Column(self.form.view, **look)
+        plots = (self.line, self.player, self.below, self.grid)
+        results = pn.Column(*plots, css_classes=["results"], **FULL)
+        columns = pn.Row(self._side, results, css_classes=["columns"], **FULL)
+        head = pn.Row(self.header, self.more, css_classes=["above"], **WIDE | {"stylesheets": LAYOUT})
+        self.view = pn.Column(head, columns, css_classes=["page"], **FULL)
+
+    def toggle(self, name: str) -> None:
+        """Open a part in the place of another one, or close it."""
+        place = EXTRAS[name].place
+        if self.opened.pop(place, None) != name:
+            self._open(name)
+        self._page.refresh()
+
+    def _open(self, name: str) -> None:
+        place = EXTRAS[name].place
+        if name not in self.parts:
+            part = self.parts[name] = EXTRAS[name].side(self._page)
+            column = self.view if place == "over" else self._side
+            column.insert(len(column) if place == "over" else 0, part.view)
+        self.opened[place] = name
+
+    def show(self, view: View) -> None:
+        """Show a view around the plots, and in all parts that are open."""
+        for card in self.seen():
+            card.show_parts(view)
+        offered = {name for name, each in EXTRAS.items() if each.side and each.offered(view)}
+        self.opened = {place: name for place, name in self.opened.items() if name in offered}
+        for name in offered:
+            if EXTRAS[name].place == "top":
+                self._open(name)
+        page = self._page
+        # There is nothing to undo on a first visit, and no button for it.
+        undo = [button("Undo", page.undo, key="z")] * (page.history.at > 0)
+        redo = [button("Redo", page.redo)] * (page.history.at + 1 < len(page.history.states))
+        opening = [self._button(name) for name, each in EXTRAS.items() if name in offered and each.tab]
+        self.form.show(view)
+        preset = page.choice("preset")
+        # What it is, and its sources, are told in the form.
+        preset.look["about"] = ""
+        self.header.show([_TITLE, preset, *undo, *redo, *opening])
+        dark = button("Dark", partial(page.apply, _turned), pressed=view.state.dark)
+        more = (each.header(page, view) for each in EXTRAS.values())
+        self.more.show([_FIT, *filter(None, more), dark])
+        numbers = readouts.line(view.course)
+        heads = text("heads", readouts.heads(numbers), "heads")
+        page.messages.words = as_html(readouts.values(numbers, view.course.now))
+        self.line.show([heads, Part("words", "words", {})])
+        self.player.show([player(view, page.move), self.others(view)])
+        for name, part in self.parts.items():
+            show(part.view, visible=name in self.opened.values())
+            if part.view.visible:
+                part.show(view)
+
+    def _button(self, name: str) -> Part:
+        """The button that opens a part."""
+        pressed = name in self.opened.values()
+        return button(EXTRAS[name].tab, partial(self.toggle, name), pressed, key="escape")
+
+    def rest(self, view: View) -> None:
+        """Show texts that wait while a slider moves, because a changed one causes a new layout."""
+        found = (extra.notes(view).get("below") for extra in EXTRAS.values())
+        show(self.below, object=Markup("").join(made() for made in found if made))
+
+    # The plots.
+
+    def _make(self, plot: Plot) -> None:
+        self.cards[plot.name] = Card(plot, self._page)
+        self.grid.append(self.cards[plot.name].view)
+
+    def columns(self, view: View) -> dict[str, dict]:
+        """Columns of all plots that are seen, by their names; nothing on the page is changed."""
+        found = {}
+        for plot in visible(view):
+            if plot.name not in self.cards:
+                self._make(plot)
+            found[plot.name] = self.cards[plot.name].picture.columns(view, view.course.now)
+        return found
+
+    def draw(self, columns: dict[str, dict], view: View) -> None:
+        """Draw columns made for a view, on the plots that they are of."""
+        for name, card in self.cards.items():
+            show(card.view, visible=name in columns)
+            if name in columns:
+                card.picture.show(columns[name], view)
+        show(self.grid, css_classes=["plots", f"with-{len(columns) - len(NAMED)}"])
+
+    def others(self, view: View) -> Part:
+        """The list of plots of which one is shown beside the three; the next one takes its place."""
+        known = {plot.name: plot.tab for plot in PLOTS.values() if plot.tab and plot.applies(view)}
+        shown = next((plot.name for plot in visible(view) if plot.tab), "")
+        look = {"label": "Fourth plot", "about": "", "radio": False, "classes": "of-plots", "value": shown}
+        look["options"] = [["", "none"], *map(list, known.items())]
+
+        def choose(name):
+            if name in known or name == "":
+                self._page.apply(partial(opened, name=name))
+
+        return Part("choice", "fourth plot", look, choose)
+
+    def seen(self) -> list[Card]:
+        """The cards that are seen."""
+        return [card for card in self.cards.values() if card.view.visible]
+
+
+def frames(view: View, pictures: list[Picture]) -> list[Any]:
+    """Sources that move, the places of their rows in each state as texts, readouts, and times."""
+    *_, found = frames_in_steps(view, pictures)
+    return found
+
+
+def frames_in_steps(view: View, pictures: list[Picture]) -> Iterator[list[Any]]:
+    """`frames`, after an empty list for each state that has been computed: all of them take 0.2 s."""
+    numbers, states = readouts.line(view.course), range(len(view.course))
+    found: dict[Any, list[str]] = {}
+    for i in states:
+        yield []
+        for picture in pictures:
+            for source, columns in picture.columns(view, i).items():
+                places = json.dumps({name: columns[name] for name in PLACES if name in columns})
+                found.setdefault(source, []).append(places.replace("NaN", "null"))
+    moving = {source: texts for source, texts in found.items() if len(set(texts)) > 1}
+    words = [readouts.values(numbers, i) for i in states]
+    yield [[*moving], [*moving.values()], words, view.course.times.tolist()]
+
+
+def look(course: Course) -> dict[str, Any]:
+    """What the browser is told of a course: the last state, the present one, and states to mark."""
+    return {"last": len(course) - 1, "now": course.now, "marks": marked_states(course)}
+
+
+def marked_states(course: Course) -> dict[str, int]:
+    """States that are marked on the slider, by their names: the largest depth, and the loss of contact."""
+    found = {"largest depth": course.peak}
+    # A path that turns again may lose contact several times.
+    lost = np.flatnonzero(course.states.contact_radius[course.peak :] == 0)
+    if lost.size and not course.turns:
+        found["loss of contact"] = course.peak + int(lost[0])
+    return found
+
+
+def player(view: View, move: Callable[[Any], None]) -> Part:
+    """A button and a slider that move through the states of a view, in the browser.
+
+    `move` is called with None when one of them begins to, and with the index of the state in which it ends.
+    """
+    return Part("player", "player", look(view.course), move)

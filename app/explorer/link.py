@@ -1,0 +1,190 @@
+"""States as links: defaults are left out, and links are read as hostile input."""
+
+import re
+from contextlib import suppress
+from math import isfinite
+from typing import Any
+from urllib.parse import parse_qsl, urlencode
+
+from ..common.quantities import CHOICES, QUANTITIES
+from ..common.units import in_full
+from ..common.upload import MAX_SAMPLES
+from .changes import equivalent, put
+from .courses import LAST_PROGRESS
+from .state import (
+    LISTS,
+    OF_EXTRAS,
+    OPENING,
+    PRESETS,
+    State,
+    altered,
+    checked,
+    formed,
+    preset_state,
+    regions,
+    used,
+    used_by,
+)
+
+#: Most characters of a link and of a text in it.
+MAX_LENGTH, _MAX_TEXT = 8000, 300
+#: Names that mail programs, search engines and other sites append to links.
+_APPENDED = re.compile(
+    r"utm_.*|\w*clk?id|gclsrc|[gw]braid|igsh(id)?|mc_[ce]id|_ga|_gl|_hs\w+|li_fat_id|srsltid|bokeh-.*"
+    r"|mkt_tok|mibextid|si|vero_id|ref",
+    re.IGNORECASE,
+)
+
+
+def write(state: State) -> str:
+    """State as a query, without the theme, which is of a browser. Raises ValueError if it is too long."""
+    start, sizes = preset_state(state.preset).replace(preset=OPENING), _sizes(state)
+    names = dict.fromkeys(["preset", *CHOICES, *used(state), *OF_EXTRAS, "tiles", "at"])
+    given = {
+        name: _text(state[name])
+        for name in names
+        if _known(name) and (name in sizes or state[name] != start[name])
+    }
+    if state.shape == "sampled":
+        given["samples"] = " ".join(f"{r},{z}" for r, z in zip(*state.samples, strict=True))
+    query = urlencode(given, safe=",*")
+    if len(query) > MAX_LENGTH:
+        raise ValueError("there are too many samples in this scene for a link")
+    return query
+
+
+def _sizes(state: State) -> set[str]:
+    """Numbers of a drive other than the preset's that its links need: they say how large the scene is."""
+    if state.drive == preset_state(state.preset).drive:
+        return set()
+    return {"mass", "max_depth", "max_force"} & {*used_by(state, "drive")}
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, tuple):
+        return " ".join(value)
+    return str(int(value) if isinstance(value, bool) else value)
+
+
+def pairs(query: str) -> list[tuple[str, str]]:
+    """Names and values of a link, without what others appended to it."""
+    given = parse_qsl(query, keep_blank_values=True)
+    return [(name, text) for name, text in given if not _APPENDED.fullmatch(name)]
+
+
+def _known(name: str) -> bool:
+    others = name in ("tiles", "dark", "samples", "at") or OF_EXTRAS.get(name) is not None
+    return others or name in CHOICES or name in QUANTITIES
+
+
+def unknown(query: str) -> list[str]:
+    """Names in a link that this version does not have, and entries of its lists that are none."""
+    found = []
+    for name, text in pairs(query):
+        if not _known(name):
+            found.append(name)
+        elif name in LISTS:
+            found += [f"{name}={each}" for each in text.split() if not LISTS[name].known(each)]
+    return list(dict.fromkeys(found))
+
+
+def asks_for_theme(query: str) -> bool:
+    """Whether a link says that the page is dark or light."""
+    return "dark" in dict(pairs(query))
+
+
+def read(query: str) -> State:
+    """State of a link, without what is not known in it. Raises ValueError if a value is invalid."""
+    known = [(name, text) for name, text in pairs(query) if _known(name)]
+    if sum(len(text) for _, text in known) > MAX_LENGTH:
+        raise ValueError("this link is too long")
+    texts = dict(known)
+    if len(texts) < len(known):
+        raise ValueError("this link sets a value twice")
+    values = {name: _value(name, text) for name, text in texts.items()}
+    state = preset_state(values.pop("preset", OPENING)).replace(**values)
+    needed = [state[name] for name in used(state)] + [state.samples] * (state.shape == "sampled")
+    if any(value in (None, ()) for value in needed):
+        raise ValueError("this link has a shape without its numbers")
+    if _sizes(state) - values.keys():
+        # As the button of this drive sets them: the depth stays.
+        before = state.replace(drive=preset_state(state.preset).drive)
+        for name, number in equivalent(before, state.drive).items():
+            if name not in values:
+                state = put(state, name, number)
+    return state
+
+
+def _value(name: str, text: str) -> Any:
+    """Value of a pair of a link, by what the state has by default. Raises ValueError."""
+    if name in CHOICES and text not in CHOICES[name].options:
+        raise ValueError(f"{name} = “{text:.40}” in this link is not known")
+    if name == "samples":
+        return _samples(text)
+    default = State()[name]
+    if isinstance(default, str):
+        return text[:_MAX_TEXT]
+    if isinstance(default, bool):
+        return text == "1"
+    if name in LISTS:
+        return _entries(name, text)
+    value = _number(name, text)
+    if name == "at" and not 0 <= value <= LAST_PROGRESS:
+        raise ValueError(f"at = “{text:.40}” in this link is not in 0 to {LAST_PROGRESS}")
+    return value if name == "at" else checked(name, value)
+
+
+def _entries(name: str, text: str) -> tuple[str, ...]:
+    known, most = LISTS[name].known, LISTS[name].most
+    entries = text.split()
+    if len(entries) > most:
+        raise ValueError(f"this link has more than {most} entries of {name}")
+    return tuple(dict.fromkeys(each for each in entries if known(each)))
+
+
+def _samples(text: str) -> tuple[tuple[float, ...], ...]:
+    rows = [row.split(",") for row in text.split()]
+    if len(rows) > MAX_SAMPLES or any(len(row) != 2 for row in rows):
+        raise ValueError(f"the samples in this link are not at most {MAX_SAMPLES} pairs")
+    return tuple(tuple(_number("samples", cell) for cell in column) for column in zip(*rows, strict=True))
+
+
+def _number(name: str, text: str) -> float:
+    with suppress(ValueError):
+        if isfinite(value := float(text)):
+            return value
+    raise ValueError(f"{name} = “{text:.40}” in this link is not a finite number")
+
+
+#: Letters of the name of a file, without what is in it: of 255 bytes, of which some letters take two.
+_LONGEST = 100
+
+
+def with_symbol(name: str, value: float) -> str:
+    """A number of the page with its symbol, in full."""
+    return f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}"
+
+
+def file_name(state: State, what: str) -> str:
+    """Name of a file of a scene: its preset, what differs from that, and what is in the file.
+
+    Examples
+    --------
+    >>> from app.state import preset_state
+    >>> file_name(preset_state("berkovich-gold").replace(max_depth=5e-9), "curves.csv")
+    'berkovich-gold_d_max=5nm_curves.csv'
+    """
+    known, preset = altered(state), PRESETS[state.preset].values
+    told = [state.preset, *(state[name] for name in known if name in CHOICES)]
+    changed = (name for name in used(state) if name in known or name not in preset)
+    told += [with_symbol(name, state[name]).replace("/", "-") for name in changed]
+    return re.sub(r"[^\w.=+-]+", "", "_".join(told))[:_LONGEST] + f"_{what}"
+
+
+def summary(state: State) -> str:
+    """Shape, medium and drive of a scene in one line."""
+    parts = regions(state)
+    names = [*parts["shape"], *parts["medium"], *used_by(state, "drive", "damping", "adhesion")]
+    numbers = [with_symbol(name, state[name]) for name in names if state[name]]
+    chosen = [state.chosen(name).label for name in formed(state)]
+    return ", ".join([state.chosen("shape").label, *numbers, *chosen])

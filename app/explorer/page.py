@@ -1,0 +1,297 @@
+"""The page of one session, a function of one state."""
+
+import logging
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import panel as pn
+from bokeh.document import Document
+from bokeh.events import ConnectionLost, DocumentReady
+from bokeh.models import CustomJS
+from panel.io.location import Location
+
+from mdr_core.show.figures import Axis
+
+from ..common.errors import in_words
+from ..common.host import Host, host_of
+from ..common.ui import JS, Messages, landmarks, notice
+from . import changes, link
+from .drives import follow
+from .extra import EXTRAS
+from .layout import LANDMARKS, Layout, frames_in_steps
+from .plot import Along, View
+from .plots import NAMED, PLOTS
+from .state import VIEW, State, as_shown, preset_state
+from .widgets import Field, Part, choice
+
+_LOG = logging.getLogger(__name__)
+Change = Callable[[State], State]
+Tell = Callable[[str], None]
+#: Milliseconds of rest before slow updates.
+SETTLED = 300
+_FAULT = "This cannot be shown, because of a fault of the explorer. Nothing was changed."
+_UNDO_STEPS = 100
+
+
+class Address(Location):
+    """The address of a page, without arguments: Panel fails to read one of 5,000 digits, or "²"."""
+
+    @property
+    def query_params(self):
+        return {}
+
+
+@dataclass(frozen=True)
+class History:
+    """The states that a person has set, the index of the present one, and the mark of the last change."""
+
+    states: tuple[State, ...]
+    at: int = 0
+    mark: str = ""
+
+    def after(self, state: State, mark: str) -> "History":
+        """The history with a state that has been changed; changes with the same mark are one step."""
+        if state.scene_values == self.states[self.at].scene_values:
+            return self
+        first = not mark or mark != self.mark
+        kept = self.states[: self.at + first][-_UNDO_STEPS:]
+        return History((*kept, state), len(kept), mark)
+
+
+class Page:
+    """The page of one session; where it runs is asked of its document, if no host is given."""
+
+    def __init__(self, query: str = "", dark: bool = False, host: Host | None = None):
+        self.document = pn.state.curdoc or Document()
+        self.host = host or host_of(self.document)
+        self.state = preset_state(dark=dark)
+        self.history = History((self.state,))
+        self.shown: View | None = None
+        # What prevents the updates that wait until the input rests, None if none wait.
+        self._waiting: Callable[[], None] | None = None
+        # Whether the player moves, which needs frames of each scene that is shown.
+        self._moving = False
+        # The frames that are being made, None when there are none or all are sent.
+        self._making: Iterator[list[Any]] | None = None
+        # Whether the link asks for dark (True) or light, None if it does not.
+        self._asked_dark: bool | None = None
+        # Whether the address holds a link that was not opened.
+        self._refused = False
+        self._fields: dict[str, Field] = {}
+        self.messages = Messages(name="messages")
+        self._kept = False
+        self.layout = Layout(self)
+        makers = dict.fromkeys(extra.service for extra in EXTRAS.values() if extra.service)
+        self.services = [make(self) for make in makers]
+        self.view = self.layout.view
+        self._watch()
+        self._open(query)
+        self.history = History((self.state,))
+
+    def __panel__(self) -> Any:
+        """What Panel shows of it, so that `pn.panel(page)` and a layout take a page as it is."""
+        return self.view
+
+    def _open(self, query: str) -> None:
+        """Show the state of a link; if it is refused, say so and show the opening one."""
+        try:
+            asked = link.read(query)
+            if link.asks_for_theme(query):
+                self._asked_dark = asked.dark
+            else:
+                asked = asked.replace(dark=self.state.dark)
+            self.draw(asked)
+            if names := link.unknown(query):
+                self.notify(f"Unknown names in this link are ignored: {', '.join(names):.200}")
+        except Exception as error:
+            self.draw(preset_state(dark=self.state.dark))
+            self._refused = True
+            self.notify(f"The link was not opened: {self.refusal(error)}")
+
+    def _watch(self):
+        self.messages.on_change("dark", self._theme_found)
+        self.document.add_root(self.messages)
+        self.messages.on_change("dragged", self._released)
+        self.document.on_event(DocumentReady, lambda event: self._input_rests())
+        for name in ("ready", "dragged"):
+            script = CustomJS(args={"messages": self.messages}, code=JS[name])
+            self.document.js_on_event(DocumentReady, script)
+        landmarks(self.document, LANDMARKS, "springs", "Skip to the plots")
+        # The address restores the page when its session is lost.
+        self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
+
+    def _theme_found(self, attr, old, new):
+        """Take the theme that the browser has kept, or that of the system."""
+        self.apply(lambda state: state.replace(dark=new))
+
+    def _released(self, attr, old, new):
+        if not new and self._kept:
+            self.draw(self.state)
+
+    def _kept_axes(self, state: State) -> dict[Along, Axis]:
+        """Axes of the three plots that stay while something is dragged, unless drive or preset changes."""
+        self._kept = self.shown is not None and self.messages.dragged
+        if not self._kept or any(state[name] != self.state[name] for name in ("preset", "drive")):
+            return {}
+        return {along: self.shown.axis(along) for name in NAMED for along in PLOTS[name].axes}
+
+    def query(self) -> tuple[str, str]:
+        """The page as a query, or why it has none."""
+        try:
+            query, dark = link.write(as_shown(self.shown.state)), self.shown.state.dark
+            theme = [f"dark={int(dark)}"] * (dark == self._asked_dark)
+            return "&".join(filter(None, [query, *theme])), ""
+        except ValueError as error:
+            return "", f"No link: {error}."
+
+    # What is set on the page.
+
+    def number(self, name: str, like: float = 0.0) -> Part:
+        """The field of a number; zero is shown in the unit that fits the value `like`."""
+        if name not in self._fields:
+            self._fields[name] = Field(name, self)
+        return self._fields[name].part(self.state, like)
+
+    def choice(self, name: str) -> Part:
+        """A choice."""
+        return choice(name, self.state, partial(self.choose, name))
+
+    def notes(self, view: View) -> list[dict[str, Any]]:
+        """Notes of all extras, by their places."""
+        return [extra.notes(view) for extra in EXTRAS.values()]
+
+    def choose(self, name: str, option: str) -> None:
+        """Take another option of a choice."""
+        self.apply(lambda state: changes.choose(state, name, option))
+
+    # Changes and refusals.
+
+    def apply(self, change: Change, refused: Tell | None = None, mark: str = "", at: int = -1) -> None:
+        """Apply a change and show it; what fails leaves the page as it was.
+
+        The message is a notice, or given to `refused`. Changes with the same mark, as of one drag, are one
+        step of undo. One that goes to a state of the history has its index, `at`.
+        """
+        before = after = self.state
+        old = self.history
+        try:
+            after = change(before)
+            self.history = old.after(after, mark) if at < 0 else replace(old, at=at, mark="")
+            if after != before or self.history is not old:
+                self.draw(after)
+        except Exception as error:
+            message = self.refusal(error, after)
+            self.history = old
+            if self.state is not before:
+                self.draw(before)
+            (refused or self.notify)(message)
+            self.refresh()
+        self._refused = self._refused and self.history is old
+
+    def undo(self) -> None:
+        self._go(self.history.at - 1)
+
+    def redo(self) -> None:
+        self._go(self.history.at + 1)
+
+    def _go(self, at: int) -> None:
+        """Go to another state of the history; the view stays."""
+        if 0 <= at < len(self.history.states):
+            view = {name: self.state[name] for name in VIEW}
+            self.apply(lambda now: self.history.states[at].replace(**view), at=at)
+
+    def notify(self, text: str) -> None:
+        """Show a notice, once the browser is ready; its text may contain user input."""
+        if pn.state.notifications is not None:
+            tell = partial(pn.state.notifications.error, notice(text), duration=7000)
+            self.host.once_shown(tell)
+
+    def refusal(self, error: Exception, state: State | None = None) -> str:
+        """Message for an error; a fault is logged with its state."""
+        if isinstance(error, ValueError):
+            return in_words(error)
+        _LOG.error("a change could not be shown, %s", state or self.state, exc_info=error)
+        return _FAULT
+
+    # Drawing.
+
+    @pn.io.hold()
+    def draw(self, state: State, now: int | None = None) -> None:
+        """Show a state; everything is computed before anything is changed.
+
+        `now`: the course is the same, and this the index of its present state.
+        """
+        course = follow(state) if now is None else replace(self.shown.course, now=now)
+        computed: dict[Any, Any] = {}
+        for service in self.services:
+            computed |= service.compute(state, course)
+        view = View(state, course, computed, self._kept_axes(state))
+        columns = self.layout.columns(view)
+        self.state, self.shown = state, view
+        if now is None:
+            # Those of the course before, ahead of what is drawn. New ones wait until the input rests: they
+            # are megabytes, and half a second of the process that serves everybody.
+            self.messages.frames = []
+            self._making = None
+        self.layout.draw(columns, view)
+        self.messages.dark = state.dark
+        self._schedule()
+        self.refresh()
+
+    @pn.io.hold()
+    def refresh(self) -> None:
+        """Show what is beside the plots of the present view."""
+        for service in self.services:
+            service.show(self.shown)
+        self.layout.show(self.shown)
+
+    # The player.
+
+    def _send_frames(self):
+        """Send all states of the course if the player moves and has none."""
+        if self._moving and not self.messages.frames and not self._making:
+            pictures = [card.picture for card in self.layout.seen()]
+            making = self._making = frames_in_steps(self.shown, pictures)
+            # Others are served meanwhile; another scene has frames of its own.
+            self.host.make(making, lambda: making is self._making, self._have_frames)
+
+    def _have_frames(self, frames: list[Any]) -> None:
+        self.messages.frames = frames
+        self._making = None
+
+    def move(self, message: int | None) -> None:
+        """Send frames when the player begins to move (None); accept the state in which it ends.
+
+        While other input arrives they are sent once that rests.
+        """
+        course = self.shown.course
+        self._moving = message is None
+        if self._moving and self._waiting is None:
+            self._send_frames()
+        elif isinstance(message, int) and message in range(len(course)) and message != course.now:
+            self.draw(self.state.replace(at=float(course.progress[message])), message)
+
+    # Updates when the input rests.
+
+    def _schedule(self):
+        """Schedule the slow updates; before a browser shows the page, notes need not wait."""
+        if not self.host.shows():
+            self.layout.rest(self.shown)
+            return
+        if self._waiting is not None:
+            self._waiting()
+        self._waiting = self.host.later(self._input_rests, SETTLED)
+
+    def _input_rests(self):
+        self._waiting = None
+        self.layout.rest(self.shown)
+        query, why = self.query()
+        # The empty address leaves the present one: a link was not opened, or there is none.
+        self.messages.address = "" if self._refused or why else f"?{query}"
+        view = self.shown
+        for each in self.services:
+            each.rest(view)
+        self.refresh()
+        self._send_frames()

@@ -1,0 +1,244 @@
+"""The plots of the page: springs, pressure, and force over depth."""
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from bokeh.events import Pan, PanEnd, PanStart
+from bokeh.models import CustomJS
+
+from mdr_core.show import figures
+from mdr_core.show import springs as drawn
+from mdr_core.show.figures import label, line, mark, split
+from mdr_core.show.quantities import QUANTITIES
+from mdr_core.show.units import written
+
+from ..common.ui import JS
+from .courses import Course, onset_depth
+from .plot import Along, Plot, View
+from .state import LISTS, Entries
+
+# Axes, which other plots may share.
+
+
+def largest_radius(course: Course) -> float:
+    return float(np.max(course.states.contact_radius))
+
+
+def deepest(course: Course) -> float:
+    """Largest depth (m), or height to which adhesion lifts the indenter."""
+    return float(np.max(np.abs(course.states.depth)))
+
+
+def across(course: Course) -> tuple[float, float]:
+    """Coordinates beside the contact."""
+    half = 1.25 * largest_radius(course)
+    return -half, half
+
+
+def _of_states(name: str) -> Callable[[Course], tuple[float, float]]:
+    """Values of a quantity, also at an onset of yield slightly ahead, which stays visible."""
+
+    def span(course):
+        onset, depth = course.onset, np.max(course.states.depth)
+        values = getattr(course.states, name)
+        # Adhesion reaches below zero; there may be tension alone.
+        largest, lowest = np.max(values), np.min(values)
+        largest = max(largest, -0.25 * lowest)
+        # With dashpots it is not marked: it is that of slow loading.
+        marked = onset is not None and not course.dashpots
+        if marked and depth < onset.depth <= 2.5 * depth:
+            largest = max(largest, getattr(onset, name))
+        return float(lowest) if course.adhesive else 0.0, 1.02 * float(largest)
+
+    return span
+
+
+def _pressures(course: Course) -> tuple[float, float]:
+    """Pressures, and tensions of adhesion."""
+    most = 1.05 * figures.ceiling(course.turning_point, across(course)[1])
+    return -most if course.adhesive else 0.0, most
+
+
+X = Along("x, coordinate of the springs", "length", across)
+R = Along("r, radius", "length", across)
+Z = Along("z, upward", "length", lambda course: (-drawn.REST * deepest(course), deepest(course)))
+D = Along(QUANTITIES["depth"].title, "length", _of_states("depth"))
+F = Along(QUANTITIES["force"].title, "force", _of_states("force"))
+P = Along("p, pressure", "pressure", _pressures)
+
+
+# What is cut off by axes that are kept.
+
+CUT_OFF = label("cut off")
+
+
+def _cut_off(view: View, states: Any, axes: dict[Along, tuple[str, str]], up: Along, share: float) -> dict:
+    """A label that says what leaves kept axes: quantities of states and their symbols, by their axes.
+
+    It stands at a share of the upright axis.
+    """
+    if not view.kept:
+        return {}
+    said = ", ".join(dict.fromkeys(_beyond(view, states, axes)))
+    across = view.axis(next(iter(axes)))
+    left = across.start + 0.015 * (across.end - across.start)
+    return {"cut off": (left, share * view.end(up), f"cut off: {said}" if said else "")}
+
+
+def _beyond(view: View, states: Any, axes: dict[Along, tuple[str, str]]) -> Iterator[str]:
+    for along, (name, symbol) in axes.items():
+        axis, values = view.axis(along), getattr(states, name)
+        high = -axis.start if along is Z else axis.end
+        low = axis.start if along in (D, F) else -np.inf
+        for value in (float(np.min(values)), float(np.max(values))):
+            if not low - 1e-9 * high <= value <= (1 + 1e-9) * high:
+                yield f"{symbol} = {written(value, along.kind, 3)}"
+
+
+# Springs.
+
+
+def springs(view: View, i: int) -> dict:
+    """Springs by their state."""
+    course, z, state = view.course, view.axis(Z), view.course.states[i]
+    rows = drawn.springs(state, view.end(X), z.start, z.end, lambda g: course.relaxing(i, g))
+    return rows | _cut_off(view, state, {X: ("contact_radius", "a"), Z: ("depth", "d")}, Z, 0.6)
+
+
+def _spring_formula(course: Course) -> str:
+    if course.adhesive:
+        return "q = E* (u − Δl),  Δl = √(2π a w/E*)  § 19"
+    law = "(1) (17) (18)  q = E* u + 4η du/dt" if course.dashpots else "(17) (18)  q = E* u"
+    return f"{law},  u ≤ {_cap(course)}{course.more_law}"
+
+
+def _cap(course: Course) -> str:
+    """Largest elastic compression of a spring; where it depends on a, at the largest depth."""
+    medium = course.scene.medium
+    if medium.q_c == np.inf:
+        return "∞"
+    if medium.inverse_to_radius:
+        return f"d_c = π q_c/(2E*) = {written(float(medium.critical_depth), 'length')}"
+    a = float(course.turning_point.contact_radius)
+    if a == 0:
+        return "u_c = π a σ_c/(2E*)  § 20"
+    return f"u_c = π a σ_c/(2E*) = {written(_cap_at(medium, a), 'length')}  § 20"
+
+
+def _cap_at(medium: Any, a: float) -> float:
+    """Largest elastic compression (m) of a spring at a contact radius (m)."""
+    return np.pi * a * float(medium.hardness_at(a)) / (2 * medium.E_star)
+
+
+def _yields_at(view: View) -> str:
+    """The elastic compression at which a spring yields, at the present radius where it depends on that."""
+    course, medium = view.course, view.course.scene.medium
+    a = float(course.state.contact_radius)
+    if course.adhesive or medium.q_c == np.inf or onset_depth(course.scene) == np.inf:
+        return ""
+    if medium.inverse_to_radius:
+        return f"a spring yields at u = d_c = {written(float(medium.critical_depth), 'length')}"
+    if a == 0:
+        return ""
+    cap = written(_cap_at(medium, a), "length")
+    return f"a spring yields at u = u_c = {cap} for a = {written(a, 'length')}"
+
+
+SPRINGS = Plot(
+    "springs", "1D foundation", _spring_formula, (X, Z), (*drawn.SPRING_ROWS, CUT_OFF), springs,
+    aside=_yields_at,
+)  # fmt: skip
+
+
+# Pressure.
+
+
+def pressure(view: View, i: int) -> dict:
+    state = view.course.states[i]
+    rows = figures.pressure(state, view.end(R), view.end(P))
+    return rows | _cut_off(view, state, {R: ("contact_radius", "a")}, P, 0.86)
+
+
+PRESSURE = Plot(
+    "pressure", "Contact pressure", "(10)  p(r) = −σ_zz(r) = −(1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
+    (*figures.PRESSURE_ROWS, CUT_OFF), pressure,
+)  # fmt: skip
+
+
+# Force over depth.
+
+
+def force(view: View, i: int) -> dict:
+    """The curve, of several loadings that up to state i, this state, and what is lost and stored in it."""
+    course, states, onset = view.course, view.course.states, view.course.onset
+    past, right = slice(i + 1 if course.turns else None), 0.02 * view.end(D)
+    depth = states.depth[past]
+    rows = split(depth, states.force[past], depth, states.live_interval.lower[past])
+    rows["now"] = states.depth[[i]], states.force[[i]]
+    rows |= _cut_off(view, states, {D: ("depth", "d"), F: ("force", "F")}, F, 0.97)
+    if course.turns:
+        rows["path ahead"] = states.depth, states.force
+    if onset is not None and not course.dashpots:
+        rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
+    if (lower := float(states.plastic_depth[i])) > 0:
+        rows["dₚ"] = max(lower - 3 * right, right), 0.12 * view.end(F), "dₚ"
+    if course.chained or course.adhesive:
+        # No live interval tells what is stored in elements that have each a memory of their own, and with
+        # adhesion the area below the curve is not what is stored.
+        return rows
+    return rows | figures.work(states, i)
+
+
+def _force_formula(course: Course) -> str:
+    if course.adhesive:
+        return "F = 2E* [∫ a(s) ds − a Δl],  d_p < s < d + Δl  § 19"
+    dashpots = " + 8η a dd/dt" * course.dashpots
+    return f"(20) (22)  F = 2E* ∫ a(s) ds{dashpots},  d_p < s < d"
+
+
+FORCE = Plot(
+    "force", "Force and depth", _force_formula, (D, F),
+    (
+        line("path ahead", "free", 1.0),
+        *figures.FORCE_ROWS,
+        mark("onset of yield", "paper", "yielded", "diamond", 11),
+        mark("now", size=13),
+        label("dₚ", 0.0),
+        CUT_OFF,
+    ),
+    force,
+)  # fmt: skip
+
+
+#: All plots by name; extras add theirs, each with a tab.
+PLOTS: dict[str, Plot] = {plot.name: plot for plot in (SPRINGS, PRESSURE, FORCE)}
+LISTS["tiles"] = Entries(PLOTS.__contains__, 100)
+#: Names of the plots that are always shown.
+NAMED = tuple(PLOTS)
+
+
+def visible(view: View) -> list[Plot]:
+    """Plots that a view shows: the three, and the first optional one that applies."""
+    optional = [PLOTS[name] for name in view.state.tiles if name not in NAMED]
+    return [*map(PLOTS.get, NAMED), *[plot for plot in optional if plot.applies(view)][:1]]
+
+
+#: Plots that are dragged.
+DRAGGED = ("springs", "force")
+
+
+def drag_path(view: View) -> dict[str, Any]:
+    """Depth and force of all states in the units of the plots."""
+    course, d, force = view.course, view.axis(D).factor, view.axis(F).factor
+    found = {"d": course.states.depth / d, "F": course.states.force / force}
+    found = {name: [float(f"{value:.6g}") for value in values] for name, values in found.items()}
+    # A depth on a path that turns, or of an impact, is not one that can be set.
+    pressing = not course.turns and course.hit is None
+    return found | {"unit": d / view.axis(Z).factor, "pressing": pressing}
+
+
+def let_drag(figure: Any) -> None:
+    """Let a figure be dragged."""
+    for event in (PanStart, Pan, PanEnd):
+        figure.js_on_event(event, CustomJS(code=JS["drag"]))

@@ -1,0 +1,78 @@
+"""Readouts: numbers of a course, with their units and explanations."""
+
+from collections.abc import Callable
+from functools import cache
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup
+
+from mdr_core.show.units import KINDS, written
+
+from ..common.quantities import CHOICES, READOUTS, Readout, lowered
+from ..common.ui import linked, symbol
+from .courses import Course
+
+#: Most readouts above the plots, beside each other.
+MOST = 8
+#: Relative to the largest term of a sum: what is left of it by rounding, some units in the last place.
+_RESIDUE = 16 * np.finfo(float).eps
+
+
+def readings(course: Course, asked: list[Readout] = READOUTS) -> dict[Readout, Any]:
+    """Values of the readouts that a course has; a sum of which rounding alone is left is 0.
+
+    All numbers that are shown, told or exported are read here.
+    """
+    terms = course.largest_terms
+    found = {each: values for each in asked if (values := each.values(course)) is not None}
+    return {each: _without_residue(values, terms.get(each.name)) for each, values in found.items()}
+
+
+def _without_residue(values: Any, term: Any) -> Any:
+    return values if term is None else np.where(np.abs(values) <= _RESIDUE * term, 0.0, values)
+
+
+def line(course: Course) -> dict[Readout, Any]:
+    """Values of the readouts above the plots."""
+    in_place, names = course.in_place, CHOICES["drive"].options[course.drive].line
+    names = [in_place.get(name, name) for name in names]
+    return readings(course, [each for each in READOUTS if each.name in names])
+
+
+def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
+    """Value in state i with its unit."""
+    value = values if np.ndim(values) == 0 else values[i]
+    return written(float(value), KINDS[readout.unit], count)
+
+
+_STRIP = Markup('<div class="strip">{}</div>')
+_CELL = Markup('<output data-name="{}">{}</output>')
+_ABOUT = Markup('<span class="name" title="{}">{} {}</span>')
+_EXPLAINED = Markup("<dt>{} {}</dt><dd>{} <em>{}</em></dd>")
+
+
+def values(numbers: dict[Readout, Any], i: int) -> Markup:
+    """Cells of the line in state i, as HTML."""
+    cells = (_CELL.format(each.name, text(each, value, i)) for each, value in numbers.items())
+    return _STRIP.format(Markup("").join(cells))
+
+
+def heads(numbers: dict[Readout, Any]) -> Markup:
+    """Heads of the line, as HTML; pointed at they say what they are, as the notes do."""
+    return _STRIP.format(Markup("").join(map(head, numbers)))
+
+
+@cache
+def head(readout: Readout) -> Markup:
+    about = f"{lowered(readout.help)} {lowered(readout.equation)}".strip()
+    return _ABOUT.format(about, symbol(readout.symbol), readout.short or readout.long_name)
+
+
+def explained(numbers: dict[Readout, Any], link: Callable[[str], Markup] = linked) -> Markup:
+    """What each number is, with its equation, as HTML; `link` is what makes HTML of a text."""
+    rows = (
+        _EXPLAINED.format(symbol(each.symbol), each.long_name, link(each.help), link(each.equation))
+        for each in numbers
+    )
+    return Markup("<dl>{}</dl>").format(Markup("").join(rows))

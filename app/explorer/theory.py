@@ -1,0 +1,67 @@
+"""The theory, assets/theory.md, as a page."""
+
+import re
+from base64 import b64encode
+from html import escape
+from pathlib import Path
+from urllib.parse import parse_qsl
+
+import panel as pn
+from bokeh.events import DocumentReady
+from bokeh.models import CustomJS
+from markdown_it import MarkdownIt
+from mdit_py_plugins.dollarmath import dollarmath_plugin
+
+from ..common.quantities import ASSETS
+from ..common.ui import landmarks
+
+#: Goes to the place that the address names.
+_SCRIPT = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
+
+#: A link to a file beside the theory, which no server has.
+_FILE = re.compile(r"\[(.*?)\]\(\w+\.md\)")
+#: A picture beside the theory, which is part of the page.
+_PICTURE = re.compile(r"!\[(.*?)\]\((\w+\.svg)\)")
+#: Equations that a text names, (4) or (4)–(8).
+_NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
+
+
+def html():
+    """The theory as HTML with KaTeX formulas and ids of sections and equations."""
+    parser, marked = MarkdownIt().enable("table"), set()
+    # Its pictures are data, which it does not take for links otherwise.
+    parser.validateLink = lambda _: True
+    parser.use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)")
+    text = (ASSETS / "theory.md").read_text(encoding="utf-8")
+    tokens = parser.parse(_PICTURE.sub(_with_picture, _FILE.sub(r"\1", text)))
+    parts, in_body = [], False
+    for k, token in enumerate(tokens):
+        if token.type == "heading_open" and (number := re.match(r"\d+", tokens[k + 1].content)):
+            token.attrSet("id", f"section-{number[0]}")
+            in_body = True
+        for first, last in _NAMED.findall(token.content) if in_body and not token.nesting else ():
+            new = set(range(int(first), int(last or first) + 1)) - marked
+            parts += [f'<a id="eq-{n}"></a>' for n in sorted(new)]
+            marked |= new
+        if token.type == "fence" and token.info == "math":
+            parts.append(f"<p>$${escape(token.content)}$$</p>")
+        else:
+            parts.append(parser.renderer.render([token], parser.options, {}))
+    return "".join(parts)
+
+
+def _with_picture(found):
+    data = b64encode((ASSETS / found[2]).read_bytes()).decode()
+    return f"![{found[1]}](data:image/svg+xml;base64,{data})"
+
+
+def page(place):
+    """The page, starting at an id such as "eq-11" or "section-4"."""
+    landmarks(pn.state.curdoc, {"theory": ("main", "Theory")})
+    pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=_SCRIPT))
+    return pn.pane.LaTeX(html(), css_classes=["theory"], renderer="katex")
+
+
+def served(query):
+    """The page for a query, at the place that `theory=` in it names."""
+    return page(dict(parse_qsl(query)).get("theory", ""))

@@ -1,0 +1,341 @@
+"""Parts of the page as the browser is told of them: buttons, choices, number fields, and the form."""
+
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cache, partial
+from typing import Any
+
+import panel as pn
+import param
+from markupsafe import Markup
+
+from mdr_core.show.units import UNITS, Unit, fitting, written
+
+from ..common.folders import Files
+from ..common.process import Here, Refused, Replaced, Worker, queue_text
+from ..common.quantities import CHOICES, QUANTITIES, Quantity
+from ..common.ui import JS, LAYOUT, WIDE, as_html, linked, marked, show, symbol
+from ..common.units import entry, read
+from ..common.upload import TIP_BYTES, Uploaded, in_line
+from . import changes
+from .changes import option, options
+from .plot import View
+from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, folded, regions, used_by
+
+#: Letters of all options of a choice below which it is shown as radio buttons, else as a list.
+_SHORT = 48
+#: Option of the list of presets for a scene that is none of them, so that its preset can be chosen again.
+_ALTERED = "altered"
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part: its kind, its name in the component, and what the browser is told of it.
+
+    `act` is called with what a person does with it.
+    """
+
+    kind: str
+    name: str
+    look: dict[str, Any]
+    act: Callable[[Any], None] = lambda message: None
+
+
+def text(name: str, html: str, classes: str = "note") -> Part:
+    """A text, or HTML."""
+    return Part("text", name, {"object": as_html(html), "classes": classes})
+
+
+def button(
+    label: str, act: Callable[[], None], pressed: bool | None = None, disabled: bool = False, key: str = ""
+) -> Part:
+    """A button: `pressed` is None if it does not stay down, `key` is a key of the keyboard."""
+    look = {"label": label, "pressed": pressed, "disabled": disabled, "key": key}
+    return Part("button", label, look, lambda message: None if disabled else act())
+
+
+def upload(
+    label: str, accept: str, take: Callable[[Uploaded], None], refused: str = "", busy: str = ""
+) -> Part:
+    """A field for a file, with why the last one was refused, or what is done with it."""
+    look = {"label": as_html(label), "accept": accept, "most": TIP_BYTES, "refused": refused, "busy": busy}
+    return Part("file", label, look, lambda message: take(Uploaded(**message)))
+
+
+def choice(name: str, state: State, choose: Callable[[str], None]) -> Part:
+    """A choice with its explanation, as radio buttons or a list.
+
+    No preset is chosen if the scene differs from all of them.
+    """
+    chosen = option(state, name)
+    pairs = [[each, CHOICES[name].options[each].label] for each in options(state, name)]
+    if name == "preset" and altered(state):
+        chosen = _ALTERED
+        pairs.append([_ALTERED, f"{PRESETS[state.preset].label}, altered"])
+    look = _about(name) | {"options": pairs, "value": chosen}
+    return Part("choice", name, look, choose)
+
+
+@cache
+def _about(name: str) -> dict[str, Any]:
+    known = CHOICES[name]
+    radio = sum(len(each.label) for each in known.options.values()) < _SHORT
+    classes = f"of-{name.replace('.', '-')}"
+    return {"label": as_html(known.label), "about": linked(known.help), "radio": radio, "classes": classes}
+
+
+class Parts(pn.custom.JSComponent):
+    """Parts of the page below each other, or in a row (class "bar")."""
+
+    #: The number of messages that are answered, and looks, as text: Bokeh would look at each value.
+    shown = param.String("[0, []]")
+
+    # A link, so that the script is sent once.
+    _esm = JS["parts"]
+
+    def __init__(self, *classes: str, **options: Any):
+        self.parts: dict[str, Part] = {}
+        self._answered = 0
+        super().__init__(css_classes=list(classes), **WIDE | options)
+        self.on_msg(self._on_message)
+
+    def show(self, parts: list[Part]) -> None:
+        """Show some parts, and no others."""
+        self.parts = {part.name: part for part in parts}
+        self._send()
+
+    def _send(self):
+        looks = [{"kind": part.kind, "name": part.name} | part.look for part in self.parts.values()]
+        show(self, shown=json.dumps([self._answered, looks], ensure_ascii=False))
+
+    @pn.io.hold()
+    def _on_message(self, event):
+        """Do what a person wants; what is refused is answered, too."""
+        name, message = event.data
+        self._answered += 1
+        # Whatever comes from outside, a list too, names a part or none.
+        if part := self.parts.get(str(name)):
+            part.act(message)
+        self._send()
+
+
+#: Option of the list of shapes that asks for a file.
+_FILE = "file"
+_FIRST = "Move a slider: orange springs have yielded. "
+
+
+def slider_range(known: Quantity, middle: float, value: float) -> tuple[float, float, float]:
+    """Lowest, middle and highest value (SI) of the slider of a number.
+
+    It covers the span of the number each way about a middle value, or about the present value if that is
+    out of its reach; for span 0 all that is within bounds.
+    """
+    if known.span <= 0:
+        return known.bounds[0], middle, known.bounds[1]
+    value = known.bounded(value)
+    low, high = (known.bounded(changes.shown(end)) for end in (middle / known.span, middle * known.span))
+    return (low, middle, high) if low <= value <= high else slider_range(known, value, value)
+
+
+class Field:
+    """What a number field remembers: its unit, the middle of its slider, and what was refused in it."""
+
+    def __init__(self, name: str, page: Any):
+        self._name, self._page, self._known = name, page, QUANTITIES[name]
+        self._told = _told(self._known)
+        # The number and its preset as they were shown.
+        self._value, self._preset = self._known.default, ""
+        self.refused = ""
+
+    def part(self, state: State, like: float = 0.0) -> Part:
+        """The field with the number of a state; zero in the unit that fits the value `like`.
+
+        The unit is that of the preset's number until another one is typed. What others change or what is
+        dragged is shown in it, too, unless it is easier to read in another one: 2 m/s, not 2000 mm/s. A
+        refusal stays until the number changes.
+        """
+        value = checked(self._name, state[self._name])
+        loaded = state.preset != self._preset
+        changed = loaded or value != self._value
+        if loaded:
+            self._middle = PRESETS[state.preset].values.get(self._name, value)
+        if loaded or (changed and not _reads_well(value, self._unit)):
+            self._unit = fitting(value, self._known.kind, like)
+        if changed:
+            self.refused = ""
+        self._value, self._preset = value, state.preset
+        # The middle of the slider stays while it moves.
+        low, self._middle, high = slider_range(self._known, self._middle, value)
+        look = {"text": entry(value, self._unit), "refused": self.refused, "value": value}
+        look |= {"low": low, "middle": self._middle, "high": high}
+        look["ends"] = [written(end, self._known.kind, 3) for end in (low, high)]
+        return Part("number", self._name, self._told | look, self._take)
+
+    def _take(self, message: Any) -> None:
+        """Take a number that is typed, or sent by the slider as if it was; a refusal is shown beside it."""
+        self.refused, dragged = "", False
+        self._typed = self._unit
+        match message:
+            case {"text": str(entered)}:
+                dragged = "dragged" in message
+                self._page.apply(partial(self._put, entered), self._refuse, self._name * dragged)
+        if not (self.refused or dragged):
+            # Not the one that fits the number, in which it was shown meanwhile.
+            self._unit = self._typed
+        self._page.refresh()
+
+    def _put(self, entered: str, state: State) -> State:
+        value, self._typed = read(entered, self._known.kind, self._unit)
+        return changes.put(state, self._name, value)
+
+    def _refuse(self, text: str) -> None:
+        self.refused = text
+
+
+def _reads_well(value: float, unit: Unit) -> bool:
+    """Whether a value (SI) has in a unit at most three digits before the point and two zeros after it."""
+    return value == 0 or 1e-3 <= abs(value) / unit.factor < 1e3 * (1 - 1e-9)
+
+
+def _told(known: Quantity) -> dict[str, Any]:
+    """What is said of a number."""
+    low, high = (written(bound, known.kind, 2) for bound in known.bounds)
+    units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
+    rows = [linked(known.help)]
+    rows.append(Markup("<em>{}</em>").format(linked(known.equation)) if known.equation else "")
+    rows.append(Markup("Usual: {}.").format(marked(known.typical)) if known.typical else "")
+    rows.append(f"From {low} to {high}" + (f"; units {units}." if units else "."))
+    return {
+        "label": Markup("{} {}").format(symbol(known.symbol), marked(known.label)),
+        "spoken": as_html(f"{known.symbol}, {known.label}"),
+        "about": Markup("").join(Markup("<p>{}</p>").format(row) for row in rows if row),
+        "span": known.span,
+    }
+
+
+def title(text_: str) -> Part:
+    return text(text_, Markup("<h2>{}</h2>").format(text_), "title")
+
+
+class Form:
+    """The form: drive, shape, E*, the law of the hardness and its constant; all else folds."""
+
+    def __init__(self, page: Any):
+        self._page, self._open = page, {"more": False, "tip": False}
+        # What is folded and differs from the preset.
+        self._altered: set[str] = set()
+        # Why the last file of a tip was refused, or that it is being read.
+        self._tip_refused = self._tip_busy = ""
+        self._files, self._worker = Files(), Worker() if page.host.processes else Here()
+        page.host.at_end(self._end_reading)
+        self.view = Parts("form", stylesheets=LAYOUT)
+
+    def show(self, view: View) -> None:
+        state, page = view.state, self._page
+        # An imprint that is not there has the unit of the present depth.
+        depth = float(view.course.turning_point.depth)
+        named = regions(state)
+        in_fold = named.pop("more")
+        numbers = {region: [page.number(name, depth) for name in names] for region, names in named.items()}
+        notes = page.notes(view)
+
+        def note(place: str, before: str = "") -> Part:
+            found = (each.get(place, "") for each in notes)
+            return text(f"note {place}", Markup("").join((before, *found)))
+
+        again = button("Hit again", partial(page.apply, changes.hit_again))
+        # What begins to differ from the preset is unfolded, but for the moduli that follow a typed E*.
+        now = {*FOLDED_CHOICES, *in_fold}.intersection(altered(state)) - {"E_1", "E_2"}
+        opened = self._open["more"] = self._open["more"] or bool(now - self._altered)
+        self._altered = now
+        modulus, *constant = numbers["medium"]
+        # Below each choice the numbers of its option.
+        more = []
+        for choice in FOLDED_CHOICES if opened else ():
+            names = (name for name in used_by(state, choice) if name in in_fold)
+            more += [page.choice(choice), *(page.number(name, depth) for name in names)]
+        more += [page.number(name, depth) for name in folded(state)] if opened else []
+        with_tip = self._open["tip"] or state.shape == "sampled" or self._tip_refused or self._tip_busy
+        parts = [
+            note("first", _FIRST),
+            page.choice("drive"), *numbers["drive"], note("drive"),
+            *self._form(state, "drive"), note("form"), *[again] * (state.drive == "impact"),
+            title("Indenter"), self._shape(state), *[self.tip()] * bool(with_tip), note("shape"),
+            *numbers["shape"],
+            title("Medium"), modulus, page.choice("plasticity"), *constant, *numbers["hardness"],
+            note("medium"),
+            button("More about the medium", self._fold, pressed=opened, key="fold"),
+            *more, *[note("more"), note("sources")] * opened,
+        ]  # fmt: skip
+        self.view.show(parts)
+
+    def _form(self, state: State, choice: str) -> Iterator[Part]:
+        """Choices of the chosen option, with the numbers and choices of their own options below them."""
+        for name in state.chosen(choice).form:
+            yield self._page.choice(name)
+            yield from map(self._page.number, state.chosen(name).uses)
+            yield from self._form(state, name)
+
+    def _shape(self, state: State) -> Part:
+        """The list of shapes, of which one asks for the file of a measured tip while there is none."""
+        shapes = self._page.choice("shape")
+        if state.samples:
+            return shapes
+        pairs = [*shapes.look["options"], [_FILE, "Measured tip: a file"]]
+
+        def choose(option):
+            self._open["tip"] = option == _FILE
+            if option != _FILE:
+                shapes.act(option)
+            self._page.refresh()
+
+        return Part("choice", "shape", shapes.look | {"options": pairs}, choose)
+
+    def tip(self) -> Part:
+        """The field for the file of a measured tip, with what was refused in the last one."""
+        label = "CSV file of a measured tip: r, z"
+        return upload(label, ".csv,.txt,text/csv", self._take_tip, self._tip_refused, self._tip_busy)
+
+    def _take_tip(self, file: Uploaded) -> None:
+        try:
+            data = file.read()
+        except ValueError as error:
+            self._tip_refused = str(error)
+            return
+        self._page.host.run(partial(self._read_tip, in_line(file.name), data))
+
+    async def _read_tip(self, name: str, data: bytes) -> None:
+        """Read a tip, in a process that ends with the answer."""
+        self._show_busy(f"Reading {name}")
+        try:
+            path = self._files.keep(data)
+            samples, note = await self._worker.run(
+                "common.tip.read", path, name, waits=lambda before: self._show_busy(queue_text(before))
+            )
+        except Replaced:
+            return
+        except Refused as error:
+            self._tip_refused = error.text
+        else:
+            self._page.apply(lambda state: changes.take_tip(state, samples, note), self._refuse_tip)
+        self._tip_busy = ""
+        self._end_reading()
+        self._page.refresh()
+
+    def _show_busy(self, text: str) -> None:
+        self._tip_refused, self._tip_busy = "", f"{text} …"
+        self._page.refresh()
+
+    def _end_reading(self) -> None:
+        """End the process, and remove the file."""
+        self._worker.stop()
+        self._files.clear()
+
+    def _refuse_tip(self, text: str) -> None:
+        self._tip_refused = text
+
+    def _fold(self) -> None:
+        """Open or close the rest of the medium."""
+        self._open["more"] = not self._open["more"]
+        self._page.refresh()

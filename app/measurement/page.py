@@ -1,0 +1,399 @@
+"""The page of one person for a measurement: a file in, the number to quote out."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import panel as pn
+from bokeh.events import ConnectionLost, DocumentReady
+from bokeh.models import CustomJS
+from markupsafe import Markup
+
+from mdr_core.base.remark import Remark
+
+from ..common.errors import Refused
+from ..common.folders import Files
+from ..common.process import Here, Worker
+from ..common.ui import JS, WIDE, html, landmarks, show
+from ..common.upload import in_line
+from . import analysis, query
+from .actions import Actions
+from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, MEDIA, NUMBERS
+from .form import Form
+from .results import Results
+from .widgets import ERROR
+
+_BOTH = {"sizing_mode": "stretch_both", "margin": 0}
+#: Roles and names of the parts of the page, by their classes.
+_LANDMARKS = {
+    "fit-header": ("banner", "Measurement"),
+    "asked": ("complementary", "Curve, tip and sample"),
+    "found": ("main", "Result"),
+}
+#: Most curves that are fitted by one job.
+_CURVES = 100
+#: Seconds after a file in which others come that were dropped together with it, as one set.
+_TOGETHER = 0.7
+
+
+class Measurement(Actions):
+    """The page. What is typed and chosen is in its widgets alone, and so in its link.
+
+    Its main actions are `take_file`, `read` and `fit`, each of which goes on with the next one.
+    """
+
+    def __init__(self, link: str = "", worker: Worker | Here | None = None):
+        super().__init__(worker)
+        # The file or the set, its path or paths on the server, the name of the example that it is, and when
+        # it was taken (s).
+        self.file, self.path, self._example, self._taken_at = "", "", "", -_TOGETHER
+        self._files = Files()
+        # What prevents that a set is read, None if that does not wait.
+        self._waiting: Callable[[], None] | None = None
+        #: Columns and what parts curves, as the reader is given them; and for tables with known heads.
+        self.options: dict[str, Any] = {}
+        self._known: dict[Any, tuple[dict[str, Any], dict[str, float]]] = {}
+        #: The curve with the number of curves, samples of it without what is subtracted, and the question
+        #: about its file.
+        self.curve = self.taken = self.question = None
+        self.count = 0
+        #: The fit, Young's modulus of the sample and its error (Pa), and rows of all curves.
+        self.found = self.E = None
+        self.rows: list[analysis.Row] = []
+        #: Files of a set that are not read, and why.
+        self.unread: list[str] = []
+        #: Whether the user has stopped what ran: the next change begins it again.
+        self.cancelled = False
+        # Samples that are fitted, () for those of the kind of sample, which was the last one.
+        self._samples: tuple[int, ...] = ()
+        self._medium = ""
+        self.form, self.results = Form(self), Results(self)
+        self._view()
+        self._open(query.read(link))
+
+    def _view(self) -> None:
+        header = (
+            html(Markup("<h1>Measurement</h1>"), "name"),
+            html(Markup('<a href="?">Indentation explorer</a>'), "links", sizing_mode=None),
+        )
+        self.address = pn.widgets.TextInput(visible=False)
+        self.address.jscallback(value="history.replaceState(null, '', source.value)")
+        columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **_BOTH)
+        self.view = pn.Column(
+            pn.Row(*header, self.address, css_classes=["fit-header"], **WIDE), columns,
+            css_classes=["fit-page"], **_BOTH,
+        )  # fmt: skip
+        landmarks(self.document, _LANDMARKS, "found", "Skip to the result")
+        # The address restores what was typed when the session is lost.
+        self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
+        self.host.at_end(self.close)
+
+    def __panel__(self) -> Any:
+        return self.view
+
+    def close(self) -> None:
+        """End the process, and remove the files."""
+        self.worker.stop()
+        self._files.clear()
+        self.form.close()
+
+    def message(self, text: str, remedy: tuple[Any, ...] = ()) -> Refused:
+        """Return a text with the name of the file that was dropped, instead of that of the kept one."""
+        kept = Path(self.path).name if isinstance(self.path, str) else ""
+        return Refused(text.replace(kept or "\0", self.file), remedy)
+
+    def cancel(self) -> None:
+        """Stop what runs."""
+        self.stop()
+        self.cancelled = self.found is None
+        self.show()
+
+    # The link.
+
+    def _open(self, link: query.Link) -> None:
+        """Show what a link asks for: an example once the page is there, another file by its name."""
+        self._begin(link.tip, link.medium, link.numbers)
+        self.file, self.options, self._samples = link.file, link.options, link.samples
+        with self.setting():
+            self.results.number.param.update(end=link.curve + 1, value=link.curve + 1)
+        if example := next((name for name, each in EXAMPLES.items() if each.name == self.file), ""):
+            begin = partial(self.do, self._take, self.file, EXAMPLES[example].read(), example)
+            if not self.host.processes:
+                begin()
+                return
+            # A process is for a page that has connected, which a request alone has not.
+            self.document.on_event(DocumentReady, lambda event: self.path or begin())
+            self.busy = f"Reading {self.file}"
+        self.show()
+
+    def _begin(self, tip: str, medium: str, numbers: dict[str, float | None]) -> None:
+        """Begin with a tip, a kind of sample and numbers, for the first curve of another file."""
+        with self.setting():
+            self.form.tip.value = tip
+            self._set_medium(medium)
+            for name, value in numbers.items():
+                self.form.numbers[name].set(value)
+            self.results.number.value = 1
+        self.options, self._samples = {}, ()
+
+    def link(self) -> query.Link:
+        """Return the link of what is typed and chosen."""
+        tip, medium, curve = self.form.tip.value, self.form.medium.value, self.results.number.value - 1
+        numbers = self.form.unusual_numbers()
+        return query.Link(self.file, curve, tip, medium, numbers, self._samples, self.options)
+
+    # Files.
+
+    async def take_file(self, name: str, data: bytes, began: float) -> None:
+        """Read a file that was dropped, or a set. Tip and sample stay, unless they were an example's."""
+        now = monotonic()
+        together, self._taken_at = began < self._taken_at + _TOGETHER, now
+        if together:
+            self._take_together(name, data)
+            return
+        form, name = self.form, in_line(name)
+        if self._example:
+            self._begin("", "", dict.fromkeys(form.numbers))
+        elif name != self.file:
+            # What is known of another curve does not hold for this one.
+            self._begin(form.tip.value, form.medium.value, dict.fromkeys((*CORRECTIONS, *CANTILEVER)))
+        await self._take(name, data)
+
+    async def take_example(self, name: str) -> None:
+        """Read a measured example with its tip and sample."""
+        example = EXAMPLES[name]
+        numbers = dict.fromkeys((*NUMBERS,)) | example.numbers
+        self._begin(example.tip, example.medium, numbers)
+        await self._take(example.name, example.read(), name)
+
+    async def _take(self, name: str, data: bytes, example: str = "") -> None:
+        self.file, self._example, self.cancelled = name, example, False
+        self.curve, self.question, self.found, self.count, self.path = None, None, None, 0, ""
+        self.path = self._files.keep(data, name)
+        await self.read()
+
+    def _take_together(self, name: str, data: bytes) -> None:
+        """Read a file with those that were dropped before it, once no further one follows."""
+        self.stop()
+        if self._waiting:
+            self._waiting()
+        self._waiting = None
+        self.curve, self.question, self.found, self.count, self.path = None, None, None, 0, ""
+        self._files.add(data, name)
+        self.path = [*self._files.paths]
+        self.file, self.busy = f"{len(self.path)} files", f"Taking {len(self.path)} files"
+        # All of the page once, and then the number of files.
+        (self.show if len(self.path) == 2 else self.results.show_headline)()
+        self._waiting = self.host.later(self._read_together, round(1000 * _TOGETHER))
+
+    def _read_together(self) -> None:
+        self._waiting = None
+        self.do(self.read)
+
+    # Reading.
+
+    @property
+    def table(self) -> Any:
+        """The first rows of the table that is read or asked about, or None."""
+        return getattr(self.question or self.curve, "table", None)
+
+    @property
+    def deflection(self) -> Remark | None:
+        """The remark that the depth lacks the stiffness of the cantilever, or None."""
+        return analysis.deflection(self.curve) if self.curve is not None else None
+
+    @property
+    def wanted(self) -> set[str]:
+        """Names of what the reader of the file asks for."""
+        asked = (self.problem if self.curve is None else None), self.deflection
+        remedies = [each for one in asked if one for each in one.remedy]
+        names = {each.what for each in remedies if each.action == "give"}
+        return names | {"columns"} if self.question else names
+
+    async def read(self) -> None:
+        """Read the curve of the file, and fit it; or ask what its columns are."""
+        confirmed = self.question is not None
+        self.curve = self.taken = self.found = self.question = None
+        self.rows = []
+        if not self.path:
+            self.show()
+            return
+        options = self.form.given(*CANTILEVER) | self.options
+        number = self.results.number.value - 1
+        answer = await self.run(f"Reading {self.file}", analysis.read, self.path, options, number)
+        curve, self.count, question, self.unread = answer
+        with self.setting():
+            self.results.number.value = max(1, min(self.results.number.value, self.count))
+        if question is not None:
+            await self._ask(question)
+            return
+        remarks = tuple(analysis.with_text(each, self.message(each.text).text) for each in curve.remarks)
+        self.curve = replace(curve, remarks=remarks)
+        if self.table is not None:
+            columns = self.options.get("columns")
+            if self.options:
+                self._known[self.table.key] = self.options, self.form.given(*CANTILEVER)
+            with self.setting():
+                shown = columns if isinstance(columns, list) else curve.columns
+                self.form.columns.show(self.table, shown, self.options.get("by"))
+        if confirmed:
+            show(self.form.reader, collapsed=True)
+        await self.fit()
+
+    async def _ask(self, question: Any) -> None:
+        """Ask what the columns of a table are, or read it as another table with the same heads."""
+        known = self._known.get(question.table.key)
+        if known and not self.options:
+            self.options, cantilever = known
+            with self.setting():
+                for name, value in cantilever.items():
+                    self.form.numbers[name].set(value)
+            await self.read()
+            return
+        why = question.text if question.text.endswith("?") else f"{question.text.rstrip('.')}."
+        text = f"{self.file}: {why} Check what is chosen below, and press Read"
+        self.question, self.problem = question, self.message(text, question.remedy)
+        suggestion = question.suggestion
+        with self.setting():
+            self.form.columns.show(question.table, suggestion.get("columns") or {}, suggestion.get("by"))
+        self.show()
+
+    async def columns_changed(self) -> None:
+        """Read a file again that was read; a question is confirmed by its button."""
+        if self.question is None:
+            await self.read_as_chosen()
+        else:
+            # What is drawn is what was suggested.
+            self.question.preview = None
+            show(self.results.figures, visible=False)
+
+    async def read_as_chosen(self) -> None:
+        """Read the file by the columns that are chosen."""
+        await self.read_with(self.form.columns.options())
+
+    async def read_with(self, options: dict[str, Any]) -> None:
+        """Read the file by other columns, or by what else parts its curves."""
+        self.options = options if "columns" in options else self.options | options
+        self._samples = ()
+        await self.read()
+
+    async def curve_chosen(self) -> None:
+        """Read another curve of the file."""
+        self._samples = ()
+        await self.read()
+
+    # Fits.
+
+    @property
+    def ends(self) -> tuple[int, int]:
+        """Numbers of the first and the last sample that are fitted."""
+        count = len(self.curve)
+        if self._samples and self._samples[0] < min(self._samples[1], count):
+            return self._samples[0], min(self._samples[1], count)
+        return self._ends_of(MEDIA[self.form.medium.value].part if self.form.medium.value else "all")
+
+    def _ends_of(self, part: str) -> tuple[int, int]:
+        return analysis.ends_of(self.taken, len(self.curve), part)
+
+    @property
+    def part(self) -> str | None:
+        """Which part of the curve is fitted: "all", "loading", "unloading", or None."""
+        parts = "all", "loading", "unloading"
+        return next((part for part in parts if self._ends_of(part) == self.ends), None)
+
+    def _set_medium(self, name: str) -> None:
+        self.form.set_medium(name)
+        self._medium = name
+
+    async def medium_chosen(self) -> None:
+        """Fit another kind of sample. Of one hardness and another, what is held stays."""
+        before, name = self._medium, self.form.medium.value
+        held = self.form.given("E_star", "contact_point", "baseline", "tilt", "drag")
+        both_yield = before and name and MEDIA[before].letter and MEDIA[name].letter
+        with self.setting():
+            self._set_medium(name)
+            if both_yield:
+                for each in FITTED:
+                    self.form.numbers[each].set(held.get(each))
+            else:
+                self._samples = ()
+        await self.fit()
+
+    async def part_chosen(self, part: str) -> None:
+        """Fit a part of the curve: "all", "loading" or "unloading"."""
+        if self.curve is not None and part:
+            await self._fit_samples(self._ends_of(part))
+
+    async def samples_chosen(self) -> None:
+        """Fit the samples between the handles of the range."""
+        if self.curve is not None and self.results.ends.value_throttled:
+            first, last = (round(each) for each in self.results.ends.value_throttled)
+            if first < last:
+                await self._fit_samples((first, last))
+
+    async def _fit_samples(self, ends: tuple[int, int]) -> None:
+        self._samples = ()
+        self._samples = () if ends == self.ends else ends
+        await self.fit()
+
+    async def fit(self) -> None:
+        """Fit the curve, once tip and sample are known."""
+        self.found, self.E, self.rows = None, None, []
+        cancelled, self.cancelled = self.cancelled, False
+        if cancelled and self.curve is None:
+            await self.read()
+            return
+        if self.curve is not None:
+            self.problem = None
+            self.taken = analysis.samples(self.curve, **self.form.corrections())
+        if self.curve is not None and self.busy:
+            # The fit that runs is that of another tip or sample.
+            self.stop()
+        if self.curve is None or self.form.missing() or self.deflection:
+            self.show()
+            return
+        request = self.form.request(self.curve.time is not None, self.ends if self._samples else ())
+        self.found = await self.run("Fitting", analysis.fit, self.curve, request)
+        self.E = self.form.modulus(self.found.quoted)
+        self.show()
+
+    async def modulus_chosen(self) -> None:
+        """Show Young's modulus of the sample by other numbers."""
+        self.problem = self.E = None
+        if self.found is not None:
+            self.E = self.form.modulus(self.found.quoted)
+        self.show()
+
+    async def fit_all(self) -> None:
+        """Fit each curve of the file as the one that is shown."""
+        self.rows = []
+
+        def one(row: analysis.Row) -> None:
+            self.rows.append(row._replace(reason=self.message(row.reason).text))
+            self.busy = f"Fitting curve {min(len(self.rows) + 1, self.count)} of {self.count}"
+            self.results.show_headline()
+            self.results.show_progress()
+
+        options = self.form.given(*CANTILEVER) | self.options
+        request = self.form.request(True, self.ends if self._samples else ())
+        # A job may take some time only, and others have their turn between two of them.
+        for first in range(0, self.count, _CURVES):
+            text, last = f"Fitting curve {first + 1} of {self.count}", min(first + _CURVES, self.count)
+            given = self.path, options, request, first, last
+            await self.run(text, analysis.fit_all, *given, part=one)
+        self.show()
+
+    @pn.io.hold()
+    def show(self) -> None:
+        """Show everything as it is."""
+        with self.setting():
+            self.form.show(self)
+            self.results.show()
+            self.form.show_about(self)
+            problems = (self.problem,) if self.problem and self.curve is None else ()
+            self.results.fill(self.form.errors, problems, ERROR)
+            link = self.link().query()
+            self.address.value = "?fit" + f"&{link}" * bool(link)

@@ -1,0 +1,232 @@
+"""Results of a fit as HTML: the number to quote, tables, remarks; and its report as plain text."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup, escape
+
+from mdr_core.measurements.fit.parameters import PARAMETERS
+from mdr_core.measurements.unloading.oliver_pharr_result import OLIVER_PHARR, texts_of
+from mdr_core.show.report import with_error
+from mdr_core.show.units import KINDS, fitting, with_unit, written
+
+from ..common.ui import marked, own_html
+from .choices import CLASS_NAMES, FITTED, MEDIA, NUMBERS
+
+#: The page before there is a curve, and what holds for every number, which no remark repeats.
+WELCOME, HELP = (own_html(Path(__file__).with_name(name)) for name in ("welcome.html", "help.html"))
+#: Ratio of misfits from which another class fits clearly better.
+_CLEARLY = 5.0
+_SOURCES = {"unloading": "from the unloading, by Oliver and Pharr", "fit": "from the fit"}
+_LARGE = Markup('<p class="big">E* = <output>{}</output></p><p class="of">Effective modulus, {}.{}</p>')
+_SECOND = Markup('<p class="second">{} = <output>{}</output>, {}</p>')
+_TO_DO = Markup('<p class="big none">{}</p><p class="of">{}</p>')
+_WAITING = Markup('<p class="waiting" role="status">{} …</p>')
+_TABLE, _ROW = Markup("<table>{}</table>"), Markup("<tr class='{}'><th>{}</th>{}</tr>")
+_CELL, _MORE = Markup("<td>{}</td>"), Markup("<p>{} more are in the CSV.</p>")
+#: Most curves of a file that are listed.
+_LISTED = 300
+GIVE_POISSON = Markup('<p class="of">Give ν on the left for Young’s modulus E of the sample.</p>')
+_NOT_QUOTED = Markup(
+    "<p>The model’s own {} not to be quoted: its contact radius is that of an elastic contact.</p>"
+)
+
+
+def sentence(text: str, file: str = "") -> Markup:
+    """Return a remark as a sentence: a capital, symbols with indices, true minus signs.
+
+    The name of a file in it, which may look like a symbol, stays as it is.
+    """
+    first = text.partition(" ")[0]
+    if first == "a" or (first[1:].isalpha() and not (file and text.startswith(file))):
+        text = text[:1].upper() + text[1:]
+    text = text if text.endswith("?") else text.rstrip(".") + "."
+    parts = text.split(file) if file else [text]
+    return escape(file).join(marked(_minus(part)) for part in parts)
+
+
+def _minus(text: str) -> str:
+    return re.sub(r"(?<![\w/])-(?=[\d.])", "−", text)
+
+
+def amount(value: float, error: float | None, unit: str) -> str:
+    """Return a number with its error, one unit and a true minus."""
+    exact = near(float(value), KINDS.get(unit, "number"))
+    return _minus(exact if error is None else with_error(value, error, unit))
+
+
+def near(value: float, kind: str, like: float = 0.0) -> str:
+    """Return a value with its unit; 0 has that of the value `like`."""
+    return written(value, kind) if value else with_unit("0", fitting(0.0, kind, like).name)
+
+
+def value_of(fit: Any, name: str) -> str:
+    """Return a parameter of a fit with its error, or as it was held."""
+    if name in ("hardness", "q_c", "f_c") and name in fit.standard_errors and np.isinf(fit.medium.q_c):
+        return "∞: nothing has yielded"
+    return amount(fit.to_dict()[name], fit.standard_errors.get(name), PARAMETERS[name].quantity.unit)
+
+
+def waiting(text: str) -> Markup:
+    """Return the headline while something is done."""
+    return _WAITING.format(text)
+
+
+def to_do(what: str, how: str = "Then the fit runs at once.") -> Markup:
+    """Return the headline that says what is missing."""
+    return _TO_DO.format(what, how)
+
+
+def headline(found: Any, E: tuple[float, float] | None, ideal_tip: bool, rigid_frame: bool) -> Markup:
+    """Return the number to quote, large, its source, and what its error leaves out."""
+    quoted = found.quoted
+    if quoted.source is None:
+        return _TO_DO.format("No E* to quote", "")
+    number = amount(quoted.value, quoted.standard_error, "Pa")
+    assumed = " and ".join(["an ideal tip"] * ideal_tip + ["a rigid frame"] * rigid_frame)
+    error = (
+        " ± of the noise"
+        + f"; {assumed} {'are' if ideal_tip and rigid_frame else 'is'} assumed" * bool(assumed)
+    )
+    html = _LARGE.format(number, _SOURCES[quoted.source], f"{error}." * ("±" in number))
+    if E is not None:
+        html += _SECOND.format("E", amount(*E, "Pa"), "Young’s modulus of the sample")
+    if (result := found.unloading) is not None:
+        H = amount(float(result.hardness), float(result.standard_errors["hardness"]), "Pa")
+        html += _SECOND.format("H", H, "hardness by Oliver and Pharr")
+    return html
+
+
+def why(found: Any) -> Markup:
+    """Return a sentence on the model's own E* if another E* is quoted."""
+    if found.quoted.source != "unloading":
+        return Markup("")
+    E = f"E*, {value_of(found.fit, 'E_star')},"
+    with_H = "hardness" in found.fit.standard_errors
+    return _NOT_QUOTED.format(f"{E} and H, {value_of(found.fit, 'hardness')}, are" if with_H else f"{E} is")
+
+
+def _table(*rows: tuple[Any, ...], own: Any = None) -> Markup:
+    """Return rows as a table; the row whose heading is `own` stands out."""
+    cells = ((row[0], Markup("").join(map(_CELL.format, row[1:]))) for row in rows)
+    return _TABLE.format(
+        Markup("").join(_ROW.format("own" * (head == own), head, rest) for head, rest in cells)
+    )
+
+
+def unloading_table(result: Any) -> Markup:
+    """Return the numbers of Oliver and Pharr and of ISO 14577 that the record has."""
+    named = ((OLIVER_PHARR[name], text) for name, text in texts_of(result).items())
+    return _table(*((marked(f"{q.symbol} {q.long_name}"), _minus(text)) for q, text in named))
+
+
+def verdict(found: Any) -> str:
+    """Return what the samples say of the class of hardness."""
+    if found.verdict is None:
+        return ""
+    if len(found.verdict.possible) > 1:
+        return "This curve does not determine the class of hardness."
+    best = f"({found.verdict.best}), {CLASS_NAMES[found.verdict.best]}."
+    if found.verdict.describes:
+        return f"The curve is of class {best}"
+    return f"No class describes the curve within 1 %; the nearest is {best}"
+
+
+def misfits(found: Any) -> dict[str, float]:
+    """Return the misfit of each class over the largest force, nothing without a verdict."""
+    known = found.fit.classes.items() if found.verdict else ()
+    return {letter: float(each.misfit) for letter, each in known}
+
+
+def better(found: Any, own: str) -> str:
+    """Return the class that fits clearly better than the one that was fitted, or nothing."""
+    known = misfits(found)
+    best = min(known, key=known.__getitem__, default="")
+    return best if best != own and _CLEARLY * known[best] <= known.get(own, np.inf) else ""
+
+
+def classes_table(found: Any, own: str) -> Markup:
+    """Return the misfit of each class, and which class the curve is of."""
+    heads = {letter: f"({letter}) {CLASS_NAMES[letter]}" for letter in misfits(found)}
+    rows = (
+        (heads[letter], f"{100 * misfit:.2g} %", "fitted" * (letter == own))
+        for letter, misfit in misfits(found).items()
+    )
+    table = _table(("class of hardness", "misfit, of the largest force", ""), *rows, own=heads.get(own))
+    return table + Markup("<p>{}</p>").format(verdict(found))
+
+
+def curves_table(rows: list[Any], file: str) -> Markup:
+    """Return the curves of a file or a set, those without a number first."""
+    ordered = sorted(rows, key=lambda row: row.E is not None)
+    cells = (
+        (row.name, *(_found(*pair) for pair in ((row.E, row.E_error), (row.H, row.H_error))),
+         sentence(row.reason, file))
+        for row in ordered[:_LISTED]
+    )  # fmt: skip
+    beyond = _MORE.format(len(rows) - _LISTED) if len(rows) > _LISTED else ""
+    return _table(("curve", "E*", "H", "source, or why there is no number"), *cells) + beyond
+
+
+def _found(value: float | None, error: float | None) -> str:
+    return "–" if value is None else amount(value, error, "Pa")
+
+
+def curves_summary(rows: list[Any], count: int, young: list[float]) -> str:
+    """Return how many curves are fitted, mean and standard deviation of E*, H and E, and the medians.
+
+    `young` are Young's moduli (Pa) of the sample, NaN for a curve without one.
+    """
+    if not rows:
+        return ""
+    parts = [f"{len(rows)} of {count} curves fitted"]
+    columns = {"E*": [row.E for row in rows], "E": young, "H": [row.H for row in rows]}
+    for symbol, values in columns.items():
+        found = [value for value in values if value is not None and np.isfinite(value)]
+        if found:
+            mean = amount(
+                float(np.mean(found)), float(np.std(found, ddof=1)) if len(found) > 1 else None, "Pa"
+            )
+            median = amount(float(np.median(found)), None, "Pa")
+            parts.append(f"{symbol} = {mean}, mean ± standard deviation of {len(found)}, median {median}")
+    lost = sum(row.E is None for row in rows)
+    return "; ".join((*parts, f"{lost} without a number to quote")) + "."
+
+
+def limits(found: Any, tip: str, medium: str) -> list[str]:
+    """Return assumptions that are exceeded, except those of every such tip and sample."""
+    known = {"slope"} if tip in ("berkovich", "cube_corner", "cone") else set()
+    known |= {"flow"} if MEDIA[medium].letter == "a" else set()
+    return [each.sentence for each in found.fit.path.limits if each.exceeded and each.what not in known]
+
+
+def range_text(curve: Any, ends: tuple[int, int], fitted: bool) -> str:
+    """Return the samples that are fitted, with depth and force of the first and the last one."""
+    deepest, largest = (float(np.max(np.abs(each))) for each in (curve.depth, curve.force))
+    places = [
+        f"{k} ({near(float(curve.depth[k - 1]), 'length', deepest)}, "
+        f"{near(float(curve.force[k - 1]), 'force', largest)})"
+        for k in ends
+    ]
+    return f"{'Fitted: s' if fitted else 'S'}amples {' to '.join(places)} of {len(curve)}"
+
+
+def report(found: Any, html: Markup, file: str, shown: list[str], corrections: dict[str, float]) -> str:
+    """Return a fit as lines of text to be pasted into a report."""
+    number = html.replace(Markup("</p>"), "; ").striptags().strip("; ")
+    lines = [f"{file}: {number}" + f": {found.quoted.reason}" * (found.quoted.source is None)]
+    lines += [each.text for each in (*found.above, *found.below)]
+    for name in shown:
+        held = "" if name in found.fit.standard_errors else " (held)"
+        lines.append(f"{FITTED[name].label} {FITTED[name].symbol}\t{value_of(found.fit, name)}{held}")
+    for name, value in corrections.items():
+        lines.append(f"{NUMBERS[name].label} {NUMBERS[name].symbol}\t{written(value, NUMBERS[name].kind)}")
+    for name, text in texts_of(found.unloading).items() if found.unloading is not None else ():
+        lines.append(f"{OLIVER_PHARR[name].long_name} {OLIVER_PHARR[name].symbol}\t{text}")
+    if known := misfits(found):
+        each = ", ".join(f"({letter}) {100 * misfit:.2g} %" for letter, misfit in known.items())
+        lines.append(f"{verdict(found)} Misfits: {each} of the largest force.")
+    lines += [each.text for each in found.remarks if each not in found.below]
+    return "\n".join(lines)
