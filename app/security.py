@@ -49,7 +49,7 @@ def no_components() -> None:
     Panel imports the module that such an address names, whichever it is: `unittest.__main__` ends the
     server. The page asks for none. Routes are built from this name once the app is loaded.
     """
-    if _end("panel.io.server", "ComponentResourceHandler"):
+    if _private_attribute("panel.io.server", "ComponentResourceHandler"):
         import_module("panel.io.server").ComponentResourceHandler = NotFound
 
 
@@ -63,7 +63,7 @@ def no_packed_bytes() -> None:
     Unpacked, or as texts of a given length, they may be a million times as large. Bokeh makes them without
     a bound, in the thread of the server. Browsers send bytes as buffers beside the message, and no arrays.
     """
-    deserializer = _end("bokeh.core.serialization", "Deserializer")
+    deserializer = _private_attribute("bokeh.core.serialization", "Deserializer")
     decode = getattr(deserializer, "_decode_bytes", None)
     decode_numbers = getattr(deserializer, "_decode_ndarray", None)
     if decode is None or decode_numbers is None:
@@ -103,7 +103,10 @@ def own_sessions() -> None:
     session of the sender, who sees the files of the visitor and runs scripts in the page. The key is made
     before processes are forked; one in BOKEH_SECRET_KEY goes first.
     """
-    patterns, handler = _end("bokeh.server.urls", "per_app_patterns"), _end("panel.io.server", "DocHandler")
+    patterns, handler = (
+        _private_attribute("bokeh.server.urls", "per_app_patterns"),
+        _private_attribute("panel.io.server", "DocHandler"),
+    )
     if not (patterns and handler):
         return
     if not settings.secret_key():
@@ -136,7 +139,7 @@ def document(handler: Any) -> Any:
 _LOOPBACK = ("127.0.0.1", "::1", "localhost")
 
 
-def is_own(origin: str, host: str, port: int) -> bool:
+def same_loopback_origin(origin: str, host: str, port: int) -> bool:
     """Whether an origin is the host of its request, and that one of this machine, at the served port."""
     place = urlsplit(f"//{host}")
     same = urlsplit(origin).netloc.lower() == host.lower()
@@ -153,9 +156,9 @@ def websockets() -> None:
     first one, which browsers delay by up to 40 ms in a drag: with a client that does so a move is answered
     after 59 ms instead of 100 (medians of 120).
     """
-    patterns = _end("bokeh.server.urls", "per_app_patterns")
-    handler = _end("panel.io.server", "WSHandler")
-    dispatch = _end("panel.io.document", "dispatch_tornado")
+    patterns = _private_attribute("bokeh.server.urls", "per_app_patterns")
+    handler = _private_attribute("panel.io.server", "WSHandler")
+    dispatch = _private_attribute("panel.io.document", "dispatch_tornado")
     if patterns and handler:
         # The first pattern that matches is used.
         patterns.insert(0, (r"/ws", websocket(handler, dispatch)))
@@ -186,7 +189,9 @@ def websocket(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
         def check_origin(self, origin):
             address = self.request.connection.stream.socket.getsockname()
             try:
-                return is_own(origin, self.request.host, address[1]) or super().check_origin(origin)
+                return same_loopback_origin(origin, self.request.host, address[1]) or super().check_origin(
+                    origin
+                )
             except ValueError:
                 # No address at all, as "http://[".
                 return False
@@ -223,26 +228,26 @@ def websocket(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
 
 def template() -> str:
     """Template of the page, of which no plot is drawn with WebGL: 194 of 3,060 kB of a first visit less."""
-    base = _end("panel.io.resources", "BASE_TEMPLATE")
+    base = _private_attribute("panel.io.resources", "BASE_TEMPLATE")
     try:
         source = Path(base.filename).read_text(encoding="utf-8")
     except (AttributeError, TypeError, OSError):
         source = ""
     known = "block js_resources" in source and "bokeh_js" in source
     if base and not known:
-        _missing("the block js_resources of the template with bokeh_js")
+        _log_missing("the block js_resources of the template with bokeh_js")
     return _HEAD + _WITHOUT_WEBGL * known
 
 
-def _end(module: str, name: str) -> Any:
+def _private_attribute(module: str, name: str) -> Any:
     """A name of a module, or None where it has moved."""
     try:
         return getattr(import_module(module), name)
     except (ImportError, AttributeError):
-        _missing(f"{module}.{name}")
+        _log_missing(f"{module}.{name}")
         return None
 
 
 @cache
-def _missing(what: str) -> None:
+def _log_missing(what: str) -> None:
     _LOG.warning("%s is not there in this version of Panel or Bokeh; the page goes on without it", what)

@@ -6,7 +6,7 @@ from typing import Any
 from mdr_core.base.errors import InvalidArgument
 from mdr_core.show.units import KINDS, written
 
-from .quantities import QUANTITIES, lowered
+from .quantities import QUANTITIES, unicode_subscripts
 
 #: Most characters of a text, which may quote a file.
 _MOST = 2000
@@ -20,9 +20,9 @@ class Refused(Exception):
         self.text, self.remedy = text, remedy
 
 
-def error_text(error: Exception) -> tuple[str, tuple[Any, ...]]:
+def text_and_remedy(error: Exception) -> tuple[str, tuple[Any, ...]]:
     """Return text and remedies of an error, also of a package that reads files, without folders."""
-    text = in_words(error) if isinstance(error, ValueError) else str(error)
+    text = error_text(error) if isinstance(error, ValueError) else str(error)
     return without_folders(text[:_MOST]), getattr(error, "remedy", ())
 
 
@@ -31,7 +31,7 @@ def without_folders(text: str) -> str:
     return re.sub(r"(?<![\w.)])(?:[A-Za-z]:)?[/\\](?:[^/\\\s'\":]+[/\\]+)+", "", text)
 
 
-def in_words(error: ValueError) -> str:
+def error_text(error: ValueError) -> str:
     """Return the message of an error of the core, for a number its symbol, value with unit, bound, advice.
 
     All other messages are as they stand, without names of Python where they have a text.
@@ -39,7 +39,7 @@ def in_words(error: ValueError) -> str:
     if not isinstance(error, InvalidArgument) or not isinstance(error.value, int | float):
         return getattr(error, "text", str(error))
     known = QUANTITIES.get(error.argument)
-    name = f"{lowered(known.symbol)}, {known.label}," if known else error.quantity
+    name = f"{unicode_subscripts(known.symbol)}, {known.label}," if known else error.quantity
     value = written(float(error.value), KINDS.get(error.unit, "number"))
     advice = f"; {error.advice}" if error.advice and "SI units" not in error.advice else ""
     return f"{name} = {value} {error.bound}{advice}"

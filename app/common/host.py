@@ -44,15 +44,15 @@ class Host:
         """Do something once a browser shows the page."""
         act()
 
-    def later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
+    def call_later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
         """Do something later, and return what prevents it."""
         act()
         return lambda: None
 
-    def at_end(self, act: Callable[[], None]) -> None:
+    def on_close(self, act: Callable[[], None]) -> None:
         """Do something when the page is closed, if that is known."""
 
-    def soon(self, act: Callable[[], None]) -> None:
+    def next_tick(self, act: Callable[[], None]) -> None:
         """Do something where the page may be changed, from whichever thread."""
         act()
 
@@ -65,7 +65,7 @@ class Host:
         """Take the steps of a search beside the page, and give what is found to `done` if it is wanted."""
         found = last(steps, wanted)
         if wanted():
-            self.soon(partial(done, found))
+            self.next_tick(partial(done, found))
 
     def make(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
         """Take steps that read the page, and give what they make to `done` if it is wanted."""
@@ -87,7 +87,7 @@ class Sliced(Host):
                 done(made)
                 return
             if perf_counter() > begun + _SLICE:
-                self.soon(partial(self._go_on, steps, wanted, done, made))
+                self.next_tick(partial(self._go_on, steps, wanted, done, made))
                 return
 
 
@@ -109,14 +109,14 @@ class Server(Sliced):
     def once_shown(self, act: Callable[[], None]) -> None:
         pn.state.onload(act)
 
-    def later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
+    def call_later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
         waiting = self._document.add_timeout_callback(act, milliseconds)
         return partial(self._document.remove_timeout_callback, waiting)
 
-    def at_end(self, act: Callable[[], None]) -> None:
+    def on_close(self, act: Callable[[], None]) -> None:
         self._document.on_session_destroyed(lambda context: act())
 
-    def soon(self, act: Callable[[], None]) -> None:
+    def next_tick(self, act: Callable[[], None]) -> None:
         self._document.add_next_tick_callback(act)
 
     def run(self, act: Callable[[], Coroutine[Any, Any, None]]) -> None:

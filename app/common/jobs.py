@@ -13,7 +13,7 @@ from importlib import import_module
 from math import ceil
 from typing import Any
 
-from .errors import error_text
+from .errors import text_and_remedy
 
 
 def setting(name: str, default: int) -> int:
@@ -47,7 +47,7 @@ def answers(job: str, arguments: tuple[Any, ...]) -> Iterator[tuple[str, Any]]:
             found = None
         yield "done", found
     except (ValueError, ImportError) as error:
-        yield "refused", error_text(error)
+        yield "refused", text_and_remedy(error)
     except MemoryError:
         yield "refused", ("this needs more memory than a measurement may have",)
 

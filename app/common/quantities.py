@@ -137,6 +137,6 @@ include(_DATA)
 _LOWERED = str.maketrans("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
 
 
-def lowered(text):
+def unicode_subscripts(text):
     """Text with indices, as in v_0, as Unicode subscripts where they exist."""
     return re.sub("_([a-z0-9]+)", lambda index: index[1].translate(_LOWERED), text)

@@ -62,7 +62,7 @@ def replaced(pattern: str, html: str, text: Markup) -> Markup:
     return Markup(re.sub(pattern, html, str(text)))
 
 
-def marked(text: str) -> Markup:
+def html_subscripts(text: str) -> Markup:
     """HTML of a text, with subscripts in symbols such as d_c, and in their differentials such as dd_c."""
     of_symbol = r"(\b[a-zA-Z]|(?<=\bd)[a-zA-Z]|[α-ω])_([a-zA-Z0-9]+)"
     return replaced(of_symbol, r"<i>\1</i><sub>\2</sub>", escape(text))
@@ -70,14 +70,17 @@ def marked(text: str) -> Markup:
 
 def symbol(text: str) -> Markup:
     """A symbol as HTML, also a ratio such as d/d_c."""
-    parts = (marked(each) if "_" in each else Markup("<i>{}</i>").format(each) for each in text.split("/"))
+    parts = (
+        html_subscripts(each) if "_" in each else Markup("<i>{}</i>").format(each)
+        for each in text.split("/")
+    )
     return Markup("/").join(parts)
 
 
 def linked(text: str) -> Markup:
     """HTML of a text, with links from equations, (11), and sections, § 9, to the page of the theory."""
     led = r'<a href="?theory={}-\1" target="theory">\g<0></a>'
-    html = replaced(r"\(([1-9]\d?)\)", led.format("eq"), marked(text))
+    html = replaced(r"\(([1-9]\d?)\)", led.format("eq"), html_subscripts(text))
     return replaced(r"§ (\d+)", led.format("section"), html)
 
 

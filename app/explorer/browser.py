@@ -48,18 +48,18 @@ class Browser(Sliced):
         for act in self._waiting:
             act()
 
-    def later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
+    def call_later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
         return asyncio.get_running_loop().call_later(milliseconds / 1000, act).cancel
 
-    def soon(self, act: Callable[[], None]) -> None:
-        self.later(act, 0)
+    def next_tick(self, act: Callable[[], None]) -> None:
+        self.call_later(act, 0)
 
     def run(self, act: Callable[[], Coroutine[Any, Any, None]]) -> None:
         pn.state.execute(act)
 
     def search(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
         # Not within the press that asks for it.
-        self.soon(lambda: self.make(steps, wanted, done))
+        self.next_tick(lambda: self.make(steps, wanted, done))
 
 
 async def start(query: str, dark: bool) -> None:
@@ -78,6 +78,8 @@ async def start(query: str, dark: bool) -> None:
         js.document.body.append(place)
     # What is sent is answered once the script that sends it has ended, as from a server.
     answer = document.apply_json_patch
-    document.apply_json_patch = lambda patch, setter=None: host.soon(partial(answer, patch, setter=setter))
+    document.apply_json_patch = lambda patch, setter=None: host.next_tick(
+        partial(answer, patch, setter=setter)
+    )
     await browser.write_doc(document)
     host.shown()

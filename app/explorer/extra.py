@@ -83,7 +83,7 @@ class Extra:
     #: called at the next rest.
     notes: Callable[[View], dict[str, str | Callable[[], str]]] = lambda view: {}
     #: Titles and texts, or HTML, that a saved scene has of it.
-    told: Callable[[View], list[tuple[str, str]]] = lambda view: []
+    scene_file_texts: Callable[[View], list[tuple[str, str]]] = lambda view: []
 
 
 #: All extras by name, in their order.

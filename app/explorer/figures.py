@@ -13,8 +13,8 @@ from markupsafe import Markup
 
 from mdr_core.show.figures import ROLES, Axis, Row
 
-from ..common.quantities import lowered
-from ..common.ui import HERE, JS, marked
+from ..common.quantities import unicode_subscripts
+from ..common.ui import HERE, JS, html_subscripts
 from .plot import OF_AXIS, Plot, View, overlays, rows_of
 
 _LOOK = [(HERE / "static" / "tools.css").read_text(encoding="utf-8")]
@@ -63,7 +63,7 @@ class Layer:
             rows = self.rows
             symbol = {OF_AXIS: axes[self.axis].title.split(",")[0]}
             found = {"xs": xs, "ys": ys, "symbol": [symbol.get(row.symbol, row.symbol) for row in rows]}
-            found["row"] = [lowered(row.called(places[row.name])) for row in rows]
+            found["row"] = [unicode_subscripts(row.called(places[row.name])) for row in rows]
         else:
             rows = [row for row, x in zip(self.rows, xs, strict=True) for _ in x]
             found = {"x": [*chain(*xs)], "y": [*chain(*ys)], "row": [row.name for row in rows]}
@@ -155,8 +155,10 @@ class Picture:
     def _ends(self, axis: Axis, k: int) -> tuple[float, float]:
         """Start and end of the axis of number k, in its unit."""
         start, end = axis.ends
-        marked = start == 0 and not axis.log and any(layer.kind == "marks" for layer in self.layers)
-        return (-self.margins[min(k, 1)] * end, end) if marked else (start, end)
+        html_subscripts = (
+            start == 0 and not axis.log and any(layer.kind == "marks" for layer in self.layers)
+        )
+        return (-self.margins[min(k, 1)] * end, end) if html_subscripts else (start, end)
 
     @property
     def zoomed(self) -> bool:
@@ -277,7 +279,7 @@ def legend(plot: Plot, shown: dict[str, str]) -> Markup:
         hatch = "hatch" * (row.look.get("hatch_pattern", " ") != " ")
         look = " ".join((row.kind, hatch, row.look.get("line_dash", ""), row.look.get("marker", "")))
         one = Markup('<span class="{}"><i class="{}"></i>{}</span>')
-        rows.append(one.format(row.role, look, marked(shown[row.name])))
+        rows.append(one.format(row.role, look, html_subscripts(shown[row.name])))
     return Markup("").join(rows)
 
 

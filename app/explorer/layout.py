@@ -11,7 +11,7 @@ import panel as pn
 from markupsafe import Markup, escape
 
 from ..common.quantities import QUANTITIES
-from ..common.ui import FULL, LAYOUT, WIDE, as_html, html, marked, show
+from ..common.ui import FULL, LAYOUT, WIDE, as_html, html, html_subscripts, show
 from . import readouts
 from .courses import Course
 from .extra import EXTRAS, Side
@@ -33,12 +33,12 @@ _TITLE = text("name", Markup("<h1>Indentation explorer</h1>"), "name")
 _FIT = text("fit", Markup('<a href="?fit">Fit a measurement</a>'), "way")
 
 
-def _turned(state: State) -> State:
+def _toggle_dark(state: State) -> State:
     """Dark instead of light, or back."""
     return state.replace(dark=not state.dark)
 
 
-def opened(state: State, name: str) -> State:
+def with_tile(state: State, name: str) -> State:
     """With an optional plot, or none, in the place of the one that is shown."""
     return state.replace(tiles=(name,) if name else ())
 
@@ -59,11 +59,11 @@ class Card:
         kept = self._legend if view.kept else {}
         self._legend = kept | drawn(view, plot)
         # Its formula stands with the numbers.
-        title = Markup("<h3>{}</h3><span>{}</span>").format(plot.title, marked(plot.aside(view)))
+        title = Markup("<h3>{}</h3><span>{}</span>").format(plot.title, html_subscripts(plot.aside(view)))
         buttons = (each.on_plots(page, plot, view) for each in EXTRAS.values())
         key = text("key", legend(plot, self._legend), "key")
         controls = [self._control(name) for name in plot.controls]
-        close = [button("Close", partial(page.apply, partial(opened, name="")))] * bool(plot.tab)
+        close = [button("Close", partial(page.apply, partial(with_tile, name="")))] * bool(plot.tab)
         found = escape(plot.note_of(view))
         # In two lines, which show the rest when they are pointed at, or large.
         shown = Markup('<span title="{}">{}</span>').format(found.striptags(), found)
@@ -138,7 +138,7 @@ class Layout:
         # What it is, and its sources, are told in the form.
         preset.look["about"] = ""
         self.header.show([_TITLE, preset, *undo, *redo, *opening])
-        dark = button("Dark", partial(page.apply, _turned), pressed=view.state.dark)
+        dark = button("Dark", partial(page.apply, _toggle_dark), pressed=view.state.dark)
         more = (each.header(page, view) for each in EXTRAS.values())
         self.more.show([_FIT, *filter(None, more), dark])
         numbers = readouts.line(view.course)
@@ -193,7 +193,7 @@ class Layout:
 
         def choose(name):
             if name in known or name == "":
-                self._page.apply(partial(opened, name=name))
+                self._page.apply(partial(with_tile, name=name))
 
         return Part("choice", "fourth plot", look, choose)
 

@@ -19,11 +19,11 @@ from .state import (
     State,
     altered,
     checked,
-    formed,
+    form_choices,
+    numbers_of,
     preset_state,
     regions,
     used,
-    used_by,
 )
 
 #: Most characters of a link and of a text in it.
@@ -57,7 +57,7 @@ def _sizes(state: State) -> set[str]:
     """Numbers of a drive other than the preset's that its links need: they say how large the scene is."""
     if state.drive == preset_state(state.preset).drive:
         return set()
-    return {"mass", "max_depth", "max_force"} & {*used_by(state, "drive")}
+    return {"mass", "max_depth", "max_force"} & {*numbers_of(state, "drive")}
 
 
 def _text(value: Any) -> str:
@@ -184,7 +184,7 @@ def file_name(state: State, what: str) -> str:
 def summary(state: State) -> str:
     """Shape, medium and drive of a scene in one line."""
     parts = regions(state)
-    names = [*parts["shape"], *parts["medium"], *used_by(state, "drive", "damping", "adhesion")]
+    names = [*parts["shape"], *parts["medium"], *numbers_of(state, "drive", "damping", "adhesion")]
     numbers = [with_symbol(name, state[name]) for name in names if state[name]]
-    chosen = [state.chosen(name).label for name in formed(state)]
+    chosen = [state.chosen(name).label for name in form_choices(state)]
     return ", ".join([state.chosen("shape").label, *numbers, *chosen])

@@ -14,14 +14,14 @@ from panel.io.location import Location
 
 from mdr_core.show.figures import Axis
 
-from ..common.errors import in_words
+from ..common.errors import error_text
 from ..common.host import Host, host_of
 from ..common.ui import JS, Messages, landmarks, notice
 from . import changes, link
 from .drives import follow
 from .extra import EXTRAS
 from .layout import LANDMARKS, Layout, frames_in_steps
-from .plot import Along, View
+from .plot import AxisSpec, View
 from .plots import NAMED, PLOTS
 from .state import VIEW, State, as_shown, preset_state
 from .widgets import Field, Part, choice
@@ -130,7 +130,7 @@ class Page:
         if not new and self._kept:
             self.draw(self.state)
 
-    def _kept_axes(self, state: State) -> dict[Along, Axis]:
+    def _kept_axes(self, state: State) -> dict[AxisSpec, Axis]:
         """Axes of the three plots that stay while something is dragged, unless drive or preset changes."""
         self._kept = self.shown is not None and self.messages.dragged
         if not self._kept or any(state[name] != self.state[name] for name in ("preset", "drive")):
@@ -211,7 +211,7 @@ class Page:
     def refusal(self, error: Exception, state: State | None = None) -> str:
         """Message for an error; a fault is logged with its state."""
         if isinstance(error, ValueError):
-            return in_words(error)
+            return error_text(error)
         _LOG.error("a change could not be shown, %s", state or self.state, exc_info=error)
         return _FAULT
 
@@ -282,7 +282,7 @@ class Page:
             return
         if self._waiting is not None:
             self._waiting()
-        self._waiting = self.host.later(self._input_rests, SETTLED)
+        self._waiting = self.host.call_later(self._input_rests, SETTLED)
 
     def _input_rests(self):
         self._waiting = None

@@ -29,7 +29,7 @@ def round_up(value: float) -> float:
 
 
 @dataclass(frozen=True)
-class Along:
+class AxisSpec:
     """An axis of a plot: title, kind of its unit, and the lowest and largest value (SI) of a course."""
 
     title: str
@@ -52,7 +52,7 @@ class Plot:
     name: str
     title: str
     formula: str | Callable[[Course], str]
-    axes: tuple[Along, ...]
+    axes: tuple[AxisSpec, ...]
     rows: tuple[Row, ...]
     places: Callable[["View", int], dict] = lambda view, i: {}
     applies: Callable[["View"], bool] = lambda view: True
@@ -91,7 +91,7 @@ class Overlay:
     on: str
     rows: tuple[Row, ...]
     places: Callable[["View", int], dict] = lambda view, i: {}
-    reach: Callable[["View", Along], tuple[float, float]] = lambda view, along: (0.0, 0.0)
+    reach: Callable[["View", AxisSpec], tuple[float, float]] = lambda view, along: (0.0, 0.0)
     picture: Callable[..., Any] | None = None
 
 
@@ -127,20 +127,20 @@ class View:
         state: State,
         course: Course,
         computed: dict[Any, Any] | None = None,
-        kept: dict[Along, Axis] | None = None,
+        kept: dict[AxisSpec, Axis] | None = None,
     ):
         self.state, self.course, self.computed, self.kept = state, course, computed or {}, kept or {}
         self._axes = dict(self.kept)
         self._places: dict[Any, dict[str, Any]] = {}
 
-    def axis(self, along: Along) -> Axis:
+    def axis(self, along: AxisSpec) -> Axis:
         if along not in self._axes:
             spans = [along.span(self.course), *(each.reach(self, along) for each in OVERLAYS.values())]
             lowest, largest = zip(*spans, strict=True)
             self._axes[along] = axis(along.title, along.kind, max(largest), min(lowest))
         return self._axes[along]
 
-    def end(self, along: Along) -> float:
+    def end(self, along: AxisSpec) -> float:
         return self.axis(along).end
 
     def places(self, plot: Plot, i: int) -> dict[str, Any]:
@@ -161,7 +161,7 @@ class View:
         return found
 
 
-def once(places: Callable[[View], dict]) -> Callable[[View, int], dict]:
+def cached(places: Callable[[View], dict]) -> Callable[[View, int], dict]:
     """Places in every state, kept with the view, of rows that stay while a scene is played."""
 
     def kept(view: View, i: int) -> dict:
@@ -173,10 +173,10 @@ def once(places: Callable[[View], dict]) -> Callable[[View, int], dict]:
 
 
 #: The axis of time of the plots over time.
-T = Along(QUANTITIES["time"].title, "time", lambda course: (0.0, float(course.motion.time[-1])))
+T = AxisSpec(QUANTITIES["time"].title, "time", lambda course: (0.0, float(course.motion.time[-1])))
 
 
-def line_at_time(view: View, i: int, up: Along) -> tuple:
+def line_at_time(view: View, i: int, up: AxisSpec) -> tuple:
     """Vertical line at the time of state i, over the whole axis `up`."""
     return view.course.motion.time[[i, i]], np.array([view.axis(up).start, view.end(up)])
 

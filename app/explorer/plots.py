@@ -15,7 +15,7 @@ from mdr_core.show.units import written
 
 from ..common.ui import JS
 from .courses import Course, onset_depth
-from .plot import Along, Plot, View
+from .plot import AxisSpec, Plot, View
 from .state import LISTS, Entries
 
 # Axes, which other plots may share.
@@ -46,8 +46,8 @@ def _of_states(name: str) -> Callable[[Course], tuple[float, float]]:
         largest, lowest = np.max(values), np.min(values)
         largest = max(largest, -0.25 * lowest)
         # With dashpots it is not marked: it is that of slow loading.
-        marked = onset is not None and not course.dashpots
-        if marked and depth < onset.depth <= 2.5 * depth:
+        html_subscripts = onset is not None and not course.dashpots
+        if html_subscripts and depth < onset.depth <= 2.5 * depth:
             largest = max(largest, getattr(onset, name))
         return float(lowest) if course.adhesive else 0.0, 1.02 * float(largest)
 
@@ -60,33 +60,35 @@ def _pressures(course: Course) -> tuple[float, float]:
     return -most if course.adhesive else 0.0, most
 
 
-X = Along("x, coordinate of the springs", "length", across)
-R = Along("r, radius", "length", across)
-Z = Along("z, upward", "length", lambda course: (-drawn.REST * deepest(course), deepest(course)))
-D = Along(QUANTITIES["depth"].title, "length", _of_states("depth"))
-F = Along(QUANTITIES["force"].title, "force", _of_states("force"))
-P = Along("p, pressure", "pressure", _pressures)
+X = AxisSpec("x, coordinate of the springs", "length", across)
+R = AxisSpec("r, radius", "length", across)
+Z = AxisSpec("z, upward", "length", lambda course: (-drawn.REST * deepest(course), deepest(course)))
+D = AxisSpec(QUANTITIES["depth"].title, "length", _of_states("depth"))
+F = AxisSpec(QUANTITIES["force"].title, "force", _of_states("force"))
+P = AxisSpec("p, pressure", "pressure", _pressures)
 
 
 # What is cut off by axes that are kept.
 
-CUT_OFF = label("cut off")
+OUT_OF_RANGE = label("cut off")
 
 
-def _cut_off(view: View, states: Any, axes: dict[Along, tuple[str, str]], up: Along, share: float) -> dict:
+def _cut_off(
+    view: View, states: Any, axes: dict[AxisSpec, tuple[str, str]], up: AxisSpec, share: float
+) -> dict:
     """A label that says what leaves kept axes: quantities of states and their symbols, by their axes.
 
     It stands at a share of the upright axis.
     """
     if not view.kept:
         return {}
-    said = ", ".join(dict.fromkeys(_beyond(view, states, axes)))
+    said = ", ".join(dict.fromkeys(_out_of_range(view, states, axes)))
     across = view.axis(next(iter(axes)))
     left = across.start + 0.015 * (across.end - across.start)
     return {"cut off": (left, share * view.end(up), f"cut off: {said}" if said else "")}
 
 
-def _beyond(view: View, states: Any, axes: dict[Along, tuple[str, str]]) -> Iterator[str]:
+def _out_of_range(view: View, states: Any, axes: dict[AxisSpec, tuple[str, str]]) -> Iterator[str]:
     for along, (name, symbol) in axes.items():
         axis, values = view.axis(along), getattr(states, name)
         high = -axis.start if along is Z else axis.end
@@ -146,7 +148,7 @@ def _yields_at(view: View) -> str:
 
 
 SPRINGS = Plot(
-    "springs", "1D foundation", _spring_formula, (X, Z), (*drawn.SPRING_ROWS, CUT_OFF), springs,
+    "springs", "1D foundation", _spring_formula, (X, Z), (*drawn.SPRING_ROWS, OUT_OF_RANGE), springs,
     aside=_yields_at,
 )  # fmt: skip
 
@@ -162,7 +164,7 @@ def pressure(view: View, i: int) -> dict:
 
 PRESSURE = Plot(
     "pressure", "Contact pressure", "(10)  p(r) = −σ_zz(r) = −(1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
-    (*figures.PRESSURE_ROWS, CUT_OFF), pressure,
+    (*figures.PRESSURE_ROWS, OUT_OF_RANGE), pressure,
 )  # fmt: skip
 
 
@@ -205,7 +207,7 @@ FORCE = Plot(
         mark("onset of yield", "paper", "yielded", "diamond", 11),
         mark("now", size=13),
         label("dₚ", 0.0),
-        CUT_OFF,
+        OUT_OF_RANGE,
     ),
     force,
 )  # fmt: skip

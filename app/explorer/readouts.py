@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from mdr_core.show.units import KINDS, written
 
-from ..common.quantities import CHOICES, READOUTS, Readout, lowered
+from ..common.quantities import CHOICES, READOUTS, Readout, unicode_subscripts
 from ..common.ui import linked, symbol
 from .courses import Course
 
@@ -65,7 +65,7 @@ def heads(numbers: dict[Readout, Any]) -> Markup:
 
 @cache
 def head(readout: Readout) -> Markup:
-    about = f"{lowered(readout.help)} {lowered(readout.equation)}".strip()
+    about = f"{unicode_subscripts(readout.help)} {unicode_subscripts(readout.equation)}".strip()
     return _ABOUT.format(about, symbol(readout.symbol), readout.short or readout.long_name)
 
 

@@ -38,7 +38,7 @@ FAULT = Found({}, [], "This could not be found, because of a fault of the explor
 
 
 @dataclass(frozen=True, eq=False)
-class Searched(Plot):
+class AsyncPlot(Plot):
     """A plot whose rows and axes are found by a search.
 
     `find` gets the course and the result of `asks` (default: the `controls`), and returns what is found of
@@ -137,13 +137,13 @@ class Searching(Service):
             page.draw(page.state)
 
 
-class Resting(Searching):
+class IdleSearch(Searching):
     """Searches for the plots of a view, and for its exact course."""
 
     def compute(self, state: State, course: Course) -> dict[str, Found]:
         """Results for the plots of a state; quick ones are computed."""
         results = {}
-        for plot in (PLOTS[name] for name in state.tiles if isinstance(PLOTS[name], Searched)):
+        for plot in (PLOTS[name] for name in state.tiles if isinstance(PLOTS[name], AsyncPlot)):
             asked = plot.asked(state)
             key, result = self._results.get(plot.name, (None, COMPUTING))
             if plot.quick(asked):
@@ -156,7 +156,7 @@ class Resting(Searching):
     def rest(self, view: View) -> None:
         """Begin the slow searches of a view: its exact course, and those of its plots."""
         self.find_exact([view.course])
-        for plot in (plot for plot in visible(view) if isinstance(plot, Searched)):
+        for plot in (plot for plot in visible(view) if isinstance(plot, AsyncPlot)):
             asked = plot.asked(view.state)
             if not plot.quick(asked):
                 self._search(plot.name, plot.key(view.course, asked), plot.find, view.course, asked)

@@ -11,7 +11,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.show.units import fitting, written
 
-from ..common.quantities import ASSETS, CHOICES, QUANTITIES, Option, lowered, read_data
+from ..common.quantities import ASSETS, CHOICES, QUANTITIES, Option, read_data, unicode_subscripts
 from ..common.units import entry, read
 
 _DATA = read_data(ASSETS / "presets.json")
@@ -190,40 +190,40 @@ def altered(state: State) -> list[str]:
     return [each for each in changed if each in CHOICES or not isclose(state[each], values[each])]
 
 
-def used_by(state: State, *choices: str) -> list[str]:
+def numbers_of(state: State, *choices: str) -> list[str]:
     """Names of the numbers that the chosen options of some choices use, with choices of their own."""
     chosen = map(state.chosen, choices)
     return [
-        name for option in chosen for name in (*option.uses, *option.fold, *used_by(state, *option.form))
+        name for option in chosen for name in (*option.uses, *option.fold, *numbers_of(state, *option.form))
     ]
 
 
-def formed(state: State, choice: str = "drive") -> list[str]:
+def form_choices(state: State, choice: str = "drive") -> list[str]:
     """Choices in the form of the chosen option of a choice, each with those of its own option."""
-    return [each for name in state.chosen(choice).form for each in (name, *formed(state, name))]
+    return [each for name in state.chosen(choice).form for each in (name, *form_choices(state, name))]
 
 
 def folded(state: State) -> list[str]:
     """Names of the numbers of the drive that fold."""
-    return [name for choice in ("drive", *formed(state)) for name in state.chosen(choice).fold]
+    return [name for choice in ("drive", *form_choices(state)) for name in state.chosen(choice).fold]
 
 
 def yield_constant(state: State) -> list[str]:
     """Name of the constant of the hardness, q_c also of a hardness at a radius; none if nothing yields."""
-    return ["q_c"] if state.plasticity == "hardness" else used_by(state, "plasticity")
+    return ["q_c"] if state.plasticity == "hardness" else numbers_of(state, "plasticity")
 
 
 def regions(state: State) -> dict[str, list[str]]:
     """Names of the numbers in the form, by its regions."""
     main = ["E_star", *yield_constant(state)]
-    measured = [name for name in used_by(state, "plasticity") if name not in main]
+    measured = [name for name in numbers_of(state, "plasticity") if name not in main]
     return {
-        "shape": used_by(state, "shape"),
+        "shape": numbers_of(state, "shape"),
         "drive": state.chosen("drive").uses,
         "medium": main,
         "hardness": measured,
         "more": [
-            *(name for name in used_by(state, *MEDIUM_CHOICES) if name not in (*main, *measured)),
+            *(name for name in numbers_of(state, *MEDIUM_CHOICES) if name not in (*main, *measured)),
             *folded(state),
         ],
     }
@@ -231,7 +231,7 @@ def regions(state: State) -> dict[str, list[str]]:
 
 def used(state: State) -> list[str]:
     """Names of the numbers in use."""
-    return used_by(state, "shape", *MEDIUM_CHOICES, "drive")
+    return numbers_of(state, "shape", *MEDIUM_CHOICES, "drive")
 
 
 def checked(name: str, value: float) -> float:
@@ -239,7 +239,7 @@ def checked(name: str, value: float) -> float:
     known = QUANTITIES[name]
     if not isclose(known.bounded(value), value, rel_tol=1e-12):
         shown, low, high = (written(v, known.kind) for v in (value, *known.bounds))
-        raise ValueError(f"{lowered(known.symbol)} = {shown} is out of bounds: {low} to {high}")
+        raise ValueError(f"{unicode_subscripts(known.symbol)} = {shown} is out of bounds: {low} to {high}")
     return float(known.bounded(value))
 
 
@@ -265,7 +265,9 @@ def profile(state: State) -> mdr.Profile:
         coefficient = state.power_law_height / state.power_law_width**state.power_law_exponent
         return mdr.PowerLaw(coefficient, state.power_law_exponent)
     make = getattr(mdr, state.shape.title().replace("_", ""))
-    return make(**{name.removeprefix(f"{state.shape}_"): state[name] for name in used_by(state, "shape")})
+    return make(
+        **{name.removeprefix(f"{state.shape}_"): state[name] for name in numbers_of(state, "shape")}
+    )
 
 
 def refuse_other_classes(state: State, what: str, instead: str) -> None:
@@ -278,7 +280,7 @@ def medium(state: State) -> mdr.Medium:
     """Medium under the indenter."""
     if state.adhesion == "work":
         refuse_other_classes(state, "adhesion", "no yield")
-    names = [*yield_constant(state), *used_by(state, "damping", "adhesion")]
+    names = [*yield_constant(state), *numbers_of(state, "damping", "adhesion")]
     # The core calls the constant hardness `hardness`, which is another number of the page.
     given = {name.removeprefix("volume_"): state[name] for name in names}
     poisson = state.nu_1 if state.elasticity == "bodies" else 0.5

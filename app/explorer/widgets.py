@@ -15,13 +15,13 @@ from mdr_core.show.units import UNITS, Unit, fitting, written
 from ..common.folders import Files
 from ..common.process import Here, Refused, Replaced, Worker, queue_text
 from ..common.quantities import CHOICES, QUANTITIES, Quantity
-from ..common.ui import JS, LAYOUT, WIDE, as_html, linked, marked, show, symbol
+from ..common.ui import JS, LAYOUT, WIDE, as_html, html_subscripts, linked, show, symbol
 from ..common.units import entry, read
 from ..common.upload import TIP_BYTES, Uploaded, in_line
 from . import changes
 from .changes import option, options
 from .plot import View
-from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, folded, regions, used_by
+from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, folded, numbers_of, regions
 
 #: Letters of all options of a choice below which it is shown as radio buttons, else as a list.
 _SHORT = 48
@@ -204,10 +204,10 @@ def _told(known: Quantity) -> dict[str, Any]:
     units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
     rows = [linked(known.help)]
     rows.append(Markup("<em>{}</em>").format(linked(known.equation)) if known.equation else "")
-    rows.append(Markup("Usual: {}.").format(marked(known.typical)) if known.typical else "")
+    rows.append(Markup("Usual: {}.").format(html_subscripts(known.typical)) if known.typical else "")
     rows.append(f"From {low} to {high}" + (f"; units {units}." if units else "."))
     return {
-        "label": Markup("{} {}").format(symbol(known.symbol), marked(known.label)),
+        "label": Markup("{} {}").format(symbol(known.symbol), html_subscripts(known.label)),
         "spoken": as_html(f"{known.symbol}, {known.label}"),
         "about": Markup("").join(Markup("<p>{}</p>").format(row) for row in rows if row),
         "span": known.span,
@@ -228,7 +228,7 @@ class Form:
         # Why the last file of a tip was refused, or that it is being read.
         self._tip_refused = self._tip_busy = ""
         self._files, self._worker = Files(), Worker() if page.host.processes else Here()
-        page.host.at_end(self._end_reading)
+        page.host.on_close(self._end_reading)
         self.view = Parts("form", stylesheets=LAYOUT)
 
     def show(self, view: View) -> None:
@@ -253,7 +253,7 @@ class Form:
         # Below each choice the numbers of its option.
         more = []
         for choice in FOLDED_CHOICES if opened else ():
-            names = (name for name in used_by(state, choice) if name in in_fold)
+            names = (name for name in numbers_of(state, choice) if name in in_fold)
             more += [page.choice(choice), *(page.number(name, depth) for name in names)]
         more += [page.number(name, depth) for name in folded(state)] if opened else []
         with_tip = self._open["tip"] or state.shape == "sampled" or self._tip_refused or self._tip_busy

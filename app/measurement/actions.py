@@ -8,7 +8,7 @@ from typing import Any
 import panel as pn
 from bokeh.document import Document
 
-from ..common.errors import Refused, error_text
+from ..common.errors import Refused, text_and_remedy
 from ..common.host import host_of
 from ..common.process import Here, Replaced, Worker, queue_text
 
@@ -45,7 +45,7 @@ class Actions(pn.viewable.Viewer):
         except Replaced:
             pass
         except (Refused, ValueError) as error:
-            self.problem = self.message(*error_text(error))
+            self.problem = self.message(*text_and_remedy(error))
             self.show()
 
     def when_changed(self, act: Act) -> Callable[[Any], None]:

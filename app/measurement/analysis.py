@@ -18,7 +18,7 @@ from mdr_core.measurements.fit.noise import depth_noise_of
 from mdr_core.measurements.reading import UnknownColumns
 from mdr_core.show.units import written
 
-from ..common.errors import error_text
+from ..common.errors import text_and_remedy
 from .choices import IN_TIME, MEDIA
 
 #: Most characters of the name of a column, and of a remark, which may quote the file.
@@ -88,7 +88,7 @@ def read(path: Paths, options: dict[str, Any], number: int) -> tuple[Any, int, A
         table = curve.table and _first_rows(curve.table)
         return replace(curve, table=table, remarks=remarks), count, None, unread
     except UnknownColumns as error:
-        text, remedy = error_text(error)
+        text, remedy = text_and_remedy(error)
         question = SimpleNamespace(
             text=text, remedy=remedy, table=_first_rows(error.table), suggestion=error.suggestion,
             preview=_preview(path, options, error),
@@ -211,7 +211,7 @@ def fit_all(
                 row = row._replace(H=float(H.hardness), H_error=float(H.standard_errors["hardness"]))
             yield row
         except ValueError as error:
-            yield row._replace(reason=error_text(error)[0])
+            yield row._replace(reason=text_and_remedy(error)[0])
 
 
 def deflection(curve: Any) -> Remark | None:

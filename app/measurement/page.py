@@ -89,7 +89,7 @@ class Measurement(Actions):
         landmarks(self.document, _LANDMARKS, "found", "Skip to the result")
         # The address restores what was typed when the session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
-        self.host.at_end(self.close)
+        self.host.on_close(self.close)
 
     def __panel__(self) -> Any:
         return self.view
@@ -187,7 +187,7 @@ class Measurement(Actions):
         self.file, self.busy = f"{len(self.path)} files", f"Taking {len(self.path)} files"
         # All of the page once, and then the number of files.
         (self.show if len(self.path) == 2 else self.results.show_headline)()
-        self._waiting = self.host.later(self._read_together, round(1000 * _TOGETHER))
+        self._waiting = self.host.call_later(self._read_together, round(1000 * _TOGETHER))
 
     def _read_together(self) -> None:
         self._waiting = None

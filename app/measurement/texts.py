@@ -12,7 +12,7 @@ from mdr_core.measurements.unloading.oliver_pharr_result import OLIVER_PHARR, te
 from mdr_core.show.report import with_error
 from mdr_core.show.units import KINDS, fitting, with_unit, written
 
-from ..common.ui import marked, own_html
+from ..common.ui import html_subscripts, own_html
 from .choices import CLASS_NAMES, FITTED, MEDIA, NUMBERS
 
 #: The page before there is a curve, and what holds for every number, which no remark repeats.
@@ -44,7 +44,7 @@ def sentence(text: str, file: str = "") -> Markup:
         text = text[:1].upper() + text[1:]
     text = text if text.endswith("?") else text.rstrip(".") + "."
     parts = text.split(file) if file else [text]
-    return escape(file).join(marked(_minus(part)) for part in parts)
+    return escape(file).join(html_subscripts(_minus(part)) for part in parts)
 
 
 def _minus(text: str) -> str:
@@ -119,7 +119,7 @@ def _table(*rows: tuple[Any, ...], own: Any = None) -> Markup:
 def unloading_table(result: Any) -> Markup:
     """Return the numbers of Oliver and Pharr and of ISO 14577 that the record has."""
     named = ((OLIVER_PHARR[name], text) for name, text in texts_of(result).items())
-    return _table(*((marked(f"{q.symbol} {q.long_name}"), _minus(text)) for q, text in named))
+    return _table(*((html_subscripts(f"{q.symbol} {q.long_name}"), _minus(text)) for q, text in named))
 
 
 def verdict(found: Any) -> str:

@@ -10,7 +10,7 @@ from markupsafe import Markup
 
 from mdr_core.show.units import UNITS, fitting
 
-from ..common.ui import WIDE, html, marked, show
+from ..common.ui import WIDE, html, html_subscripts, show
 from ..common.units import entry, read
 from ..common.upload import PART_BYTES, SESSION_BYTES, Uploads
 from .choices import Number
@@ -79,7 +79,7 @@ class UnitInput(pn.widgets.TextInput):
         found = super()._process_param_change(params)
         if "title" in found:
             # Bokeh takes HTML, for indices of symbols; Panel a text.
-            title = _LABEL.format(marked(self._known.symbol), self._known.label)
+            title = _LABEL.format(html_subscripts(self._known.symbol), self._known.label)
             found["title"] = HTML(html=[title])
         return found
 

@@ -2,8 +2,8 @@
 
 from app.explorer import changes, link
 from app.explorer.drives import follow
+from app.explorer.extras.comparison import computed
 from app.explorer.extras.guide import TOURS, step_state
-from app.explorer.extras.held import computed
 from app.explorer.plot import View
 from app.explorer.readouts import readings
 from app.explorer.search import exact

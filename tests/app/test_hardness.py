@@ -16,7 +16,7 @@ from app.explorer.extras.hardness import found
 from app.explorer.extras.scene_file import scene_file
 from app.explorer.page import Page
 from app.explorer.plots import PLOTS
-from app.explorer.search import Searched, as_steps
+from app.explorer.search import AsyncPlot, as_steps
 from app.explorer.state import PRESETS, altered, medium, preset_state, profile
 from mdr_core.show.units import written
 
@@ -256,7 +256,7 @@ def test_every_plot_and_export_has_the_class(key, choices):
     state = state_with(key, **choices)
     view = view_of(state, 0.9)
     for plot in (plot for plot in PLOTS.values() if plot.applies(view)):
-        if not isinstance(plot, Searched):
+        if not isinstance(plot, AsyncPlot):
             assert view.places(plot, view.course.now), plot.name
             continue
         found = last(as_steps(plot.find(view.course, plot.asked(state))))

@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import trapezoid
 
 import mdr_core as mdr
-from app.common.quantities import CHOICES, lowered
+from app.common.quantities import CHOICES, unicode_subscripts
 from app.explorer import changes
 from app.explorer.drives import follow, scene_of
 from app.explorer.extras import notes
@@ -316,7 +316,7 @@ def test_a_new_plot_is_one_entry():
     )  # fmt: skip
     view, picture = view_of(preset_state()), Picture(plot)
     data = {source.name: columns for source, columns in picture.columns(view, 20).items()}
-    assert data["work lines"]["row"] == [lowered("W_p/d_c")]
+    assert data["work lines"]["row"] == [unicode_subscripts("W_p/d_c")]
     assert data["work marks"]["x"][0] == approx(view.course.states.depth[20] * 1e9, rel=1e-3)
     # The curve stays while the scene is played.
     sources, [marks], _, _ = frames(view, [picture])

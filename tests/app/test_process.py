@@ -13,7 +13,7 @@ from types import SimpleNamespace
 import pytest
 
 from app.common import process
-from app.common.errors import Refused, error_text, without_folders
+from app.common.errors import Refused, text_and_remedy, without_folders
 from app.common.folders import Files
 from app.common.process import Here, Places, Replaced, Worker, queue_text
 
@@ -296,7 +296,7 @@ def test_messages_have_no_folder_of_the_server():
 
 
 def test_a_message_that_quotes_a_file_has_a_bound():
-    assert len(error_text(ValueError("1" * 10_000))[0]) == 2000
+    assert len(text_and_remedy(ValueError("1" * 10_000))[0]) == 2000
 
 
 def test_folders_of_a_killed_server_are_cleared_at_the_next_start_and_others_stay(tmp_path):

@@ -9,7 +9,7 @@ import pytest
 from app.common.tip import read_tip
 from app.explorer import changes, link, readouts
 from app.explorer.drives import follow
-from app.explorer.extras.held import is_held, toggle_hold
+from app.explorer.extras.comparison import is_held, toggle_hold
 from app.explorer.extras.share import csv
 from app.explorer.page import Page
 from app.explorer.state import PRESETS, preset_state

@@ -16,7 +16,7 @@ from app.common import ui
 from app.explorer import changes
 from app.explorer.extras.scene_file import scene_file
 from app.explorer.state import preset_state
-from app.security import is_own
+from app.security import same_loopback_origin
 
 from .conftest import CHROMIUM, FLAGS, ROOT, Explorer, Server
 from .states import view_of
@@ -56,7 +56,14 @@ HOSTILE = (
 
 def test_a_text_is_shown_as_it_is_and_never_taken_for_html():
     for text in HOSTILE:
-        makers = (ui.as_html, ui.marked, ui.symbol, ui.linked, ui.notice, lambda text: ui.html(text).object)
+        makers = (
+            ui.as_html,
+            ui.html_subscripts,
+            ui.symbol,
+            ui.linked,
+            ui.notice,
+            lambda text: ui.html(text).object,
+        )
         for make in makers:
             found = make(text)
             own = re.sub(r"</?(i|sub)>", "", found)
@@ -141,9 +148,9 @@ def test_a_websocket_is_for_pages_of_this_server_alone(command):
 
 
 def test_own_addresses_are_those_at_the_port_that_is_served():
-    assert is_own("http://127.0.0.1", "127.0.0.1", 80)
-    assert not is_own("http://127.0.0.1:8000", "127.0.0.1:8000", 80)
-    assert not is_own("http://0.0.0.0:80", "0.0.0.0:80", 80)
+    assert same_loopback_origin("http://127.0.0.1", "127.0.0.1", 80)
+    assert not same_loopback_origin("http://127.0.0.1:8000", "127.0.0.1:8000", 80)
+    assert not same_loopback_origin("http://0.0.0.0:80", "0.0.0.0:80", 80)
 
 
 def test_a_page_at_a_name_that_is_not_allowed_says_so(command, browser):

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import trapezoid
 
 from app.explorer import changes, readouts
-from app.explorer.extras.held import Held
+from app.explorer.extras.comparison import Held
 from app.explorer.extras.scene_file import scene_file
 from app.explorer.figures import Picture
 from app.explorer.plots import NAMED, PLOTS

@@ -7,7 +7,7 @@ from app.common import ui
 from app.common.quantities import CHOICES, QUANTITIES
 from app.explorer import changes, link, readouts
 from app.explorer.drives import follow
-from app.explorer.extras import held, notes
+from app.explorer.extras import comparison, notes
 from app.explorer.extras.guide import TOURS, step_state, step_text
 from app.explorer.link import summary
 from app.explorer.page import Page
@@ -88,7 +88,7 @@ def test_10_held_scenes_are_named_by_what_differs():
         (drop.replace(q_c=2e5), "q_c = 200 kN/m"),
         (state_with(DROP, shape="cone").replace(cone_slope=0.2), "Cone, s = 0.2"),
     ):
-        assert held.difference(state) == name
+        assert comparison.difference(state) == name
 
 
 def test_11_small_things_are_said_right():

@@ -265,11 +265,11 @@ class Slow(Sliced):
     def shows(self):
         return False
 
-    def soon(self, act):
+    def next_tick(self, act):
         self.turns.append(act)
 
     def search(self, steps, wanted, done):
-        self.soon(lambda: self.make(steps, wanted, done))
+        self.next_tick(lambda: self.make(steps, wanted, done))
 
     def turn(self):
         self.turns.pop(0)()

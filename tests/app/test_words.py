@@ -6,17 +6,17 @@ from html import unescape
 import pytest
 
 import mdr_core as mdr
-from app.common.errors import in_words
-from app.common.quantities import CHOICES, QUANTITIES, lowered
+from app.common.errors import error_text
+from app.common.quantities import CHOICES, QUANTITIES, unicode_subscripts
 from app.common.tip import read_tip
-from app.common.ui import linked, marked
+from app.common.ui import html_subscripts, linked
 from app.explorer import changes, theory
 from app.explorer.drives import follow
 from app.explorer.extras.guide import TOURS
 from app.explorer.page import Page
 from app.explorer.plots import PLOTS
 from app.explorer.readouts import READOUTS, explained, heads, line
-from app.explorer.search import Searched
+from app.explorer.search import AsyncPlot
 from app.explorer.state import PRESETS, preset_state
 
 from ..approx import approx
@@ -35,7 +35,9 @@ def test_every_number_says_what_it_is():
         numbers = line(course)
         # In the notes with their equations, and where they are pointed at.
         assert 6 <= explained(numbers).count("<dd>") == heads(numbers).count(' title="') <= 8
-        assert all(lowered(each.help.split(".")[0]) in unescape(heads(numbers)) for each in numbers)
+        assert all(
+            unicode_subscripts(each.help.split(".")[0]) in unescape(heads(numbers)) for each in numbers
+        )
     assert all(each.help.endswith(".") for each in (*READOUTS, *QUANTITIES.values()))
     assert all(". " in quantity.help and quantity.equation for quantity in QUANTITIES.values())
     options = [option for choice in CHOICES.values() for option in choice.options.values()]
@@ -171,11 +173,11 @@ def test_python_and_raw_indices_are_not_on_the_page():
     shown.append(CHOICES["shape"].help)
     shown += [quantity.label for quantity in QUANTITIES.values()]
     view = view_of(preset_state())
-    plots = [plot for plot in PLOTS.values() if plot.applies(view) and not isinstance(plot, Searched)]
+    plots = [plot for plot in PLOTS.values() if plot.applies(view) and not isinstance(plot, AsyncPlot)]
     shown += [axis.label for plot in plots for axis in plot.axes_of(view)]
     assert [text for text in shown if "_" in text] == []
     for shape in CHOICES["shape"].options.values():
-        assert "_" not in marked(shape.height + shape.reduced)
+        assert "_" not in html_subscripts(shape.height + shape.reduced)
     with pytest.raises(ValueError, match=r"E₁ = 1\.000 mPa is out of bounds"):
         changes.put(preset_state(), "E_1", 1e-3)
     with pytest.raises(ValueError, match="header must name") as refused:
@@ -187,5 +189,5 @@ def test_a_refused_argument_of_the_core_is_said_by_symbol_value_and_bound():
     """Without the names of Python and the remedies for those who call it; all else as the core has it."""
     with pytest.raises(ValueError, match="E_star") as refused:
         mdr.Medium(E_star=-2e9, q_c=1.0)
-    assert in_words(refused.value) == "E*, effective modulus, = −2.000 GPa must be finite and positive"
-    assert in_words(ValueError("no contact")) == "no contact"
+    assert error_text(refused.value) == "E*, effective modulus, = −2.000 GPa must be finite and positive"
+    assert error_text(ValueError("no contact")) == "no contact"

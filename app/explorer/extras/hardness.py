@@ -7,12 +7,12 @@ import numpy as np
 from mdr_core.show.figures import line, mark, parts, split
 from mdr_core.show.units import digits, written
 
-from ...common.ui import marked
+from ...common.ui import html_subscripts
 from ..courses import Course
 from ..extra import Extra
 from ..figures import Logarithmic
 from ..plot import View, axis
-from ..search import Found, Resting, Searched
+from ..search import AsyncPlot, Found, IdleSearch
 
 #: Decades of logarithmic axes of radii and of pressures.
 _RADII, _PRESSURES = 2, 3
@@ -47,7 +47,7 @@ def found(course: Course, asked: tuple[str]) -> Found:
     elif course.adhesive:
         y = replace(y, start=max(1.1 * float(np.nanmin(p)), -y.end))
     beyond = f" Beyond the axis: p_m = {written(highest, 'pressure')}." * (highest > most)
-    return Found(rows, [x, y], _note(course, largest, yields) + marked(beyond))
+    return Found(rows, [x, y], _note(course, largest, yields) + html_subscripts(beyond))
 
 
 def _unbounded(course: Course, p: np.ndarray) -> bool:
@@ -60,9 +60,11 @@ def _note(course: Course, mean: float, yields: bool) -> str:
     """Mean pressure and hardness at the largest depth."""
     text = f"At the largest depth p_m = {written(mean, 'pressure')}"
     if not yields:
-        return marked(f"{text}; nothing yields.")
+        return html_subscripts(f"{text}; nothing yields.")
     hardness = float(course.scene.medium.hardness_at(course.turning_point.contact_radius))
-    return marked(f"{text} is {digits(mean / hardness, 3)} of σ_c = {written(hardness, 'pressure')}.")
+    return html_subscripts(
+        f"{text} is {digits(mean / hardness, 3)} of σ_c = {written(hardness, 'pressure')}."
+    )
 
 
 def now(view: View, i: int) -> dict:
@@ -70,7 +72,7 @@ def now(view: View, i: int) -> dict:
     return {"now": (states.contact_radius[[i]], states.mean_pressure[[i]])}
 
 
-HARDNESS = Searched(
+HARDNESS = AsyncPlot(
     "hardness", "Mean pressure and hardness", "(11)  p_m = F/(π a²),  σ_c = H + q_c/a + f_c/a²  § 20", (),
     (line("hardness", "ink", 1.4, "dotted", "σ"), *parts("pₘ"), mark("now", size=13)),
     places=now, find=found, quick=lambda asked: True, tab="Hardness", order=15,
@@ -78,4 +80,4 @@ HARDNESS = Searched(
 )  # fmt: skip
 
 
-EXTRA = Extra("hardness", plots=(HARDNESS,), service=Resting)
+EXTRA = Extra("hardness", plots=(HARDNESS,), service=IdleSearch)

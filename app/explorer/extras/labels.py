@@ -11,7 +11,7 @@ from mdr_core.solver.contact.unloading import unloading_curve
 
 from ..courses import Course, onset_depth
 from ..extra import Extra
-from ..plot import HEIGHT, LINE, WIDTH, Along, Overlay, View, width
+from ..plot import HEIGHT, LINE, WIDTH, AxisSpec, Overlay, View, width
 from ..plots import D, F, P, R, X, Z
 
 
@@ -77,7 +77,7 @@ FORCE = (
 )
 
 
-def _pixels(view: View, x: Along, y: Along) -> tuple[float, float]:
+def _pixels(view: View, x: AxisSpec, y: AxisSpec) -> tuple[float, float]:
     """Size (SI) of a pixel of the smallest plot along both axes."""
     across, up = view.axis(x), view.axis(y)
     return (across.end - across.start) / WIDTH, (up.end - up.start) / HEIGHT

@@ -11,7 +11,7 @@ from markupsafe import Markup
 from mdr_core.show.units import digits, written
 
 from ...common.quantities import CHOICES
-from ...common.ui import linked, marked
+from ...common.ui import html_subscripts, linked
 from .. import readouts
 from ..courses import Course, onset_depth
 from ..extra import Extra
@@ -40,9 +40,9 @@ def form_notes(view: View) -> dict[str, str]:
     return {
         "drive": f"Energy {energy}; equivalent drop height {height}" * (state.drive == "impact"),
         "shape": Markup("<figcaption>{}<br>{}</figcaption>{}").format(
-            marked(shape.height), marked(shape.reduced), marked(of_tip)
+            html_subscripts(shape.height), html_subscripts(shape.reduced), html_subscripts(of_tip)
         ),
-        "medium": marked(law_of_hardness(course)),
+        "medium": html_subscripts(law_of_hardness(course)),
         "more": linked(f"η = {eta}, τ = 4η/E* = {tau} (1){idle}") if made.eta > 0 else "",
         "sources": Markup("<p>{}</p><dl>{}</dl>").format(head, _sources(state.preset)),
     }
@@ -53,7 +53,7 @@ def _sources(preset: str) -> Markup:
     """Numbers of a preset, and where each comes from."""
     known = PRESETS[preset]
     row = Markup("<dt>{}</dt><dd>{}</dd>")
-    symbols = (marked(with_symbol(name, known.values[name])) for name in known.sources)
+    symbols = (html_subscripts(with_symbol(name, known.values[name])) for name in known.sources)
     return Markup("").join(map(row.format, symbols, known.sources.values()))
 
 
@@ -134,12 +134,12 @@ def _laws(view: View, plots: Iterable[Plot], link: Callable[[str], Markup]) -> M
     return Markup("<dl>{}</dl>").format(Markup("").join(rows))
 
 
-def told(view: View) -> list[tuple[str, str]]:
+def scene_file_texts(view: View) -> list[tuple[str, str]]:
     """All of them as HTML, without links to pages of the server."""
     sentences = limits(view.course, view.state)
-    html = (_SENTENCE.format(level, marked(sentence)) for level, sentence in sentences)
-    numbers = readouts.explained(readouts.line(view.course), marked)
-    numbers += _laws(view, map(PLOTS.__getitem__, NAMED), marked)
+    html = (_SENTENCE.format(level, html_subscripts(sentence)) for level, sentence in sentences)
+    numbers = readouts.explained(readouts.line(view.course), html_subscripts)
+    numbers += _laws(view, map(PLOTS.__getitem__, NAMED), html_subscripts)
     return [("Assumptions and notes", Markup("").join(html)), ("What the numbers are", numbers)]
 
 
@@ -148,4 +148,4 @@ def notes(view: View) -> dict[str, Any]:
     return form_notes(view) | {"below": partial(below, view)}
 
 
-EXTRA = Extra("notes", order=30, notes=notes, told=told)
+EXTRA = Extra("notes", order=30, notes=notes, scene_file_texts=scene_file_texts)

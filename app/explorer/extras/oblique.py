@@ -20,9 +20,9 @@ from ...common.quantities import QUANTITIES
 from ..courses import Course, path_progress
 from ..drives import BEFORE_YIELD, INSTANTS, Impact
 from ..extra import Extra
-from ..plot import Along, Overlay, Plot, T, View, line_at_time
+from ..plot import AxisSpec, Overlay, Plot, T, View, line_at_time
 from ..plots import X, Z
-from ..search import Resting
+from ..search import IdleSearch
 
 #: Largest number of drawn elements, and halvings of their steps (errors about 10⁻⁵).
 _ELEMENTS, _HALVINGS = 300, 2
@@ -154,7 +154,7 @@ def _forces(course):
     return -min(course.scene.drive.friction, 1.0) * most, most
 
 
-FORCE = Along("F, Fₓ, force", "force", _forces)
+FORCE = AxisSpec("F, Fₓ, force", "force", _forces)
 
 
 def _regime(course) -> str:
@@ -206,7 +206,7 @@ FORCES = Plot(
 EXTRA = Extra(
     "oblique",
     drives={"oblique": Oblique()},
-    service=Resting,
+    service=IdleSearch,
     plots=(FORCES,),
     overlays=(Overlay("springs", FEET, springs),),
 )

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from ...common.quantities import lowered
+from ...common.quantities import unicode_subscripts
 from ..courses import Course
 from ..extra import Extra, Service
 from ..figures import drawn, in_legend
@@ -37,7 +37,7 @@ class Legends(Service):
         for plot in visible(view):
             # While a plot is searched, all that it will draw: a picture names what is seen in it.
             called = drawn(view, plot) or {row.name: row.name for row in rows_of(plot)}
-            rows = [lowered(called[row.name]) for row in in_legend(plot, called)]
+            rows = [unicode_subscripts(called[row.name]) for row in in_legend(plot, called)]
             self._legends[plot.name] = {"rows": rows, "title": plot.title}
 
 

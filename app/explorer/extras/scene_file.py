@@ -20,7 +20,7 @@ import mdr_core as mdr
 from mdr_core.show.units import written
 
 from ...common.quantities import CHOICES, QUANTITIES
-from ...common.ui import CSS, HERE, JS, Messages, as_html, marked, symbol
+from ...common.ui import CSS, HERE, JS, Messages, as_html, html_subscripts, symbol
 from .. import link, readouts
 from ..extra import EXTRAS, Extra
 from ..figures import PLACES, Picture, drawn, legend, picture_of
@@ -74,7 +74,7 @@ def scene_file(view: View, bokeh: str = "") -> str:
         "bokeh_at": bokeh,
         "dark": str(state.dark).lower(),
         "heading": title,
-        "scene": marked(summary(state)),
+        "scene": html_subscripts(summary(state)),
         "heads": readouts.heads(numbers),
         "readout": readout,
         "plots": [_card(view, picture.plot) for picture in pictures],
@@ -88,7 +88,7 @@ def scene_file(view: View, bokeh: str = "") -> str:
 def _card(view: View, plot: Plot) -> tuple[str, ...]:
     """Name of a plot, and title, what stands beside it, and legend as HTML."""
     key = legend(plot, drawn(view, plot))
-    return plot.name, plot.title, marked(plot.aside(view)), key
+    return plot.name, plot.title, html_subscripts(plot.aside(view)), key
 
 
 def _connect(document: Document, view: View, pictures: list[Picture], messages: Messages) -> None:
@@ -118,7 +118,7 @@ def _connect(document: Document, view: View, pictures: list[Picture], messages: 
 
 def _folded(view: View) -> Iterator[tuple[str, str]]:
     """Titles and texts (HTML) below the plots."""
-    yield from (each for extra in EXTRAS.values() for each in extra.told(view) if each[1])
+    yield from (each for extra in EXTRAS.values() for each in extra.scene_file_texts(view) if each[1])
     row = Markup("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>")
     rows = Markup("").join(row.format(*cells) for cells in _inputs(view.state))
     yield "Inputs and their sources", Markup("<table>{}</table>").format(rows)
@@ -128,9 +128,9 @@ def _inputs(state: State) -> Iterator[tuple[str, str, str, str]]:
     """Symbol, name, value and source of all inputs, as texts or HTML."""
     preset, shape = PRESETS[state.preset], state.chosen("shape")
     note = state.tip_note if state.shape == "sampled" else f"{shape.height},  {shape.reduced}"
-    yield "", "indenter", shape.label, marked(note)
+    yield "", "indenter", shape.label, html_subscripts(note)
     for choice in (*MEDIUM_CHOICES, "drive"):
-        yield "", CHOICES[choice].label.lower(), marked(state.chosen(choice).label), ""
+        yield "", CHOICES[choice].label.lower(), html_subscripts(state.chosen(choice).label), ""
     given = used(state)
     for name in dict.fromkeys([*given, "E_star", *yield_constant(state)]):
         known, value = QUANTITIES[name], state[name]

@@ -11,7 +11,7 @@ from ..courses import Course
 from ..extra import Extra
 from ..figures import Map
 from ..plot import axis
-from ..search import Found, Resting, Searched
+from ..search import AsyncPlot, Found, IdleSearch
 
 #: Pixels down and along the radius.
 _PIXELS = (72, 96)
@@ -57,7 +57,7 @@ def section(course: Course, asked):
     return Found(rows, [r, z, colours], note)
 
 
-SECTION = Searched(
+SECTION = AsyncPlot(
     "section", "Section under the tip", "σ(r, z): each increment a flat punch of radius a(s)  § 7", (),
     (
         line("contact radius a", "chalk", 1.2, "dashed"),
@@ -69,4 +69,4 @@ SECTION = Searched(
 )  # fmt: skip
 
 
-EXTRA = Extra("section", plots=(SECTION,), service=Resting)
+EXTRA = Extra("section", plots=(SECTION,), service=IdleSearch)

@@ -13,13 +13,13 @@ import mdr_core as mdr
 from mdr_core.show.units import written
 
 from ...common.quantities import QUANTITIES
-from ...common.ui import marked
+from ...common.ui import html_subscripts
 from ..courses import Course
 from ..drives import DRIVES, Impact, follow
 from ..extra import Extra
 from ..plot import Plot, View
 from ..plots import PLOTS
-from ..state import State, medium, preset_values, profile, used_by
+from ..state import State, medium, numbers_of, preset_values, profile
 from ..widgets import Part, button
 
 #: What is said of a body that never leaves.
@@ -124,7 +124,7 @@ def structure_of(state: State) -> mdr.Structure | None:
             f"a {behind} is not computed together with {losses}: choose “thick block” as the structure, "
             f"or no {losses} (More about the medium)"
         )
-    own = {name.removeprefix("structure."): state[name] for name in used_by(state, "structure.behind")}
+    own = {name.removeprefix("structure."): state[name] for name in numbers_of(state, "structure.behind")}
     if behind == "support":
         return mdr.Structure(**own)
     # 0 is an edge that is not known.
@@ -149,9 +149,9 @@ def notes(view: View) -> dict[str, str]:
         f"ρh = {written(float(mass), 'mass per area')}",
         f"Z = 8√(D ρh) = {written(float(plate.impedance), 'drag')}",
     ]
-    lines = [marked(", ".join(parts))]
+    lines = [html_subscripts(", ".join(parts))]
     if (far := _far(course)) < inf:
-        lines.append(marked(f"Edges farther than {written(far, 'length', 2)} are not felt"))
+        lines.append(html_subscripts(f"Edges farther than {written(far, 'length', 2)} are not felt"))
     return {"form": Markup("<br>").join(lines)}
 
 
@@ -166,7 +166,7 @@ def _far(course: StructureCourse) -> float:
 def e_over_h(page: Any, plot: Plot, view: View) -> Part | None:
     """The button above the force that shows the restitution over the thickness of the plate."""
     thickness = "structure.thickness"
-    if plot.name != "force" or "sweep" not in PLOTS or thickness not in used_by(view.state, "drive"):
+    if plot.name != "force" or "sweep" not in PLOTS or thickness not in numbers_of(view.state, "drive"):
         return None
     shown = {"tiles": ("sweep",), "sweep.swept": thickness, "sweep.against": "restitution"}
     return button("e over h", lambda: page.apply(lambda state: state.replace(**shown)))

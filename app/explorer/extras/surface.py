@@ -6,7 +6,7 @@ from mdr_core.show.figures import NOTHING, RADII, area, at_radii, both, line
 
 from ..courses import Course
 from ..extra import Extra
-from ..plot import Along, Plot, View
+from ..plot import AxisSpec, Plot, View
 from ..plots import deepest, largest_radius
 
 
@@ -15,8 +15,8 @@ def _around(course: Course) -> tuple[float, float]:
     return -half, half
 
 
-R = Along("r, radius", "length", _around)
-Z = Along("z, upward", "length", lambda course: (-1.2 * deepest(course), deepest(course)))
+R = AxisSpec("r, radius", "length", _around)
+Z = AxisSpec("z, upward", "length", lambda course: (-1.2 * deepest(course), deepest(course)))
 #: Where points lie between edges, at which the surface is steep.
 _DENSE = (1 - np.cos(np.linspace(0, np.pi, 20))) / 2
 

@@ -14,18 +14,18 @@ from mdr_core.show.figures import NOTHING, line, mark
 from mdr_core.show.quantities import QUANTITIES as RESULTS
 from mdr_core.show.units import KINDS, digits
 
-from ...common.errors import in_words
+from ...common.errors import error_text
 from ...common.host import last
-from ...common.quantities import CHOICES, QUANTITIES, Option, lowered, quantity, read_data
-from ...common.ui import marked
+from ...common.quantities import CHOICES, QUANTITIES, Option, quantity, read_data, unicode_subscripts
+from ...common.ui import html_subscripts
 from ...common.units import in_full
 from ..changes import CONSTANTS, option, shown
 from ..drives import DRIVES
 from ..extra import Extra
 from ..figures import Logarithmic
 from ..plot import OF_AXIS, Plot, View, axis
-from ..search import Found, Resting, Searched
-from ..state import PRESETS, State, medium, profile, used, used_by, yield_constant
+from ..search import AsyncPlot, Found, IdleSearch
+from ..state import PRESETS, State, medium, numbers_of, profile, used, yield_constant
 from ..widgets import Part, button, slider_range
 
 #: Functions of the core by drives.
@@ -118,7 +118,7 @@ class Sweep:
         """Rows of the other classes of hardness, and their sweeps through the present value, one by one."""
         own = yield_constant(self.state)
         others = {row: pair for row, pair in CLASSES.items() if pair[1] not in own}
-        constant = self.swept in used_by(self.state, "plasticity")
+        constant = self.swept in numbers_of(self.state, "plasticity")
         # Under a given force each constant is a search of its own.
         if constant or not self.dry or not self.yields or self.solver == "indent_to_force":
             return
@@ -178,7 +178,7 @@ def known(name: str):
 
 
 for _name in ("energy", *QUANTITIES):
-    _label = lowered(f"{known(_name).symbol}, {known(_name).label}")
+    _label = unicode_subscripts(f"{known(_name).symbol}, {known(_name).label}")
     CHOICES["sweep.swept"].options[_name] = Option(_label)
 
 
@@ -187,7 +187,7 @@ def swept(state: State) -> list[str]:
     if state.drive not in SOLVERS:
         names = CHOICES["sweep.swept"].options
         return [each for each in names if each == "energy" or state[each] is not None]
-    own, impact = used_by(state, "drive"), state.drive == "impact"
+    own, impact = numbers_of(state, "drive"), state.drive == "impact"
     idle = ("density",) if impact else ("density", "eta")
     works = [each for each in used(state) if each not in idle and QUANTITIES[each].span >= 0]
     return ["energy"] * impact + sorted(works, key=lambda each: each not in own)
@@ -252,7 +252,7 @@ def _axes(sweep, values, present):
     log = sweep.logarithmic and sweep.low > 0
     # Over decades in the unit of the present value: J for 2.75 J, not kJ for the end of the range.
     fits = min(sweep.present, sweep.high) if log else sweep.high
-    x = axis(lowered(f"{quantity.symbol}, {quantity.label}"), quantity.kind, fits)
+    x = axis(unicode_subscripts(f"{quantity.symbol}, {quantity.label}"), quantity.kind, fits)
     x = replace(x, start=sweep.low if log else min(sweep.low, 0.0), end=sweep.high, log=log)
     sizes = np.append(values, present)
     sizes = sizes[np.isfinite(sizes)]
@@ -273,14 +273,17 @@ def _power(sweep):
     if not (ends > 0).all():
         return ""
     slope = round(float(np.log(ends[1] / ends[0]) / np.log(pair[1] / pair[0])), 6)
-    return Markup("{}<sup>{}</sup>").format(marked(known(sweep.swept).symbol), digits(slope, 3))
+    return Markup("{}<sup>{}</sup>").format(html_subscripts(known(sweep.swept).symbol), digits(slope, 3))
 
 
 def _told(row, sweep):
     """Class, constant and law of a sweep of another class."""
     constant = QUANTITIES[CLASSES[row][1]]
     value = in_full(sweep.state[constant.name], constant.kind)
-    told = [marked(f"{row.split()[0]} {constant.symbol} = {value}"), sweep.low > 0 and _power(sweep)]
+    told = [
+        html_subscripts(f"{row.split()[0]} {constant.symbol} = {value}"),
+        sweep.low > 0 and _power(sweep),
+    ]
     return Markup(", ").join(part for part in told if part)
 
 
@@ -288,10 +291,10 @@ def _notes(sweep, numbers, values, classes, inside):
     quantity = known(sweep.swept)
     if not inside:
         shown = in_full(sweep.present, quantity.kind)
-        value = marked(f"{quantity.symbol} = {shown}")
+        value = html_subscripts(f"{quantity.symbol} = {shown}")
         yield Markup("The present value, {}, is outside the range.").format(value)
     elif sweep.low > 0 and (power := _power(sweep)):
-        result = marked(RESULTS[sweep.against].symbol)
+        result = html_subscripts(RESULTS[sweep.against].symbol)
         yield Markup("At the present value {} ∝ {}.").format(result, power)
     if classes:
         told = [_told(row, each) for row, each in classes.items()]
@@ -303,11 +306,11 @@ def _notes(sweep, numbers, values, classes, inside):
         try:
             sweep.solve(float(refused[0]))
         except ValueError as error:
-            yield marked(f"Not all of the range can be solved: {in_words(error)}.")
+            yield html_subscripts(f"Not all of the range can be solved: {error_text(error)}.")
 
 
 @dataclass(frozen=True, eq=False)
-class SweepPlot(Searched):
+class SweepPlot(AsyncPlot):
     """The plot, whose choices offer what applies to the drive."""
 
     def options_of(self, state, control):
@@ -339,5 +342,5 @@ EXTRA = Extra(
     "sweep",
     plots=(SWEEP,),
     on_plots=e_over_v,
-    service=Resting,
+    service=IdleSearch,
 )

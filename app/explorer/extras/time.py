@@ -6,7 +6,7 @@ from mdr_core.show.figures import NOTHING, area, line, mark
 
 from ..courses import Course
 from ..extra import Extra
-from ..plot import Along, Plot, T, View, line_at_time
+from ..plot import AxisSpec, Plot, T, View, line_at_time
 from ..plots import D, F
 
 
@@ -60,7 +60,7 @@ def _total(course: Course) -> tuple[float, float]:
     return 0.0, float(np.max(sum(energies(course).values())))
 
 
-E = Along("E, energy", "energy", _total)
+E = AxisSpec("E, energy", "energy", _total)
 
 
 def energy_places(view: View, i: int) -> dict:

@@ -13,18 +13,18 @@ from mdr_core.show.figures import NOTHING, Axis, both, label, line
 from mdr_core.show.springs import spring_line
 
 from ...common import ui as widgets
-from ...common.ui import WIDE, html, marked, show, symbol
+from ...common.ui import WIDE, html, html_subscripts, show, symbol
 from .. import link
 from ..courses import Course
 from ..drives import follow, scene_of
 from ..extra import Entries, Extra
 from ..link import with_symbol
-from ..plot import Along, Overlay, View, once
+from ..plot import AxisSpec, Overlay, View, cached
 from ..plots import PLOTS, D, F, P, R, X
 from ..readouts import line as readout_line
 from ..readouts import text
 from ..search import Searching
-from ..state import MEDIUM_CHOICES, OPENING, PRESETS, State, altered, formed, used
+from ..state import MEDIUM_CHOICES, OPENING, PRESETS, State, altered, form_choices, used
 from ..widgets import Part, button
 
 #: Scenes that are held have each its own dashes.
@@ -92,7 +92,7 @@ def difference(state: State, now: State | None = None) -> str:
     A scene of another preset than the present one has the name of its preset, too.
     """
     preset, known = PRESETS[state.preset], altered(state)
-    choices = ("shape", *MEDIUM_CHOICES, "drive", *formed(state))
+    choices = ("shape", *MEDIUM_CHOICES, "drive", *form_choices(state))
     other = now is not None and now.preset != state.preset
     if now is not None and not other and scene_of(now) != scene_of(state):
         changed = {name for name in (*choices, *used(state)) if state[name] != now[name]}
@@ -118,7 +118,7 @@ def scenes(view: View) -> list[Held]:
     return view.computed.get("held", [])
 
 
-def _reach(view: View, along: Along) -> tuple[float, float]:
+def _reach(view: View, along: AxisSpec) -> tuple[float, float]:
     """How far compared scenes go along an axis of a plot in which they are drawn."""
     drawn = (PLOTS[overlay.on] for overlay in OVERLAYS if overlay.on in PLOTS)
     plots = [plot for plot in drawn if along in plot.axes]
@@ -189,7 +189,7 @@ def _kept(view: View, i: int) -> dict:
 
 
 def _overlay(plot: str, rows: list, columns: Callable[[View, Course], dict]) -> Overlay:
-    @once
+    @cached
     def places(view: View) -> dict:
         known, found = PLOTS[plot].axes_of(view), {}
         axes = [known[k] for k in (0, rows[0].axis)] if known else []
@@ -235,7 +235,7 @@ class Table:
         held = scenes(view)
         for k, row in enumerate(self._rows):
             show(row, visible=k < len(held))
-            show(row[0], object=_dash(k) + marked(held[k].name) if k < len(held) else "")
+            show(row[0], object=_dash(k) + html_subscripts(held[k].name) if k < len(held) else "")
         columns = [numbers(course) for course in (view.course, *(each.course for each in held))]
         rows = [[Markup("at d<sub>max</sub>"), "now", *map(_dash, range(len(held)))]]
         found = [[name, *(each.get(name, "–") for each in columns)] for name in columns[0]]
@@ -275,15 +275,15 @@ class Holding(Searching):
 
 
 def _paragraph(held: Held) -> Markup:
-    return Markup("<p>{}.</p>").format(marked(held.name))
+    return Markup("<p>{}.</p>").format(html_subscripts(held.name))
 
 
-def told(view: View) -> list[tuple[str, str]]:
+def scene_file_texts(view: View) -> list[tuple[str, str]]:
     return [("Held scenes", Markup("").join(map(_paragraph, scenes(view))))]
 
 
 EXTRA = Extra(
-    "held",
+    "comparison",
     order=10,
     values={"held.scenes": Entries(is_scene, len(DASHES))},
     overlays=OVERLAYS,
@@ -292,5 +292,5 @@ EXTRA = Extra(
     offered=lambda view: bool(view.state["held.scenes"]),
     header=compare,
     side=lambda page: Table(page.apply),
-    told=told,
+    scene_file_texts=scene_file_texts,
 )

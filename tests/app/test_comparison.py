@@ -8,7 +8,15 @@ from markupsafe import Markup
 
 from app.explorer import changes, link
 from app.explorer.drives import follow
-from app.explorer.extras.held import DASHES, computed, difference, held_scene, is_held, numbers, toggle_hold
+from app.explorer.extras.comparison import (
+    DASHES,
+    computed,
+    difference,
+    held_scene,
+    is_held,
+    numbers,
+    toggle_hold,
+)
 from app.explorer.figures import Picture, drawn, legend
 from app.explorer.page import Page
 from app.explorer.plot import rows_of
