@@ -69,7 +69,7 @@ def write(folder: Path, pyodide: str, integrity: dict[str, str]) -> list[license
     for name in ("static", "theory", "measurement"):
         page = Template((_HERE / f"{name}.html").read_text(encoding="utf-8")).substitute(words)
         _write(folder / f"{'index' if name == 'static' else name}.html", page)
-    _write(folder / "first.html", scene_file(Page().shown, "static/js/bokeh.min.js"))
+    _write(folder / "first.html", scene_file(Page().view, "static/js/bokeh.min.js"))
     found = {"es-module-shims": _SHIMS, "notyf": _NOTICES, "katex": _KATEX}
     versions = {name: re.search(r"@\^?([\d.]+)", path) for name, path in found.items()}
     parts = [licenses.of_script(name, match[1] if match else "") for name, match in versions.items()]

@@ -68,7 +68,7 @@ class Page:
         self.host = host or host_of(self.document)
         self.state = preset_state(dark=dark)
         self.history = History((self.state,))
-        self.shown: View | None = None
+        self.view: View | None = None
         # What prevents the updates that wait until the input rests, None if none wait.
         self._waiting: Callable[[], None] | None = None
         # Whether the player moves, which needs frames of each scene that is shown.
@@ -85,14 +85,14 @@ class Page:
         self.layout = Layout(self)
         makers = dict.fromkeys(extra.service for extra in EXTRAS.values() if extra.service)
         self.services = [make(self) for make in makers]
-        self.view = self.layout.view
+        self.root = self.layout.view
         self._watch()
         self._open(query)
         self.history = History((self.state,))
 
     def __panel__(self) -> Any:
         """What Panel shows of it, so that `pn.panel(page)` and a layout take a page as it is."""
-        return self.view
+        return self.root
 
     def _open(self, query: str) -> None:
         """Show the state of a link; if it is refused, say so and show the opening one."""
@@ -132,15 +132,15 @@ class Page:
 
     def _kept_axes(self, state: State) -> dict[AxisSpec, Axis]:
         """Axes of the three plots that stay while something is dragged, unless drive or preset changes."""
-        self._kept = self.shown is not None and self.messages.dragged
+        self._kept = self.view is not None and self.messages.dragged
         if not self._kept or any(state[name] != self.state[name] for name in ("preset", "drive")):
             return {}
-        return {along: self.shown.axis(along) for name in NAMED for along in PLOTS[name].axes}
+        return {along: self.view.axis(along) for name in NAMED for along in PLOTS[name].axes}
 
     def query(self) -> tuple[str, str]:
         """The page as a query, or why it has none."""
         try:
-            query, dark = link.write(as_shown(self.shown.state)), self.shown.state.dark
+            query, dark = link.write(as_shown(self.view.state)), self.view.state.dark
             theme = [f"dark={int(dark)}"] * (dark == self._asked_dark)
             return "&".join(filter(None, [query, *theme])), ""
         except ValueError as error:
@@ -223,13 +223,13 @@ class Page:
 
         `now`: the course is the same, and this the index of its present state.
         """
-        course = follow(state) if now is None else replace(self.shown.course, now=now)
+        course = follow(state) if now is None else replace(self.view.course, now=now)
         computed: dict[Any, Any] = {}
         for service in self.services:
             computed |= service.compute(state, course)
         view = View(state, course, computed, self._kept_axes(state))
         columns = self.layout.columns(view)
-        self.state, self.shown = state, view
+        self.state, self.view = state, view
         if now is None:
             # Those of the course before, ahead of what is drawn. New ones wait until the input rests: they
             # are megabytes, and half a second of the process that serves everybody.
@@ -244,8 +244,8 @@ class Page:
     def refresh(self) -> None:
         """Show what is beside the plots of the present view."""
         for service in self.services:
-            service.show(self.shown)
-        self.layout.show(self.shown)
+            service.show(self.view)
+        self.layout.show(self.view)
 
     # The player.
 
@@ -253,7 +253,7 @@ class Page:
         """Send all states of the course if the player moves and has none."""
         if self._moving and not self.messages.frames and not self._making:
             pictures = [card.picture for card in self.layout.seen()]
-            making = self._making = frames_in_steps(self.shown, pictures)
+            making = self._making = frames_in_steps(self.view, pictures)
             # Others are served meanwhile; another scene has frames of its own.
             self.host.make(making, lambda: making is self._making, self._have_frames)
 
@@ -266,7 +266,7 @@ class Page:
 
         While other input arrives they are sent once that rests.
         """
-        course = self.shown.course
+        course = self.view.course
         self._moving = message is None
         if self._moving and self._waiting is None:
             self._send_frames()
@@ -278,7 +278,7 @@ class Page:
     def _schedule(self):
         """Schedule the slow updates; before a browser shows the page, notes need not wait."""
         if not self.host.shows():
-            self.layout.rest(self.shown)
+            self.layout.rest(self.view)
             return
         if self._waiting is not None:
             self._waiting()
@@ -286,11 +286,11 @@ class Page:
 
     def _input_rests(self):
         self._waiting = None
-        self.layout.rest(self.shown)
+        self.layout.rest(self.view)
         query, why = self.query()
         # The empty address leaves the present one: a link was not opened, or there is none.
         self.messages.address = "" if self._refused or why else f"?{query}"
-        view = self.shown
+        view = self.view
         for each in self.services:
             each.rest(view)
         self.refresh()

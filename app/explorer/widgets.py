@@ -89,7 +89,7 @@ class Parts(pn.custom.JSComponent):
     """Parts of the page below each other, or in a row (class "bar")."""
 
     #: The number of messages that are answered, and looks, as text: Bokeh would look at each value.
-    shown = param.String("[0, []]")
+    payload = param.String("[0, []]")
 
     # A link, so that the script is sent once.
     _esm = JS["parts"]
@@ -107,7 +107,7 @@ class Parts(pn.custom.JSComponent):
 
     def _send(self):
         looks = [{"kind": part.kind, "name": part.name} | part.look for part in self.parts.values()]
-        show(self, shown=json.dumps([self._answered, looks], ensure_ascii=False))
+        show(self, payload=json.dumps([self._answered, looks], ensure_ascii=False))
 
     @pn.io.hold()
     def _on_message(self, event):

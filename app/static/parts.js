@@ -1,4 +1,4 @@
-// Parts of the page: `shown` says how many messages are answered and what is seen. The server hears the name of a part and
+// Parts of the page: `payload` says how many messages are answered and what is seen. The server hears the name of a part and
 // what is done with it. A part is made of what is told of it first; what may change later is shown by the function beside it.
 import { make_player } from "./player.js"
 import { save } from "./save.js"
@@ -181,7 +181,7 @@ const ACTED = new WeakMap()
 export function render({ model, el, view }) {
   el.classList.add("parts")
   const parts = new Map(), named = (name) => view.model.document.get_model_by_name(name)
-  let [asked] = JSON.parse(model.shown)
+  let [asked] = JSON.parse(model.payload)
   // What was acted on last: its name, and its place among the parts that are seen. Where its answer takes the focus away, as a
   // button that is gone or a plot that is laid out anew, that part gets it, or the one that has its place: else the focus
   // begins at the top of the page. It is kept by the model, because a new layout renders all anew.
@@ -201,7 +201,7 @@ export function render({ model, el, view }) {
     return asked += 1
   }
   const show = () => {
-    const [answered, looks] = JSON.parse(model.shown)
+    const [answered, looks] = JSON.parse(model.payload)
     const seen = looks.map(({ kind, name, ...look }, k) => {
       if (!parts.has(name)) parts.set(name, KINDS[kind]({ ...look, id: parts.size }, sender(name), named))
       const [part, shown] = parts.get(name)
@@ -212,6 +212,6 @@ export function render({ model, el, view }) {
     for (const part of el.children) part.hidden = !seen.includes(part)
     if (ACTED.has(view.model) && answered >= asked) focus(looks.map(({ name }) => name), seen)
   }
-  model.on("change:shown", show)
+  model.on("change:payload", show)
   show()
 }

@@ -59,7 +59,7 @@ def side(page, name: str):
 
 def part(page, name: str):
     """A part that the page shows: a button by its label, a field or choice by its name."""
-    shown = [each.parts for each in page.view.select(Parts) if name in each.parts]
+    shown = [each.parts for each in page.root.select(Parts) if name in each.parts]
     assert shown, f"the page has no {name}"
     return shown[0][name]
 

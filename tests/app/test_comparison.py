@@ -155,10 +155,10 @@ def test_the_legend_of_a_saved_picture_names_held_scenes_as_the_plot_does():
     page.apply(toggle_hold)
     page.apply(lambda state: state.replace(max_depth=2 * state.max_depth))
     for service in page.services:
-        service.rest(page.shown)
-    drawn_as = page.layout.cards["force"].picture.columns(page.shown, page.shown.course.now)
+        service.rest(page.view)
+    drawn_as = page.layout.cards["force"].picture.columns(page.view, page.view.course.now)
     names = {name for columns in drawn_as.values() for name in columns["row"]}
-    legends = page.shown.computed["save"]
+    legends = page.view.computed["save"]
     assert "dₘₐₓ = 8.978 nm" in names
     # What a label names stands in no legend.
     assert legends["force"]["rows"] == ["dₘₐₓ = 8.978 nm"]

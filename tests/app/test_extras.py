@@ -56,9 +56,9 @@ def words(name):
     found += [choice["label"] for name, choice in choices.items() if "." in name]
     found += [drive.get("label", "") for drive in choices.get("drive", {}).get("options", {}).values()]
     page = opened()
-    buttons = extra.on_plots(page, PLOTS["force"], page.shown), extra.header(page, page.shown)
+    buttons = extra.on_plots(page, PLOTS["force"], page.view), extra.header(page, page.view)
     found += [each.look.get("label") for each in buttons if each is not None]
-    notes = extra.notes(page.shown)
+    notes = extra.notes(page.view)
     found += re.findall("<summary>(.*?)</summary>", notes.pop("below", str)())
     found += notes.values()
     return {each for each in found if each}
@@ -80,7 +80,7 @@ def texts(page):
     seen = set()
 
     def look():
-        for parts in page.view.select(type(page.layout.header)):
+        for parts in page.root.select(type(page.layout.header)):
             for part in parts.parts.values():
                 seen.update(strings(list(part.look.values())))
 
@@ -90,10 +90,10 @@ def texts(page):
             look()
     for drive in dict(page.choice("drive").look["options"]):
         page.choose("drive", drive)
-        for name, _ in page.layout.others(page.shown).look["options"]:
-            page.layout.others(page.shown).act(name)
+        for name, _ in page.layout.others(page.view).look["options"]:
+            page.layout.others(page.view).act(name)
             look()
-    page.document.add_root(page.view.get_root(page.document))
+    page.document.add_root(page.root.get_root(page.document))
     for model in page.document.models:
         for value in model.properties_with_values(include_defaults=False).values():
             seen.update(strings(value))
@@ -201,12 +201,12 @@ def test_a_new_extra_is_a_file_of_its_own(folder):
     page = importlib.import_module("with_area.explorer.page").Page(
         f"preset={DROP}&tiles=area&area.of=plastic"
     )
-    assert page.layout.others(page.shown).look["value"] == "area"
-    states = page.shown.course.states
+    assert page.layout.others(page.view).look["value"] == "area"
+    states = page.view.course.states
     plot = page.layout.cards["area"].plot
     for option, radius in (("plastic", states.plastic_radius), ("contact", states.contact_radius)):
         page.choose("area.of", option)
-        _, area = page.shown.places(plot, 0)["area"]
+        _, area = page.view.places(plot, 0)["area"]
         np.testing.assert_allclose(area, np.pi * radius**2, rtol=1e-12)
         assert ("area.of=plastic" in page.query()[0]) == (option == "plastic")
 
@@ -278,7 +278,7 @@ def test_a_row_that_a_plot_has_not_is_no_empty_curve(folder):
     page = importlib.import_module("wrong_row.explorer.page").Page()
     plot = sys.modules["wrong_row.explorer.plots"].PLOTS["wrong"]
     with pytest.raises(KeyError, match=r"places of rows that it has not: \['y'\]"):
-        page.shown.places(plot, 0)
+        page.view.places(plot, 0)
 
 
 def test_a_number_above_a_plot_is_set_there_and_in_the_link(folder):

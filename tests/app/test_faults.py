@@ -44,9 +44,9 @@ def assert_in_use(page):
     (notices,) = page.notices
     assert "Nothing was changed" in notices
     put(page, "q_c", 1.5 * Q_C)
-    assert page.shown.course.scene.medium.q_c == page.state.q_c == 1.5 * Q_C
+    assert page.view.course.scene.medium.q_c == page.state.q_c == 1.5 * Q_C
     page.undo()
-    assert page.shown.course.scene.medium.q_c == Q_C
+    assert page.view.course.scene.medium.q_c == Q_C
     assert len(page.notices) == 1
 
 
@@ -60,11 +60,11 @@ def test_a_plot_or_a_held_scene_that_fails(page, monkeypatch):
     made = page.choice
 
     def unless_held(name):
-        return failing() if page.shown.computed["held"] else made(name)
+        return failing() if page.view.computed["held"] else made(name)
 
     monkeypatch.setattr(page, "choice", unless_held)
     press(page, "Compare")
-    assert (page.state["held.scenes"], page.shown.computed["held"]) == ((), [])
+    assert (page.state["held.scenes"], page.view.computed["held"]) == ((), [])
     assert_in_use(page)
 
 
@@ -129,7 +129,7 @@ def test_the_indenter_is_dragged_to_a_depth_under_a_given_force_too(page):
     page.apply(lambda state: changes.choose(state, "drive", "force"))
     drag(page, 5.0)
     # A force that is found has the five digits that its field shows.
-    assert float(page.shown.course.turning_point.depth) == approx(5e-9, rel=5e-5)
+    assert float(page.view.course.turning_point.depth) == approx(5e-9, rel=5e-5)
     drag(page, "<b>")
     assert page.notices == []
 
@@ -137,20 +137,20 @@ def test_the_indenter_is_dragged_to_a_depth_under_a_given_force_too(page):
 def rested(page):
     """What is found of the section when the input is at rest."""
     page._input_rests()
-    return page.shown.computed.get("section")
+    return page.view.computed.get("section")
 
 
 def test_what_was_found_of_another_scene_or_state_is_not_shown(page):
     press(page, "Section")
-    assert page.shown.computed["section"] == COMPUTING
+    assert page.view.computed["section"] == COMPUTING
     first = rested(page)
     put(page, "q_c", 1.2 * Q_C)
-    assert page.shown.computed["section"] == replace(COMPUTING, axes=first.axes)
+    assert page.view.computed["section"] == replace(COMPUTING, axes=first.axes)
     page.undo()
-    assert page.shown.computed["section"] is first
+    assert page.view.computed["section"] is first
     page.move(5)
-    assert page.shown.computed["section"].note == "computing …"
-    assert rested(page).rows["contact radius a"][0][0] == page.shown.course.state.contact_radius
+    assert page.view.computed["section"].note == "computing …"
+    assert rested(page).rows["contact radius a"][0][0] == page.view.course.state.contact_radius
 
 
 def test_what_is_found_at_rest_and_cannot_be_drawn(page, monkeypatch):
@@ -188,10 +188,10 @@ def test_frames_stay_right_where_the_player_leaves_a_state_that_another_depth_ha
     """All states that the browser has are those of the server, until the scene is another."""
     page.move(10)
     put(page, "max_depth", 1.37e-8)
-    count = len(page.shown.course)
+    count = len(page.view.course)
     page.move(60)
-    assert (len(page.shown.course), page.shown.course.now) == (count, 60)
-    assert page.state.at == page.shown.course.progress[60]
+    assert (len(page.view.course), page.view.course.now) == (count, 60)
+    assert page.state.at == page.view.course.progress[60]
 
 
 def test_no_frames_leave_while_moves_arrive(page):
@@ -202,10 +202,10 @@ def test_no_frames_leave_while_moves_arrive(page):
         return {len(words), len(times), *map(len, places)}
 
     page.move(None)
-    assert states() == {len(page.shown.course)}
+    assert states() == {len(page.view.course)}
     sent = page.messages.frames
     page.move(5)
-    assert page.shown.course.now == 5
+    assert page.view.course.now == 5
     page.move(None)
     assert page.messages.frames is sent
     changes_of_frames = []
@@ -218,7 +218,7 @@ def test_no_frames_leave_while_moves_arrive(page):
     rested(page)
     rested(page)
     assert len(changes_of_frames) == 2
-    assert states() == {len(page.shown.course)}
+    assert states() == {len(page.view.course)}
     # The player rests, too.
     page.move(5)
     put(page, "mass", 2.0)
@@ -228,7 +228,7 @@ def test_no_frames_leave_while_moves_arrive(page):
 
 def test_a_state_that_the_player_has_not_changes_nothing(page):
     before = page.state
-    for message in (len(page.shown.course), -1, 10**400, 2.5, "5", [5], {"now": 5}):
+    for message in (len(page.view.course), -1, 10**400, 2.5, "5", [5], {"now": 5}):
         page.move(message)
     assert page.state == before
     assert page.messages.frames == []
@@ -283,7 +283,7 @@ def test_a_message_that_names_no_part_is_answered_and_changes_nothing(page):
     # Four answers; the fifth is that of a number.
     form._on_message(SimpleNamespace(data=("max_depth", {"text": "5 nm"})))
     assert page.state.max_depth == 5e-9
-    assert json.loads(form.shown)[0] == 5
+    assert json.loads(form.payload)[0] == 5
 
 
 @pytest.mark.parametrize(
@@ -299,7 +299,7 @@ def test_a_link_whose_bodies_or_hardness_lead_beyond_the_bounds_is_refused(monke
     monkeypatch.setattr(Page, "notify", lambda page, text: notices.append(text))
     page = Page(query)
     assert page.state.preset == GOLD
-    assert page.shown is not None
+    assert page.view is not None
     assert "is out of bounds" in notices[0]
 
 
@@ -327,7 +327,7 @@ def test_numbers_of_two_bodies_are_swept_on_the_page(page, name):
     press(page, "Sweep")
     page.choose("sweep.swept", name)
     rested(page)
-    assert (page.notices, page.shown.computed["sweep"] is FAULT) == ([], False)
+    assert (page.notices, page.view.computed["sweep"] is FAULT) == ([], False)
 
 
 def test_a_plot_is_large_while_others_have_never_been_drawn(page):
@@ -364,9 +364,9 @@ def test_an_exact_course_is_found_again_once_others_have_taken_its_place(page):
     page.choose("preset", "ball-glass_epoxy")
     page.choose("drive", "oblique")
     page._input_rests()
-    assert not page.shown.course.pending
+    assert not page.view.course.pending
     EXACT.clear()
     page.apply(lambda state: state.replace(dark=True))
-    assert page.shown.course.pending
+    assert page.view.course.pending
     page._input_rests()
-    assert not page.shown.course.pending
+    assert not page.view.course.pending

@@ -63,7 +63,7 @@ def test_each_class_draws_its_law_with_its_numbers(option):
     shown = fields_of(page.layout.form.view)
     first = shown.index("E_star")
     assert shown[first : first + 2] == ["E_star", constant]
-    assert cap in PLOTS["springs"].formula_of(page.shown.course)
+    assert cap in PLOTS["springs"].formula_of(page.view.course)
 
 
 def test_another_class_keeps_the_hardness_at_the_present_contact_radius():
@@ -121,7 +121,7 @@ def test_the_onset_of_constant_hardness_is_that_of_the_shape():
         query = link.write(changes.put(cone, "volume_hardness", hardness))
         page = Page(query)
         assert says in part(page, "note medium").look["object"]
-        assert "relative_depth" not in numbers(page.shown.course)
+        assert "relative_depth" not in numbers(page.view.course)
 
 
 @pytest.mark.parametrize("pattern", ["reload", "cycles"])

@@ -34,10 +34,10 @@ def test_twice_the_depth_is_twice_the_picture():
     Another drive has its own, and when it is released they fit again.
     """
     page = Page()
-    before = page.shown
+    before = page.view
     page.messages.dragged = True
     page.apply(lambda state: changes.put(state, "max_depth", 2 * state.max_depth))
-    view, i = page.shown, page.shown.course.now
+    view, i = page.view, page.view.course.now
     assert [view.axis(each) for each in (X, Z, R, D, F)] == [before.axis(each) for each in (X, Z, R, D, F)]
     state = view.course.state
     a, d, force = (float(each) for each in (state.contact_radius, state.depth, state.force))
@@ -54,16 +54,16 @@ def test_twice_the_depth_is_twice_the_picture():
         renderers = page.layout.cards[name].picture.figure.renderers
         assert {renderer.level for renderer in renderers} == {"glyph"}
     page.undo()
-    assert page.shown.kept
-    assert page.shown.places(PLOTS["force"], i)["cut off"][2] == ""
+    assert page.view.kept
+    assert page.view.places(PLOTS["force"], i)["cut off"][2] == ""
     page.apply(lambda state: changes.choose(state, "drive", "impact"))
-    assert page.shown.kept == {}
+    assert page.view.kept == {}
     page.undo()
     page.apply(lambda state: changes.put(state, "max_depth", 2 * state.max_depth))
-    assert page.shown.kept
+    assert page.view.kept
     page.messages.dragged = False
-    assert page.shown.kept == {}
-    assert page.shown.axis(D).end > before.axis(D).end
+    assert page.view.kept == {}
+    assert page.view.axis(D).end > before.axis(D).end
 
 
 @pytest.fixture(scope="module")

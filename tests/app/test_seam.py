@@ -62,4 +62,4 @@ def test_a_hook_has_more_than_one_user():
 def test_what_a_link_has_of_an_extra_is_of_the_state():
     page = Page("held.scenes=max_depth%3D5e-09&tiles=sweep&sweep.swept=mass")
     assert page.state["held.scenes"] == ("max_depth=5e-09",)
-    assert [each.name for each in page.shown.computed["held"]] == ["d_max = 5 nm"]
+    assert [each.name for each in page.view.computed["held"]] == ["d_max = 5 nm"]

@@ -289,7 +289,7 @@ def test_numbers_link_and_python_follow_a_change_and_its_undoing():
     assert "max_depth=5e-09" in address
     values = {}
     exec(python, values)
-    assert values["scene"] == page.shown.course.scene
+    assert values["scene"] == page.view.course.scene
     page.undo()
     assert seen() == opening
 

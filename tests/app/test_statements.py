@@ -127,20 +127,20 @@ def test_13_springs_are_elastic_or_yielded_also_in_an_oblique_impact():
 def test_14_a_tile_is_drawn_where_a_drive_has_it_and_a_preset_stands_deepest():
     page = Page()
     page.apply(lambda state: state.replace(tiles=("forces",)))
-    assert visible(page.shown) == [PLOTS[name] for name in ("springs", "pressure", "force")]
+    assert visible(page.view) == [PLOTS[name] for name in ("springs", "pressure", "force")]
     assert "Friction" not in [text for _, text in part(page, "fourth plot").look["options"]]
     page.apply(lambda state: changes.put(state, "max_depth", 5e-9))
     assert page.state.max_depth == 5e-9
     page.choose("drive", "oblique")
-    assert "forces" in [plot.name for plot in visible(page.shown)]
+    assert "forces" in [plot.name for plot in visible(page.view)]
     page.choose("drive", "depth")
-    assert "forces" not in [plot.name for plot in visible(page.shown)]
+    assert "forces" not in [plot.name for plot in visible(page.view)]
     # A measured tip can be chosen where there is one only.
     assert "sampled" not in dict(page.choice("shape").look["options"])
     page.apply(lambda state: state.replace(at=0.0))
     page.choose("preset", page.state.preset)
     assert page.state.at == 1.0
-    assert step_text(TOURS["First yield"][0], page.shown.course)
+    assert step_text(TOURS["First yield"][0], page.view.course)
 
 
 def adhesive(drive="depth", **more):

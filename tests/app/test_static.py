@@ -284,7 +284,7 @@ def test_a_sweep_is_found_in_slices_and_a_press_makes_the_one_before_void(monkey
     page = Page("preset=ball-glass_epoxy&tiles=sweep", host=host)
 
     def note():
-        return page.shown.computed["sweep"].note
+        return page.view.computed["sweep"].note
 
     page._input_rests()
     assert note() == "computing …"
@@ -303,10 +303,10 @@ def test_a_sweep_is_found_in_slices_and_a_press_makes_the_one_before_void(monkey
     at_once = Page("preset=ball-glass_epoxy&tiles=sweep")
     at_once.apply(lambda state: state.replace(max_depth=0.9 * state.max_depth))
     at_once._input_rests()
-    expected = at_once.shown.computed["sweep"]
-    assert page.shown.computed["sweep"].note == expected.note
+    expected = at_once.view.computed["sweep"]
+    assert page.view.computed["sweep"].note == expected.note
     for name, columns in expected.rows.items():
-        for mine, theirs in zip(page.shown.computed["sweep"].rows[name], columns, strict=True):
+        for mine, theirs in zip(page.view.computed["sweep"].rows[name], columns, strict=True):
             numpy.testing.assert_allclose(mine, theirs, rtol=1e-12)
 
 

@@ -110,7 +110,7 @@ def test_links_undo_and_files_carry_it():
     page.choose("structure.behind", "support")
     page.choose("structure.behind", "plate")
     assert linked_state(page.state) == page.state
-    scene = page.shown.course.scene
+    scene = page.view.course.scene
     values = {}
     exec(scene.to_python(), values)
     assert values["scene"] == mdr.Scene.from_json(scene.to_json()) == scene

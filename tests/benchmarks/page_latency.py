@@ -151,7 +151,7 @@ def saved_scenes(browser):
     for name, (query, _) in list(SCENES.items())[:4]:
         with TemporaryDirectory() as folder:
             path = Path(folder) / "scene.html"
-            path.write_text(scene_file(Page(query.removeprefix("?")).shown), encoding="utf-8")
+            path.write_text(scene_file(Page(query.removeprefix("?")).view), encoding="utf-8")
             page = browser.new_page(viewport={"width": 1280, "height": 720})
             page.add_init_script(SCRIPT)
             page.goto(path.as_uri())

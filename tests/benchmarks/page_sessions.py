@@ -127,7 +127,7 @@ class Client(Visitor):
         await super().open(url)
         # The control of the largest depth, by what it is called.
         for each in objects(self.document):
-            shown = json.loads(dig(each, "attributes", "data", "attributes", "shown") or "[0, []]")
+            shown = json.loads(dig(each, "attributes", "data", "attributes", "payload") or "[0, []]")
             for known in shown[1]:
                 if known.get("spoken") == "d_max, largest depth":
                     self.form, self.control = each["id"], known["name"]

@@ -268,7 +268,7 @@ class Holding(Searching):
     """Computes the held scenes, and finds their exact courses."""
 
     def compute(self, state: State, course: Course) -> dict[str, Any]:
-        return {"held": computed(state, self.page.shown)}
+        return {"held": computed(state, self.page.view)}
 
     def rest(self, view: View) -> None:
         self.find_exact([each.course for each in scenes(view)])

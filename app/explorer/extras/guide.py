@@ -94,5 +94,5 @@ class Guide:
 
 EXTRA = Extra(
     "guide", order=30, tab="Guide", place="above",
-    side=lambda page: Guide(page.apply, lambda: page.shown),
+    side=lambda page: Guide(page.apply, lambda: page.view),
 )  # fmt: skip

@@ -65,7 +65,7 @@ class Pointer(Service):
 
     def _dragged(self, attr, old, new):
         if isinstance(new, int | float):
-            depth = new * self.page.shown.axis(Z).factor
+            depth = new * self.page.view.axis(Z).factor
             self.page.apply(lambda state: press_to(state, depth), mark="hand")
             self.drag.depth = None
 

@@ -59,7 +59,7 @@ class Share:
         #: Buttons by what is in their files.
         self._files = {
             name: pn.widgets.FileDownload(
-                label=label, filename=name, callback=lambda write=write: StringIO(write(page.shown)),
+                label=label, filename=name, callback=lambda write=write: StringIO(write(page.view)),
                 auto=True, css_classes=["button"], margin=0,
             )
             for extra in EXTRAS.values()
