@@ -1,7 +1,7 @@
 """Private ends of Panel and Bokeh, which may move with any version: the page runs without each of them.
 
 Each is used at one place, here, with what it gains. One that has moved is left out, with a line in the log.
-Those in the browser are in js/private.js, in the same manner, with the line in the console.
+Those in the browser are in common/js/private.js, in the same manner, with the line in the console.
 """
 
 import asyncio
@@ -26,7 +26,7 @@ _LOG = logging.getLogger(__name__)
 #: drawn, and the private ends in the browser come before all other scripts.
 _HEAD = f"""{{% block postamble %}}
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<script>{{% raw %}}{JS["theme"]}{JS["private"]}{JS["refused"]}{{% endraw %}}</script>
+<script>{{% raw %}}{JS["head"]}{JS["private"]}{JS["page"]}{{% endraw %}}</script>
 <link rel="modulepreload" href="app/static/parts.js">{{% endblock %}}"""
 _WITHOUT_WEBGL = """{% block js_resources %}
 {% for line in bokeh_js.splitlines() if "bokeh-gl" not in line %}{{ line }}

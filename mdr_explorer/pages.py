@@ -60,7 +60,8 @@ def write(folder: Path, pyodide: str, integrity: dict[str, str]) -> list[license
         _copy(Path(bokeh.__file__).parent / "server/static" / name, folder / "static" / name)
     _copy(APP / "static", folder / "app/static")
 
-    words = {"theme": ui.JS["theme"], "private": ui.JS["private"], "style": ui.LAYOUT[0] + ui.CSS}
+    words = {"theme": ui.JS["head"], "private": ui.JS["private"] + ui.JS["page"]}
+    words["style"] = ui.LAYOUT[0] + ui.CSS
     words["sheets"] = "\n".join(f'<link rel="stylesheet" href="{name}">' for name in sheets)
     settings = {"pyodide": pyodide, "compiled": COMPILED, "imports": IMPORTS, "scripts": scripts}
     words |= {"settings": json.dumps(settings), "integrity": json.dumps({"integrity": integrity})}

@@ -24,6 +24,11 @@ WIDE = {"sizing_mode": "stretch_width", "margin": 0}
 FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": LAYOUT}
 
 
+def call(name: str, *given: str) -> str:
+    """Script of a callback that calls a function of page.js with what the callback knows by these names."""
+    return f"return pages.{name}({', '.join(given)})"
+
+
 class Messages(DataModel):
     """What the server and the browser of a session tell each other beside the page."""
 
@@ -95,7 +100,7 @@ def landmarks(document: Document, parts: dict[str, tuple[str, str]], to: str = "
     `to` is the class of the part to which a link, the first tab stop, leads, and `label` its text.
     """
     told = {"landmarks": [[name, *part] for name, part in parts.items()], "to": to, "label": label}
-    document.js_on_event(DocumentReady, CustomJS(args=told, code=JS["landmarks"]))
+    document.js_on_event(DocumentReady, CustomJS(args=told, code=call("landmarks", *told)))
 
 
 def show(part, **values):

@@ -14,7 +14,7 @@ from markupsafe import Markup
 from mdr_core.show.figures import ROLES, Axis, Row
 
 from ..common.quantities import unicode_subscripts
-from ..common.ui import HERE, JS, html_subscripts
+from ..common.ui import HERE, call, html_subscripts
 from .plot import OF_AXIS, Plot, View, overlays, rows_of
 
 _LOOK = [(HERE / "static" / "tools.css").read_text(encoding="utf-8")]
@@ -98,7 +98,7 @@ class Picture:
         f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None)
         f.update(min_border_left=60, min_border_right=14, min_border_top=8, min_border_bottom=44)
         add_zoom(f)
-        f.js_on_change("inner_width", bk.CustomJS(code=JS["canvas"]))
+        f.js_on_change("inner_width", bk.CustomJS(code=call("tidy", "cb_obj")))
         groups = {row.group for row in rows_of(plot)}
         if any(group.endswith("right") for group in groups):
             f.extra_y_ranges = {"right": bk.Range1d()}
@@ -237,7 +237,7 @@ class Logarithmic(Picture):
 
 def ticks(low: float, high: float) -> tuple[Any, Any]:
     """Ticker and formatter of a logarithmic axis; over two decades or less Bokeh's has too many."""
-    formatter = bk.CustomJSTickFormatter(code=JS["powers"])
+    formatter = bk.CustomJSTickFormatter(code=call("power", "tick"))
     if high > 101 * low:
         return bk.LogTicker(num_minor_ticks=0), formatter
     powers = np.arange(np.floor(np.log10(low)), np.ceil(np.log10(high)) + 1)
@@ -288,5 +288,5 @@ def add_zoom(figure: Any) -> None:
     figure.add_tools(bk.BoxZoomTool(description="Zoom to a box"), bk.ResetTool(description="Whole plot"))
     figure.update(toolbar_location="above", toolbar_inner=True)
     figure.toolbar.update(autohide=True, logo=None, active_drag=None, stylesheets=_LOOK)
-    figure.js_on_event(PanEnd, bk.CustomJS(code=JS["once"]))
-    figure.js_on_event(DoubleTap, bk.CustomJS(code=JS["whole"]))
+    figure.js_on_event(PanEnd, bk.CustomJS(code=call("end_box", "cb_obj")))
+    figure.js_on_event(DoubleTap, bk.CustomJS(code=call("whole", "cb_obj")))

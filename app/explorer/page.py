@@ -16,7 +16,7 @@ from mdr_core.show.figures import Axis
 
 from ..common.errors import error_text
 from ..common.host import Host, host_of
-from ..common.ui import JS, Messages, landmarks, notice
+from ..common.ui import Messages, call, landmarks, notice
 from . import changes, link
 from .drives import follow
 from .extra import EXTRAS
@@ -115,12 +115,12 @@ class Page:
         self.document.add_root(self.messages)
         self.messages.on_change("dragged", self._released)
         self.document.on_event(DocumentReady, lambda event: self._input_rests())
-        for name in ("ready", "dragged"):
-            script = CustomJS(args={"messages": self.messages}, code=JS[name])
+        for name in ("start", "watch"):
+            script = CustomJS(args={"messages": self.messages}, code=call(name, "messages"))
             self.document.js_on_event(DocumentReady, script)
         landmarks(self.document, LANDMARKS, "springs", "Skip to the plots")
         # The address restores the page when its session is lost.
-        self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
+        self.document.js_on_event(ConnectionLost, CustomJS(code=call("again")))
 
     def _theme_found(self, attr, old, new):
         """Take the theme that the browser has kept, or that of the system."""

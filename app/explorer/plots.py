@@ -13,7 +13,7 @@ from mdr_core.show.figures import label, line, mark, split
 from mdr_core.show.quantities import QUANTITIES
 from mdr_core.show.units import written
 
-from ..common.ui import JS
+from ..common.ui import call
 from .courses import Course, onset_depth
 from .plot import AxisSpec, Plot, View
 from .state import LISTS, Entries
@@ -243,4 +243,4 @@ def drag_path(view: View) -> dict[str, Any]:
 def let_drag(figure: Any) -> None:
     """Let a figure be dragged."""
     for event in (PanStart, Pan, PanEnd):
-        figure.js_on_event(event, CustomJS(code=JS["drag"]))
+        figure.js_on_event(event, CustomJS(code=call("drag", "cb_obj")))

@@ -17,7 +17,7 @@ from mdr_core.base.remark import Remark
 from ..common.errors import Refused
 from ..common.folders import Files
 from ..common.process import Here, Worker
-from ..common.ui import JS, WIDE, html, landmarks, show
+from ..common.ui import WIDE, call, html, landmarks, show
 from ..common.upload import in_line
 from . import analysis, query
 from .actions import Actions
@@ -88,7 +88,7 @@ class Measurement(Actions):
         )  # fmt: skip
         landmarks(self.document, _LANDMARKS, "found", "Skip to the result")
         # The address restores what was typed when the session is lost.
-        self.document.js_on_event(ConnectionLost, CustomJS(code=JS["again"]))
+        self.document.js_on_event(ConnectionLost, CustomJS(code=call("again")))
         self.host.on_close(self.close)
 
     def __panel__(self) -> Any:

@@ -10,7 +10,7 @@ from bokeh.plotting import figure
 from mdr_core.show.figures import ROLES
 from mdr_core.show.units import fitting
 
-from ..common.ui import JS, WIDE
+from ..common.ui import WIDE, call
 from ..explorer.figures import add_zoom
 
 _NAMES = "others", "measured", "model", "noise", "residuals"
@@ -36,7 +36,7 @@ class Plots:
             each.update(min_border_left=76, min_border_right=20)
             _style(each, _FIGURES[name])
             each.xgrid.visible = False
-            each.js_on_change("inner_width", bk.CustomJS(code=JS["canvas"]))
+            each.js_on_change("inner_width", bk.CustomJS(code=call("tidy", "cb_obj")))
         self.sources = {name: bk.ColumnDataSource({"x": [], "y": []}, name=name) for name in _NAMES}
         #: Models with a property of theirs and its colours, light and dark: a browser knows which it shows.
         self.looks = [(model, name, ROLES[role]) for model, name, role in self._draw()]

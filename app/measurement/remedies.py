@@ -1,18 +1,17 @@
 """Buttons for what one can do about a remark."""
 
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 from mdr_core.base.remark import Remedy
 from mdr_core.measurements.reading import SIZES
 from mdr_core.show.units import written
 
+from ..common.ui import call
 from . import texts
 from .choices import CLASS_NAMES, FITTED, MEDIA, NUMBERS, OF_CLASS
 from .widgets import button
 
-_FOCUS = Path(__file__).with_name("focus.js").read_text(encoding="utf-8")
 #: What parts the curves of a table.
 _BY = {
     "whole": "Read it as one curve",
@@ -104,5 +103,5 @@ def _leading(page: Any, label: str, name: str, *acts: Any) -> Any:
             act()
 
     made = button(label, lead)
-    made.js_on_click(args={"name": f"to-{name}"}, code=_FOCUS)
+    made.js_on_click(args={"name": f"to-{name}"}, code=call("lead", "name"))
     return made

@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 import mdr_core as mdr
 
-from ..common.ui import JS, WIDE, html, show
+from ..common.ui import WIDE, call, html, show
 from . import export, texts
 from .choices import CLASS_NAMES, MEDIA, OF_CLASS, TIPS
 from .plots import AllCurves, Plots
@@ -23,7 +23,6 @@ from .widgets import ERROR, button, download, fold
 
 _HERE = Path(__file__).parent
 _SLIDER = (_HERE / "slider.css").read_text(encoding="utf-8")
-_NAMES = (_HERE / "names.js").read_text(encoding="utf-8")
 #: Files that are dropped together are sent at once; a browser would send two every two seconds.
 _DROPS = "FilePond.setOptions({maxParallelUploads: 1000, itemInsertInterval: 0})"
 _BOTH = {"sizing_mode": "stretch_both", "margin": 0}
@@ -56,8 +55,9 @@ class Results:
             fold("Remarks", self.remarks, css_classes=["fold", "remarks-fold"]),
         ]
         self.plots = Plots()
-        shade = CustomJS(args={"looks": self.plots.looks + self.all_curves.looks}, code=JS["shade"])
-        for code in (shade, CustomJS(code=_NAMES), CustomJS(code=_DROPS)):
+        looks = {"looks": self.plots.looks + self.all_curves.looks}
+        shade = CustomJS(args=looks, code=call("shade", "looks"))
+        for code in (shade, CustomJS(code=call("name_handles")), CustomJS(code=_DROPS)):
             page.document.js_on_event(DocumentReady, code)
         panes = (pn.pane.Bokeh(each, **_BOTH) for each in (self.plots.force, self.plots.residual))
         self.figures = pn.Column(*panes, css_classes=["plots-of-fit"], visible=False, **_BOTH)
@@ -74,7 +74,7 @@ class Results:
         self.cancel = button("Cancel", page.cancel, visible=False)
         self.report = pn.widgets.TextInput(visible=False)
         self.copy = button("Copy")
-        self.copy.js_on_click(args={"field": self.report}, code=JS["copy"])
+        self.copy.js_on_click(args={"field": self.report}, code=call("copy", "field"))
         self.files = {
             kind: download(kind.upper(), partial(self._written, write))
             for kind, write in (("json", export.as_json), ("csv", export.as_csv))

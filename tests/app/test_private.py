@@ -92,7 +92,7 @@ def test_all_private_ends_are_there_in_the_versions_that_are_installed(caplog):
     assert caplog.text == ""
 
 
-#: Names that js/private.js takes from Bokeh, and whether what is done below asks for each.
+#: Names that common/js/private.js takes from Bokeh, and whether what is done below asks for each.
 IN_THE_BROWSER = {
     "find_one": True, "el": True, "frame": True, "x_scale": True, "y_scale": True, "bbox": True,
     "all_models": False, "repaint": True, "export": True, ".bk-events": True,
@@ -107,7 +107,7 @@ def without(browser, tmp_path_factory):
     shutil.copytree(ROOT / "app", root / "app", ignore=shutil.ignore_patterns("__pycache__"))
     for other in ("assets", "mdr_core"):
         (root / other).symlink_to(ROOT / other)
-    names = {root / "app/security.py": [], root / "app/js/private.js": IN_THE_BROWSER}
+    names = {root / "app/security.py": [], root / "app/common/js/private.js": IN_THE_BROWSER}
     for path, ends in names.items():
         text = path.read_text(encoding="utf-8")
         for end in ends or [each.rsplit(".", 1)[1] for each in ENDS]:

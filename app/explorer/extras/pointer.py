@@ -17,7 +17,7 @@ from mdr_core.show.units import fitting
 from mdr_core.solver.contact.yielding import yield_rule
 
 from ...common.quantities import QUANTITIES
-from ...common.ui import JS
+from ...common.ui import call
 from ..changes import shown
 from ..courses import Course, onset_depth
 from ..drives import DRIVES, scene_of
@@ -55,7 +55,7 @@ class Pointer(Service):
         self.drag, self.springs = DragModel(name="dragging"), SpringModel(name="pointed")
         self.drag.on_change("depth", self._dragged)
         scripts = (
-            (JS["touch"], {"figures": [*figures.values()], "dragging": self.drag}),
+            (call("touch", "figures", "dragging"), {"figures": [*figures.values()], "dragging": self.drag}),
             (_SPRING, {"figure": figures["springs"], "pointed": self.springs}),
         )
         for model in (self.drag, self.springs):

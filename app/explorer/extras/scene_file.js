@@ -3,7 +3,7 @@ const [numbers, theme] = ["readout", "dark"].map((id) => document.getElementById
 const { el, show } = make_player({ messages, figures, ask: () => {} })
 show(look)
 messages.properties.words.change.connect(() => { numbers.innerHTML = messages.words })
-touched(figures.filter(({ name }) => name !== "pressure"), dragging)
+pages.touch(figures.filter(({ name }) => name !== "pressure"), dragging)
 const shade = (dark) => {
   document.documentElement.classList.toggle("dark", dark)
   theme.ariaPressed = String(dark)

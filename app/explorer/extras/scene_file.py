@@ -33,9 +33,8 @@ from ..state import MEDIUM_CHOICES, PRESETS, State, altered, as_shown, used, yie
 _HERE = Path(__file__)
 _TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")
 _PLAYER = (HERE / "static" / "player.js").read_text(encoding="utf-8").replace("export ", "")
-#: The page's scripts of player and touch as functions, and what calls them.
+#: The page's script of the player as a function, and what calls it.
 _CODE = f"""{_PLAYER}
-const touched = (figures, dragging) => {{\n{JS["touch"]}\n}}
 {_HERE.with_suffix(".js").read_text(encoding="utf-8")}"""
 _PAPER = "V. L. Popov, Facta Universitatis, Series: Mechanical Engineering 13(1), 2015, 39–46"
 
@@ -68,7 +67,7 @@ def scene_file(view: View, bokeh: str = "") -> str:
     _connect(document, view, pictures, Messages(words=as_html(readout)))
     words = {
         "style": CSS,
-        "private": JS["private"],
+        "private": JS["private"] + JS["page"],
         # Of Bokeh alone what draws; file_html adds a script of Panel's server.
         "bokeh": "" if bokeh else Resources(mode="inline", components=["bokeh"]).js_raw[0],
         "bokeh_at": bokeh,

@@ -9,7 +9,7 @@ import panel as pn
 import mdr_core as mdr
 
 from ...common.tables import as_csv
-from ...common.ui import JS, WIDE, field, html, show, tools
+from ...common.ui import WIDE, call, field, html, show, tools
 from ..extra import EXTRAS, Extra
 from ..link import file_name, summary
 from ..plot import View
@@ -66,7 +66,7 @@ class Share:
             for label, name, write in extra.files
         }  # fmt: skip
         copy = pn.widgets.Button(label="Copy link", css_classes=["button"], margin=0)
-        copy.js_on_click(args={"field": self.link}, code=JS["copy"])
+        copy.js_on_click(args={"field": self.link}, code=call("copy", "field"))
         parts = self.link, self._note, tools(copy, *self._files.values()), self.python
         self.view = pn.Column(*parts, css_classes=["share"], **WIDE)
 

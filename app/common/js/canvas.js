@@ -1,2 +1,0 @@
-// A plot has got its size, and with it its canvas.
-window.toolkit?.tidy(cb_obj)
