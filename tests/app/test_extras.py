@@ -213,9 +213,9 @@ def test_a_new_extra_is_a_file_of_its_own(folder):
 
 PLOT = """
 from ..extra import Extra
-from ..plot import Along, Plot
+from ..plot import AxisSpec, Plot
 from mdr_core.show.figures import line
-X = Along("x", "length", lambda course: (0.0, 1.0))
+X = AxisSpec("x", "length", lambda course: (0.0, 1.0))
 ROWS = (line("x", "ink"),)
 PLOT = Plot("{plot}", "Wrong", "", (X, X), ROWS, {places}tab="{tab}", controls={controls})
 EXTRA = Extra("wrong", plots=(PLOT,))

@@ -101,7 +101,7 @@ def test_compare_says_what_it_has_done_where_one_looks_and_until_something_chang
         return source["text"][source["row"].index("kept")]
 
     assert kept() == "Kept for comparison. Now change something."
-    assert "Kept for comparison." in page.layout.parts["held"].view[-1].object
+    assert "Kept for comparison." in page.layout.parts["comparison"].view[-1].object
     page.apply(lambda state: put(state, "max_depth", 5e-9))
     assert kept() == ""
 
