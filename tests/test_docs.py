@@ -50,7 +50,8 @@ def run(code, name="example", **names):
     for package in [*packages, *(package for text, package in NEEDED.items() if text in code)]:
         pytest.importorskip(package)
     # An extra of the page imports what is beside it.
-    place = {"__name__": "app.explorer.extras.example", "__package__": "app.explorer.extras"} if "from .." in code else {}
+    folder = "app.explorer.extras"
+    place = {"__name__": f"{folder}.example", "__package__": folder} if "from .." in code else {}
     names |= {"__name__": "__main__"} | place
     exec(compile(code, name, "exec"), names)
     return names

@@ -71,9 +71,9 @@ class Extra:
     place: str = "above"
     offered: Callable[[View], bool] = lambda view: True
     side: Callable[[Any], Side] | None = None
-    #: A part, as a button, in the header of a page for a view, and one above a plot; each may be None.
+    #: A part, as a button, in the header of a page for a view, or None; and parts above a plot.
     header: Callable[[Any, View], Part | None] = lambda page, view: None
-    on_plots: Callable[[Any, Plot, View], Part | None] = lambda page, plot, view: None
+    on_plots: Callable[[Any, Plot, View], list[Part]] = lambda page, plot, view: []
     #: What it and others need once in a session of a page, which it is made of.
     service: Callable[[Any], Service] | None = None
     #: Files to download, each with its label, its name, and its text of a view.

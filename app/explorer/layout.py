@@ -60,7 +60,7 @@ class Card:
         self._legend = kept | drawn(view, plot)
         # Its formula stands with the numbers.
         title = Markup("<h3>{}</h3><span>{}</span>").format(plot.title, html_subscripts(plot.aside(view)))
-        buttons = (each.on_plots(page, plot, view) for each in EXTRAS.values())
+        buttons = [part for each in EXTRAS.values() for part in each.on_plots(page, plot, view)]
         key = text("key", legend(plot, self._legend), "key")
         controls = [self._control(name) for name in plot.controls]
         close = [button("Close", partial(page.apply, partial(with_tile, name="")))] * bool(plot.tab)
@@ -69,7 +69,7 @@ class Card:
         shown = Markup('<span title="{}">{}</span>').format(found.striptags(), found)
         note = text("note", shown, "note found")
         first = text("formula", title, "formula")
-        self.head.show([first, *controls, *filter(None, buttons), *close, key, note])
+        self.head.show([first, *controls, *buttons, *close, key, note])
 
     def _control(self, name: str) -> Part:
         """A choice above the plot, as a list, which needs less room than its options; or a number."""

@@ -46,7 +46,7 @@ def opened():
 
 def words(name):
     """What a person reads of an extra: buttons, titles, choices with their options, numbers, readouts."""
-    extra, path = EXTRAS[name], ROOT / f"app/extras/{name}.json"
+    extra, path = EXTRAS[name], ROOT / f"app/explorer/extras/{name}.json"
     data = json.loads(path.read_text(encoding="utf-8")) if path.exists() and name != "guide" else {}
     found = [extra.tab, *(part for plot in extra.plots for part in (plot.tab, plot.title))]
     found += [label for label, _, _ in extra.files]
@@ -56,7 +56,7 @@ def words(name):
     found += [choice["label"] for name, choice in choices.items() if "." in name]
     found += [drive.get("label", "") for drive in choices.get("drive", {}).get("options", {}).values()]
     page = opened()
-    buttons = extra.on_plots(page, PLOTS["force"], page.view), extra.header(page, page.view)
+    buttons = *extra.on_plots(page, PLOTS["force"], page.view), extra.header(page, page.view)
     found += [each.look.get("label") for each in buttons if each is not None]
     notes = extra.notes(page.view)
     found += re.findall("<summary>(.*?)</summary>", notes.pop("below", str)())

@@ -163,13 +163,13 @@ def _far(course: StructureCourse) -> float:
     return float(np.sqrt(limit.value / limit.bound))
 
 
-def e_over_h(page: Any, plot: Plot, view: View) -> Part | None:
+def e_over_h(page: Any, plot: Plot, view: View) -> list[Part]:
     """The button above the force that shows the restitution over the thickness of the plate."""
     thickness = "structure.thickness"
     if plot.name != "force" or "sweep" not in PLOTS or thickness not in numbers_of(view.state, "drive"):
-        return None
+        return []
     shown = {"tiles": ("sweep",), "sweep.swept": thickness, "sweep.against": "restitution"}
-    return button("e over h", lambda: page.apply(lambda state: state.replace(**shown)))
+    return [button("e over h", lambda: page.apply(lambda state: state.replace(**shown)))]
 
 
 EXTRA = Extra("structure", drives={"impact": OnStructure()}, notes=notes, on_plots=e_over_h)

@@ -330,12 +330,12 @@ SWEEP = SweepPlot(
 )  # fmt: skip
 
 
-def e_over_v(page: Any, plot: Plot, view: View) -> Part | None:
+def e_over_v(page: Any, plot: Plot, view: View) -> list[Part]:
     """The button above the force of an impact that shows the restitution over the speed."""
     if plot.name != "force" or view.state.drive != "impact":
-        return None
+        return []
     shown = {"tiles": ("sweep",), "sweep.swept": "speed", "sweep.against": "restitution"}
-    return button("e over v", lambda: page.apply(lambda state: state.replace(**shown)))
+    return [button("e over v", lambda: page.apply(lambda state: state.replace(**shown)))]
 
 
 EXTRA = Extra(

@@ -1,16 +1,46 @@
-"""The buttons *Save* of each plot and *Save plots*: pictures with titles, legends and the scene."""
+"""Buttons of each plot, *Large* and *Save*, and *Save plots*, with titles, legends and the scene."""
 
+from functools import partial
 from typing import Any
 
+from bokeh.models import Text
+
 from ...common.quantities import unicode_subscripts
+from ...common.ui import show
 from ..courses import Course
 from ..extra import Extra, Service
-from ..figures import drawn, in_legend
+from ..figures import Picture, drawn, in_legend
 from ..link import file_name, summary
 from ..plot import Plot, View, rows_of
 from ..plots import visible
 from ..state import State
-from ..widgets import Part
+from ..widgets import Part, button
+
+#: Letters of a large plot, over those of the page.
+_SCALE = 1.5
+
+
+def turned(state: State, name: str) -> State:
+    """With a plot large, or with none if it is large already."""
+    return state.replace(**{"large.plot": None if state["large.plot"] == name else name})
+
+
+def large_button(page: Any, plot: Plot, view: View) -> Part:
+    """The button *Large* of a plot."""
+    is_large = view.state["large.plot"] == plot.name
+    act = partial(page.apply, lambda state: turned(state, plot.name))
+    return button("Small" if is_large else "Large", act, pressed=is_large, key="escape")
+
+
+def set_letters(picture: Picture, scale: float) -> None:
+    """Make the letters of a plot so many times as large as on the page."""
+    title, tick = f"{12 * scale:g}px", f"{11 * scale:g}px"
+    picture.figure.min_border_left = round(48 * scale) + 12
+    for axis in picture.figure.axis:
+        axis.update(axis_label_text_font_size=title, major_label_text_font_size=tick)
+    for text in picture.figure.select(Text):
+        text.text_font_size = title
+
 
 #: Width and height of a picture in points, and where its plots are: left, top, width and height.
 _SIZE, _WHOLE = (840, 624), (0, 0, 840, 600)
@@ -21,15 +51,28 @@ _WITH_FOURTH = _PLACES | {"force": (640, 0, 640, 348)}
 _FOURTH = (640, 348, 640, 348)
 
 
-class Legends(Service):
-    """Legends and the scene of pictures that are saved, as of the last rest of a session."""
+class Cards(Service):
+    """Shows one plot large, with letters of that size; keeps legends and scene for saved pictures."""
 
     def __init__(self, page: Any):
         super().__init__(page)
+        # The scale of the letters of each plot, where it was set; and legends, as of the last rest.
+        self._set: dict[str, float] = {}
         self._legends: dict[str, Any] = {}
 
     def compute(self, state: State, course: Course) -> dict[str, Any]:
         return {"save": self._legends}
+
+    def show(self, view: View) -> None:
+        cards = {name: card for name, card in self.page.layout.cards.items() if card.picture.axes}
+        for name, card in cards.items():
+            is_large = name == view.state["large.plot"]
+            show(card.view, css_classes=["card", name, *["large"] * is_large])
+            scale = _SCALE if is_large else 1.0
+            if scale != self._set.get(name, 1.0):
+                self._set[name] = scale
+                set_letters(card.picture, scale)
+                card.picture.set_axes(card.picture.axes)
 
     def rest(self, view: View) -> None:
         self._legends["scene"] = summary(view.state)
@@ -51,7 +94,7 @@ def save(label: str, name: str, places: dict[str, Any], size: tuple[int, int], v
     return Part("save", label, look | {"plots": plots, "size": size})
 
 
-def of_plot(page: Any, plot: Plot, view: View) -> Part:
+def of_plot(plot: Plot, view: View) -> Part:
     return save("Save", plot.name, {plot.name: _WHOLE}, _SIZE, view)
 
 
@@ -62,4 +105,10 @@ def of_all(page: Any, view: View) -> Part:
     return save("Save plots", "plots", {name: known.get(name, _FOURTH) for name in names}, _SCREEN, view)
 
 
-EXTRA = Extra("save", order=32, on_plots=of_plot, header=of_all, service=Legends)
+def on_plot(page: Any, plot: Plot, view: View) -> list[Part]:
+    return [of_plot(plot, view), large_button(page, plot, view)]
+
+
+EXTRA = Extra(
+    "cards", order=32, values={"large.plot": None}, on_plots=on_plot, header=of_all, service=Cards
+)
