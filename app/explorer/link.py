@@ -170,7 +170,7 @@ def file_name(state: State, what: str) -> str:
 
     Examples
     --------
-    >>> from app.state import preset_state
+    >>> from app.explorer.state import preset_state
     >>> file_name(preset_state("berkovich-gold").replace(max_depth=5e-9), "curves.csv")
     'berkovich-gold_d_max=5nm_curves.csv'
     """
