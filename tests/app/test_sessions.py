@@ -11,6 +11,7 @@ from bokeh.util.token import get_session_id
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
+from ..benchmarks.page_sessions import ended
 from .conftest import Server
 from .test_safe import PROGRAM, get
 
@@ -44,12 +45,6 @@ async def socket(server, token):
     """A websocket with a token."""
     request = HTTPRequest(f"ws://127.0.0.1:{server.port}/app/ws")
     return await websocket_connect(request, subprotocols=["bokeh", token])
-
-
-async def ended(socket):
-    """Wait until a websocket is closed: before that its loop must not end."""
-    while await asyncio.wait_for(socket.read_message(), 60) is not None:
-        pass
 
 
 async def acknowledged(socket):

@@ -55,6 +55,12 @@ def dig(part, *keys):
     return part
 
 
+async def ended(socket):
+    """Wait until a websocket is closed, by an answer of the server: before that its loop must not end."""
+    while await asyncio.wait_for(socket.read_message(), 60) is not None:
+        pass
+
+
 class Visitor:
     """A person's browser as far as the server sees it, until the page is there."""
 
@@ -90,10 +96,9 @@ class Visitor:
         return self
 
     async def leave(self):
-        """Close the connection; it is closed when the server has answered."""
+        """Close the connection."""
         self.socket.close()
-        while await self.socket.read_message() is not None:
-            pass
+        await ended(self.socket)
 
     async def _send(self, kind, name, content, buffers=()):
         header = {"msgid": f"{id(self)}-{name}", "msgtype": kind}
