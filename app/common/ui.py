@@ -1,6 +1,7 @@
 """Style sheet, scripts, texts as HTML, and what server and browser tell each other."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -112,8 +113,19 @@ def show(part, **values):
         part.param.update(**news)
 
 
-def button(name: str, **options: Any) -> pn.widgets.Button:
-    return pn.widgets.Button(label=name, css_classes=["button"], **{"margin": 0} | options)
+def button(label: str, act: Callable[[], Any] | None = None, *classes: str, **options: Any) -> Any:
+    """A button that calls `act`."""
+    made = pn.widgets.Button(label=label, css_classes=["button", *classes], margin=0, **options)
+    if act is not None:
+        made.on_click(lambda event: act())
+    return made
+
+
+def download(label: str, callback: Callable[[], Any], **options: Any) -> Any:
+    """A button that saves a file."""
+    return pn.widgets.FileDownload(
+        label=label, callback=callback, auto=True, css_classes=["button"], margin=0, **options
+    )
 
 
 def field(kind: type, *classes: str, **options: Any) -> Any:

@@ -40,10 +40,10 @@ class Service:
 
 @dataclass(frozen=True, eq=False)
 class Extra:
-    """Something that plugs into the page: `EXTRA` of a file in `app/extras`, and what it brings.
+    """Something that plugs into the page: `EXTRA` of a file in `extras/`, and what it brings.
 
     Its numbers, choices, drives and readouts are in a JSON file of its name beside it, with the fields of
-    `Quantity`, `Choice`, `Option` and `Readout` in `app/quantities.py`; names of numbers and choices
+    `Quantity`, `Choice`, `Option` and `Readout` in `app/common/quantities.py`; names of numbers and choices
     begin with its own and a point. Presets, which it names as `assets/presets.json` does, may be there,
     too. A drive of the name of one of the page takes its place, and further lists of its options are
     added. A number is seen where a drive names it (`Option.uses`) or above a plot (`Plot.controls`), a

@@ -155,10 +155,8 @@ class Picture:
     def _ends(self, axis: Axis, k: int) -> tuple[float, float]:
         """Start and end of the axis of number k, in its unit."""
         start, end = axis.ends
-        html_subscripts = (
-            start == 0 and not axis.log and any(layer.kind == "marks" for layer in self.layers)
-        )
-        return (-self.margins[min(k, 1)] * end, end) if html_subscripts else (start, end)
+        at_zero = start == 0 and not axis.log and any(layer.kind == "marks" for layer in self.layers)
+        return (-self.margins[min(k, 1)] * end, end) if at_zero else (start, end)
 
     @property
     def zoomed(self) -> bool:

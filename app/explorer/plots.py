@@ -46,8 +46,8 @@ def _of_states(name: str) -> Callable[[Course], tuple[float, float]]:
         largest, lowest = np.max(values), np.min(values)
         largest = max(largest, -0.25 * lowest)
         # With dashpots it is not marked: it is that of slow loading.
-        html_subscripts = onset is not None and not course.dashpots
-        if html_subscripts and depth < onset.depth <= 2.5 * depth:
+        is_marked = onset is not None and not course.dashpots
+        if is_marked and depth < onset.depth <= 2.5 * depth:
             largest = max(largest, getattr(onset, name))
         return float(lowest) if course.adhesive else 0.0, 1.02 * float(largest)
 

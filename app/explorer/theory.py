@@ -28,7 +28,7 @@ _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
 
 def html():
     """The theory as HTML with KaTeX formulas and ids of sections and equations."""
-    parser, html_subscripts = MarkdownIt().enable("table"), set()
+    parser, numbered = MarkdownIt().enable("table"), set()
     # Its pictures are data, which it does not take for links otherwise.
     parser.validateLink = lambda _: True
     parser.use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)")
@@ -40,9 +40,9 @@ def html():
             token.attrSet("id", f"section-{number[0]}")
             in_body = True
         for first, last in _NAMED.findall(token.content) if in_body and not token.nesting else ():
-            new = set(range(int(first), int(last or first) + 1)) - html_subscripts
+            new = set(range(int(first), int(last or first) + 1)) - numbered
             parts += [f'<a id="eq-{n}"></a>' for n in sorted(new)]
-            html_subscripts |= new
+            numbered |= new
         if token.type == "fence" and token.info == "math":
             parts.append(f"<p>$${escape(token.content)}$$</p>")
         else:

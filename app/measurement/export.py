@@ -10,7 +10,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.measurements.fit.parameters import PARAMETERS
 
-from ..common import tables
+from ..common.files import csv_table
 from ..explorer import link
 from ..explorer.state import checked, preset_state
 from .choices import CORRECTIONS, NUMBERS, TIPS, slope_of
@@ -91,7 +91,7 @@ def as_csv(found: Any, told: dict[str, Any]) -> str:
     for name, each in told["numbers"].items():
         numbers = _float(each["value"]), _float(each["standard_error"])
         rows.append([name, each["long_name"], each["symbol"], *numbers, each["units"]])
-    return tables.as_csv(lines, rows)
+    return csv_table(lines, rows)
 
 
 def _float(value: Any) -> float | None:
@@ -116,7 +116,7 @@ def curves_csv(table: mdr.CurveTable) -> str:
     frame, head = table.to_pandas(), [f"{name}: {text}" for name, text in table.settings.items()]
     head += table.summary().to_csv(lineterminator="\n").splitlines()
     rows = ([*map(_cell, row)] for row in frame.itertuples(index=False))
-    return tables.as_csv(head, [[*frame.columns], *rows])
+    return csv_table(head, [[*frame.columns], *rows])
 
 
 def _cell(value: Any) -> Any:

@@ -7,10 +7,9 @@ from mdr_core.base.remark import Remedy
 from mdr_core.measurements.reading import SIZES
 from mdr_core.show.units import written
 
-from ..common.ui import call
+from ..common.ui import button, call
 from . import texts
 from .choices import CLASS_NAMES, FITTED, MEDIA, NUMBERS, OF_CLASS
-from .widgets import button
 
 #: What parts the curves of a table.
 _BY = {

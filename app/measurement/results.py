@@ -14,12 +14,12 @@ from markupsafe import Markup
 
 import mdr_core as mdr
 
-from ..common.ui import WIDE, call, html, show
+from ..common.ui import WIDE, button, call, download, html, show
 from . import export, texts
 from .choices import CLASS_NAMES, MEDIA, OF_CLASS, TIPS
 from .plots import AllCurves, Plots
 from .remedies import remedy_button
-from .widgets import ERROR, button, download, fold
+from .widgets import ERROR, fold
 
 _HERE = Path(__file__).parent
 _SLIDER = (_HERE / "slider.css").read_text(encoding="utf-8")

@@ -10,29 +10,14 @@ from markupsafe import Markup
 
 from mdr_core.show.units import UNITS, fitting
 
+from ..common.files import PART_BYTES, SESSION_BYTES, Uploads
 from ..common.ui import WIDE, html, html_subscripts, show
 from ..common.units import entry, read
-from ..common.upload import PART_BYTES, SESSION_BYTES, Uploads
 from .choices import Number
 
 #: A text that says why something was not taken.
 ERROR = Markup('<p class="refused" role="alert">{}</p>')
 _LABEL = Markup("<span><i>{}</i> {}</span>")
-
-
-def button(label: str, act: Callable[[], Any] | None = None, *classes: str, **options: Any) -> Any:
-    """Return a button that calls `act`."""
-    made = pn.widgets.Button(label=label, css_classes=["button", *classes], margin=0, **options)
-    if act is not None:
-        made.on_click(lambda event: act())
-    return made
-
-
-def download(label: str, callback: Callable[[], Any], **options: Any) -> Any:
-    """Return a button that saves a file."""
-    return pn.widgets.FileDownload(
-        label=label, callback=callback, auto=True, css_classes=["button"], margin=0, **options
-    )
 
 
 def select(label: str, options: Any, *classes: str) -> Any:

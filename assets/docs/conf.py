@@ -115,7 +115,7 @@ def link_pages(app, doctree):
 
 def save_scene(app, error):
     """Write the scene that stands on the first page."""
-    Path(app.outdir, "scene.html").write_text(scene_file(Page().shown), encoding="utf-8")
+    Path(app.outdir, "scene.html").write_text(scene_file(Page().view), encoding="utf-8")
 
 
 def write_explorer(app, error):

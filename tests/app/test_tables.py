@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app.common import tables
+from app.common.files import csv_table
 from app.explorer.extras import share
 from app.explorer.state import preset_state
 from app.measurement.analysis import Row
@@ -30,7 +30,7 @@ def test_no_cell_of_somebodys_text_is_a_formula(delimiter):
             for cell in row:
                 assert not cell.startswith(("=", "+", "-", "@", "\t")), cell
     # A number stays one.
-    assert tables.as_csv([], [[-1.5, "-1.5"]]) == "-1.5,'-1.5\n"
+    assert csv_table([], [[-1.5, "-1.5"]]) == "-1.5,'-1.5\n"
 
 
 def test_what_the_page_writes_is_read_back(tmp_path):
@@ -45,5 +45,5 @@ def test_what_the_page_writes_is_read_back(tmp_path):
     for name in NAMES:
         header = [f"made of {name}", "d (m), F (N)"]
         rows = zip(curve.depth.tolist(), curve.force.tolist(), strict=True)
-        path.write_text(tables.as_csv(header, [["depth (m)", "force (N)"], *rows]), encoding="utf-8")
+        path.write_text(csv_table(header, [["depth (m)", "force (N)"], *rows]), encoding="utf-8")
         assert np.array_equal(mdr.read_curve(path).force, curve.force)

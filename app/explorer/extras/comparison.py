@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -226,8 +227,8 @@ class Table:
     def __init__(self, apply: Callable[..., None]):
         self._rows, self._numbers = [], html("", "key")
         for k in range(len(DASHES)):
-            remove = widgets.button(f"Remove {k + 1}", width=76)
-            remove.on_click(lambda event, k=k: apply(lambda state: _without(state, k)))
+            act = partial(apply, partial(_without, k=k))
+            remove = widgets.button(f"Remove {k + 1}", act, width=76)
             self._rows.append(pn.Row(html("", "key"), remove, css_classes=["head"], visible=False, **WIDE))
         self.view = pn.Column(*self._rows, self._numbers, css_classes=["held"], **WIDE)
 

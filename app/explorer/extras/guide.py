@@ -62,11 +62,10 @@ class Guide:
         self._apply, self._shown, self.at, self._scene, self._text = apply, shown, -1, None, ""
         self._tours, self._going = tours(), False
         self.title = field(pn.widgets.Select, label="Guided scene", options=list(self._tours))
-        self.back, self.next = (button(name, width=70) for name in ("Back", "Next"))
+        self.back = button("Back", lambda: self.go(self.at - 1), width=70)
+        self.next = button("Next", lambda: self.go(self.at + 1), width=70)
         self.words = html(_INTRO, "step")
         self.title.param.watch(lambda event: self.go(0), "value")
-        self.back.on_click(lambda event: self.go(self.at - 1))
-        self.next.on_click(lambda event: self.go(self.at + 1))
         parts = self.title, tools(self.back, self.next), self.words, html(_HELP)
         self.view = pn.Column(*parts, css_classes=["guide"], **WIDE)
 

@@ -8,8 +8,8 @@ import panel as pn
 
 import mdr_core as mdr
 
-from ...common.tables import as_csv
-from ...common.ui import WIDE, call, field, html, show, tools
+from ...common.files import csv_table
+from ...common.ui import WIDE, button, call, download, field, html, show, tools
 from ..extra import EXTRAS, Extra
 from ..link import file_name, summary
 from ..plot import View
@@ -45,7 +45,7 @@ def _table(view: View, title: str, columns: dict[str, Any]) -> str:
     """Columns in SI, with the scene in a header."""
     head = f"mdr_core {mdr.__version__}: {title}\n{summary(view.state)}\n{view.course.scene.to_python()}"
     rows = zip(*(np.asarray(column, float).tolist() for column in columns.values()), strict=True)
-    return as_csv(head.splitlines(), [columns, *rows])
+    return csv_table(head.splitlines(), [columns, *rows])
 
 
 class Share:
@@ -58,14 +58,11 @@ class Share:
         self._note = html()
         #: Buttons by what is in their files.
         self._files = {
-            name: pn.widgets.FileDownload(
-                label=label, filename=name, callback=lambda write=write: StringIO(write(page.view)),
-                auto=True, css_classes=["button"], margin=0,
-            )
+            name: download(label, lambda write=write: StringIO(write(page.view)), filename=name)
             for extra in EXTRAS.values()
             for label, name, write in extra.files
-        }  # fmt: skip
-        copy = pn.widgets.Button(label="Copy link", css_classes=["button"], margin=0)
+        }
+        copy = button("Copy link")
         copy.js_on_click(args={"field": self.link}, code=call("copy", "field"))
         parts = self.link, self._note, tools(copy, *self._files.values()), self.python
         self.view = pn.Column(*parts, css_classes=["share"], **WIDE)
@@ -80,8 +77,8 @@ class Share:
         address, note = self.address()
         show(self.link, value=address)
         show(self._note, object=note)
-        for name, download in self._files.items():
-            show(download, filename=file_name(view.state, name))
+        for name, each in self._files.items():
+            show(each, filename=file_name(view.state, name))
         show(self.python, value=view.course.scene.to_python())
 
 
