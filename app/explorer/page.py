@@ -5,7 +5,7 @@ Four things are not Panel's usual way:
 - `Parts` draws all texts, buttons and fields: as 45 widgets the page opens 1.3 to 1.5 times as slowly.
 - Sources get whole columns in one hold, and send none back: a drag draws 25 pictures a second.
 - The browser plays all states from frames that are sent once: 38 pictures a second.
-- The state is frozen, and a change is a function of it: undo keeps 100 states, and a refused one has no trace.
+- The state is frozen, a change is a function of it: undo keeps 100 states, a refused one leaves no trace.
 """
 
 import logging
