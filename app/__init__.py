@@ -1,1 +1,1 @@
-"""Two served pages over `mdr_core`: the explorer, and one for measurements."""
+"""Served pages over `mdr_core`: the explorer, one for measurements, and the theory."""

@@ -8,12 +8,12 @@ from . import security
 from .common.ui import SHEETS
 from .explorer import theory
 from .explorer.page import Address, Page
-from .measurement import page as fit
+from .measurement import page as measurement
 
-#: Pages beside the explorer by the name that opens them, the first one that is there: what makes a page of
-#: the query, its title, style sheets and extensions of Panel.
+#: Pages beside the explorer by their names in the query, of which the first one wins. Each has its maker,
+#: its title, its style sheets, and its extensions of Panel.
 _PAGES = {
-    "fit": (fit.Measurement, "Measurement", ["app/static/fit.css"], ["filedropper"]),
+    "fit": (measurement.Measurement, "Measurement", ["app/static/fit.css"], ["filedropper"]),
     "theory": (theory.served, "Theory", [], ["katex"]),
 }
 _ADDRESS = Address.from_request(pn.state.curdoc.session_context.request)

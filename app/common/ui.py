@@ -1,4 +1,4 @@
-"""Style sheet, scripts, texts as HTML, and what server and browser tell each other."""
+"""Style sheets, scripts, texts as HTML, plain widgets, and what server and browser tell each other."""
 
 import re
 from collections.abc import Callable
@@ -22,7 +22,8 @@ LAYOUT = [(HERE / "static" / "layout.css").read_text(encoding="utf-8")]
 #: Linked by every component of Panel; components of Bokeh link them themselves.
 SHEETS = ["app/static/layout.css", "app/static/style.css"]
 WIDE = {"sizing_mode": "stretch_width", "margin": 0}
-FULL = {"sizing_mode": "stretch_both", "margin": 0, "stylesheets": LAYOUT}
+BOTH = {"sizing_mode": "stretch_both", "margin": 0}
+FULL = BOTH | {"stylesheets": LAYOUT}
 
 
 def call(name: str, *given: str) -> str:

@@ -1,6 +1,6 @@
 """The page in a browser by Pyodide, without a server: no threads, no processes, one document.
 
-Private ends of Panel and Pyodide are here alone, with what they gain.
+Private ends of Pyodide are here alone, with what they gain.
 """
 
 import asyncio

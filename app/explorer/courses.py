@@ -30,10 +30,11 @@ _ENERGIES = (
 class Course:
     """States of a scene along its path; every array has one value (SI) for each state.
 
-    `states` are an `mdr.Indentation`, or have the same quantities; `states[i]` is one state. `progress` is
-    0 at first contact, 1 at the largest depth, 2 at loss of contact and `LAST_PROGRESS` with the indenter
-    at the undeformed surface. `motion` has times and energies where the
-    path is one in time, and `hit` is the impact; else they are None. `turns` says whether the path may
+    `states` are an `mdr.Indentation`, or the `PathStates` of a path in time, which lack a few of its
+    quantities, such as the stiffness; `states[i]` is one state. `progress` is 0 at first contact, 1 at the
+    largest depth, 2 at loss of contact and `LAST_PROGRESS` with the indenter at the undeformed surface.
+    `motion` has times and energies where the path is one in time, and `hit` is the impact; else they are
+    None. `turns` says whether the path may
     reverse several times, `chained` whether elements have separate memories, which one live interval does
     not describe. `pending` describes the approximation used until the exact solution, `notes` are other
     sentences about the course. The index `now` of the present state and the key `drive` are set by

@@ -44,6 +44,10 @@ class Drive(ABC):
         """
         return slow(scene, progress, scene.solve())
 
+    def exact(self, scene: mdr.Scene) -> Course:
+        """States of a scene whose course of `follow` is pending, by the exact solution."""
+        raise NotImplementedError
+
     @abstractmethod
     def equivalent(self, state: State, turning_point: mdr.Indentation) -> dict[str, Any]:
         """Numbers of this drive that lead to the same largest depth."""

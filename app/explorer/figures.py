@@ -1,4 +1,4 @@
-"""Figures of the page: frames and rows of data that are filled again and again, scales, choices of maps."""
+"""Figures of the page: frames and rows of data that are filled again and again."""
 
 from itertools import chain
 from math import floor, log10

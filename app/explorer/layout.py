@@ -10,6 +10,7 @@ import numpy as np
 import panel as pn
 from markupsafe import Markup, escape
 
+from ..common.host import last
 from ..common.quantities import QUANTITIES
 from ..common.ui import FULL, LAYOUT, WIDE, as_html, html, html_subscripts, show
 from . import readouts
@@ -204,8 +205,7 @@ class Layout:
 
 def frames(view: View, pictures: list[Picture]) -> list[Any]:
     """Sources that move, the places of their rows in each state as texts, readouts, and times."""
-    *_, found = frames_in_steps(view, pictures)
-    return found
+    return last(frames_in_steps(view, pictures))
 
 
 def frames_in_steps(view: View, pictures: list[Picture]) -> Iterator[list[Any]]:

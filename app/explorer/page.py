@@ -2,7 +2,7 @@
 
 Four things are not Panel's usual way:
 
-- `Parts` draws all texts, buttons and fields: as 45 widgets the page opens 1.3 to 1.5 times as slowly.
+- `Parts` draws form, header and heads of cards: as 45 widgets the page opens 1.3 to 1.5 times as slowly.
 - Sources get whole columns in one hold, and send none back: a drag draws 25 pictures a second.
 - The browser plays all states from frames that are sent once: 38 pictures a second.
 - The state is frozen, a change is a function of it: undo keeps 100 states, a refused one leaves no trace.
@@ -140,7 +140,6 @@ class Page:
 
     def _kept_axes(self, state: State) -> dict[AxisSpec, Axis]:
         """Axes of the three plots that stay while something is dragged, unless drive or preset changes."""
-        self._kept = self.view is not None and self.messages.dragged
         if not self._kept or any(state[name] != self.state[name] for name in ("preset", "drive")):
             return {}
         return {along: self.view.axis(along) for name in NAMED for along in PLOTS[name].axes}
@@ -189,6 +188,8 @@ class Page:
             self.history = old.after(after, mark) if at < 0 else replace(old, at=at, mark="")
             if after != before or self.history is not old:
                 self.draw(after)
+            else:
+                self.refresh()
         except Exception as error:
             message = self.refusal(error, after)
             self.history = old
@@ -235,6 +236,7 @@ class Page:
         computed: dict[Any, Any] = {}
         for service in self.services:
             computed |= service.compute(state, course)
+        self._kept = self.view is not None and self.messages.dragged
         view = View(state, course, computed, self._kept_axes(state))
         columns = self.layout.columns(view)
         self.state, self.view = state, view

@@ -45,8 +45,8 @@ class Plot:
 
     `places` tells where rows are in a state: x and y (SI), and the text of a label. A plot with a `tab` is
     optional; `order` is its place among these. `applies` says whether a view has it. `controls` are names
-    of choices and numbers above it. `picture` draws it, if that is not a `Picture`; `logarithmic`
-    has one for axes with `log`, which `axes_of` returns.
+    of choices and numbers above it. `picture` draws it, if that is not a `Picture`, as
+    `Logarithmic` where `axes_of` returns axes with `log`.
     """
 
     name: str

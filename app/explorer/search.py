@@ -171,7 +171,7 @@ def _keep(course: Course) -> None:
 
 def exact(course: Course) -> Course:
     """The exact course of a pending one, in the same state."""
-    made = DRIVES[course.drive].in_time(course.scene)
+    made = DRIVES[course.drive].exact(course.scene)
     return replace(made, now=nearest(made.progress, course.progress[course.now]), drive=course.drive)
 
 

@@ -183,7 +183,7 @@ class Field:
         if not (self.refused or dragged):
             # Not the one that fits the number, in which it was shown meanwhile.
             self._unit = self._typed
-        self._page.refresh()
+            self._page.refresh()
 
     def _put(self, entered: str, state: State) -> State:
         value, self._typed = read(entered, self._known.kind, self._unit)

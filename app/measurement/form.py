@@ -1,4 +1,4 @@
-"""The left column: file, tip, sample and parameters. Its widgets are the state of the page."""
+"""The left column: file, tip, sample and parameters. Its widgets are a part of the state of the page."""
 
 from functools import partial
 from math import inf

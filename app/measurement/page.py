@@ -18,7 +18,7 @@ from ..common.errors import Refused
 from ..common.files import in_line
 from ..common.folders import Files
 from ..common.process import Here, Worker
-from ..common.ui import WIDE, call, html, landmarks, show
+from ..common.ui import BOTH, WIDE, call, html, landmarks, show
 from . import analysis, query
 from .actions import Actions
 from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, MEDIA, NUMBERS
@@ -26,7 +26,6 @@ from .form import Form
 from .results import Results
 from .widgets import ERROR
 
-_BOTH = {"sizing_mode": "stretch_both", "margin": 0}
 #: Roles and names of the parts of the page, by their classes.
 _LANDMARKS = {
     "fit-header": ("banner", "Measurement"),
@@ -40,7 +39,7 @@ _TOGETHER = 0.7
 
 
 class Measurement(Actions):
-    """The page. What is typed and chosen is in its widgets alone, and so in its link.
+    """The page. Tip, sample and numbers are in its widgets; file, range and options of the reader here.
 
     Its main actions are `take_file`, `read` and `fit`, each of which goes on with the next one.
     """
@@ -56,8 +55,8 @@ class Measurement(Actions):
         #: Columns and what parts curves, as the reader is given them; and for tables with known heads.
         self.options: dict[str, Any] = {}
         self._known: dict[Any, tuple[dict[str, Any], dict[str, float]]] = {}
-        #: The curve with the number of curves, samples of it without what is subtracted, and the question
-        #: about its file.
+        #: The curve with the number of curves, its samples thinned out and corrected for drift and frame,
+        #: and the question about its file.
         self.curve = self.taken = self.question = None
         self.count = 0
         #: The fit, Young's modulus of the sample and its error (Pa), and rows of all curves.
@@ -81,10 +80,10 @@ class Measurement(Actions):
         )
         self.address = pn.widgets.TextInput(visible=False)
         self.address.jscallback(value="history.replaceState(null, '', source.value)")
-        columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **_BOTH)
+        columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **BOTH)
         self.view = pn.Column(
             pn.Row(*header, self.address, css_classes=["fit-header"], **WIDE), columns,
-            css_classes=["fit-page"], **_BOTH,
+            css_classes=["fit-page"], **BOTH,
         )  # fmt: skip
         landmarks(self.document, _LANDMARKS, "found", "Skip to the result")
         # The address restores what was typed when the session is lost.
@@ -170,10 +169,15 @@ class Measurement(Actions):
         await self._take(example.name, example.read(), name)
 
     async def _take(self, name: str, data: bytes, example: str = "") -> None:
-        self.file, self._example, self.cancelled = name, example, False
-        self.curve, self.question, self.found, self.count, self.path = None, None, None, 0, ""
+        self._forget()
+        self.file, self._example = name, example
         self.path = self._files.keep(data, name)
         await self.read()
+
+    def _forget(self) -> None:
+        """Forget the file before."""
+        self.curve, self.question, self.found, self.count, self.path = None, None, None, 0, ""
+        self.cancelled = False
 
     def _take_together(self, name: str, data: bytes) -> None:
         """Read a file with those that were dropped before it, once no further one follows."""
@@ -181,7 +185,7 @@ class Measurement(Actions):
         if self._waiting:
             self._waiting()
         self._waiting = None
-        self.curve, self.question, self.found, self.count, self.path = None, None, None, 0, ""
+        self._forget()
         self._files.add(data, name)
         self.path = [*self._files.paths]
         self.file, self.busy = f"{len(self.path)} files", f"Taking {len(self.path)} files"
@@ -213,6 +217,11 @@ class Measurement(Actions):
         names = {each.what for each in remedies if each.action == "give"}
         return names | {"columns"} if self.question else names
 
+    @property
+    def _reading(self) -> dict[str, Any]:
+        """Options of the reader."""
+        return self.form.given(*CANTILEVER) | self.options
+
     async def read(self) -> None:
         """Read the curve of the file, and fit it; or ask what its columns are."""
         confirmed = self.question is not None
@@ -221,9 +230,8 @@ class Measurement(Actions):
         if not self.path:
             self.show()
             return
-        options = self.form.given(*CANTILEVER) | self.options
         number = self.results.number.value - 1
-        answer = await self.run(f"Reading {self.file}", analysis.read, self.path, options, number)
+        answer = await self.run(f"Reading {self.file}", analysis.read, self.path, self._reading, number)
         curve, self.count, question, self.unread = answer
         with self.setting():
             self.results.number.value = max(1, min(self.results.number.value, self.count))
@@ -293,6 +301,11 @@ class Measurement(Actions):
         count = len(self.curve)
         if self._samples and self._samples[0] < min(self._samples[1], count):
             return self._samples[0], min(self._samples[1], count)
+        return self._usual_ends
+
+    @property
+    def _usual_ends(self) -> tuple[int, int]:
+        """Those of the part that is fitted of the kind of sample."""
         return self._ends_of(MEDIA[self.form.medium.value].part if self.form.medium.value else "all")
 
     def _ends_of(self, part: str) -> tuple[int, int]:
@@ -335,8 +348,7 @@ class Measurement(Actions):
                 await self._fit_samples((first, last))
 
     async def _fit_samples(self, ends: tuple[int, int]) -> None:
-        self._samples = ()
-        self._samples = () if ends == self.ends else ends
+        self._samples = () if ends == self._usual_ends else ends
         await self.fit()
 
     async def fit(self) -> None:
@@ -357,11 +369,10 @@ class Measurement(Actions):
             return
         request = self.form.request(self.curve.time is not None, self.ends if self._samples else ())
         self.found = await self.run("Fitting", analysis.fit, self.curve, request)
-        self.E = self.form.modulus(self.found.quoted)
-        self.show()
+        await self.modulus_chosen()
 
     async def modulus_chosen(self) -> None:
-        """Show Young's modulus of the sample by other numbers."""
+        """Show Young's modulus of the sample by the numbers for it."""
         self.problem = self.E = None
         if self.found is not None:
             self.E = self.form.modulus(self.found.quoted)
@@ -377,12 +388,11 @@ class Measurement(Actions):
             self.results.show_headline()
             self.results.show_progress()
 
-        options = self.form.given(*CANTILEVER) | self.options
         request = self.form.request(True, self.ends if self._samples else ())
         # A job may take some time only, and others have their turn between two of them.
         for first in range(0, self.count, _CURVES):
             text, last = f"Fitting curve {first + 1} of {self.count}", min(first + _CURVES, self.count)
-            given = self.path, options, request, first, last
+            given = self.path, self._reading, request, first, last
             await self.run(text, analysis.fit_all, *given, part=one)
         self.show()
 

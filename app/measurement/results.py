@@ -14,7 +14,7 @@ from markupsafe import Markup
 
 import mdr_core as mdr
 
-from ..common.ui import WIDE, button, call, download, html, show
+from ..common.ui import BOTH, WIDE, button, call, download, html, show
 from . import export, texts
 from .choices import CLASS_NAMES, MEDIA, OF_CLASS, TIPS
 from .plots import AllCurves, Plots
@@ -25,7 +25,6 @@ _HERE = Path(__file__).parent
 _SLIDER = (_HERE / "slider.css").read_text(encoding="utf-8")
 #: Files that are dropped together are sent at once; a browser would send two every two seconds.
 _DROPS = "FilePond.setOptions({maxParallelUploads: 1000, itemInsertInterval: 0})"
-_BOTH = {"sizing_mode": "stretch_both", "margin": 0}
 _PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
 _REMARK = Markup("<p>{}</p>")
 _EXPLORER = Markup('<a href="?{}">Model of this curve in the explorer</a>')
@@ -59,13 +58,13 @@ class Results:
         shade = CustomJS(args=looks, code=call("shade", "looks"))
         for code in (shade, CustomJS(code=call("name_handles")), CustomJS(code=_DROPS)):
             page.document.js_on_event(DocumentReady, code)
-        panes = (pn.pane.Bokeh(each, **_BOTH) for each in (self.plots.force, self.plots.residual))
-        self.figures = pn.Column(*panes, css_classes=["plots-of-fit"], visible=False, **_BOTH)
+        panes = (pn.pane.Bokeh(each, **BOTH) for each in (self.plots.force, self.plots.residual))
+        self.figures = pn.Column(*panes, css_classes=["plots-of-fit"], visible=False, **BOTH)
         words = self.above, self.headline, self.below, self.errors, self.saved, self.cancel
         top = pn.Row(pn.Column(*words, **WIDE), self.aside, css_classes=["top-of-found"], **WIDE)
         folds = pn.Row(*self.folds, css_classes=["folds"], **WIDE)
         parts = top, self.why, folds, self.several, self.range, self.figures
-        self.view = pn.Column(*parts, css_classes=["found"], **_BOTH)
+        self.view = pn.Column(*parts, css_classes=["found"], **BOTH)
 
     # The parts.
 

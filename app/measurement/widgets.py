@@ -1,4 +1,4 @@
-"""Widgets of the page: a number with its unit, a field for a file, buttons, lists and folds."""
+"""Widgets of the page: a number with its unit, a field for a file, lists and folds."""
 
 from collections.abc import Callable
 from typing import Any, ClassVar
@@ -11,7 +11,7 @@ from markupsafe import Markup
 from mdr_core.show.units import UNITS, fitting
 
 from ..common.files import PART_BYTES, SESSION_BYTES, Uploads
-from ..common.ui import WIDE, html, html_subscripts, show
+from ..common.ui import WIDE, field, html, html_subscripts, show
 from ..common.units import entry, read
 from .choices import Number
 
@@ -22,7 +22,7 @@ _LABEL = Markup("<span><i>{}</i> {}</span>")
 
 def select(label: str, options: Any, *classes: str) -> Any:
     """Return a list to choose from."""
-    return pn.widgets.Select(label=label, options=options, css_classes=["choice", *classes], **WIDE)
+    return field(pn.widgets.Select, *classes, label=label, options=options)
 
 
 def fold(title: str, *parts: Any, **options: Any) -> Any:

@@ -79,7 +79,7 @@ class Oblique(Impact):
         course = _course(scene, normal, motion)
         return replace(course, pending="Computing friction; drawn so far to three digits.")
 
-    def in_time(self, scene):
+    def exact(self, scene):
         """States from the core's solution, with elements thinned out for drawing."""
         hit = scene.solve()
         motion = oblique_motion(hit, motion_of(hit.normal, INSTANTS, BEFORE_YIELD), _HALVINGS)
