@@ -57,8 +57,7 @@ class Measurement(Actions):
         self._known: dict[Any, tuple[dict[str, Any], dict[str, float]]] = {}
         #: The curve with the number of curves, its samples thinned out and corrected for drift and frame,
         #: and the question about its file.
-        self.curve = self.taken = self.question = None
-        self.count = 0
+        self.curve, self.count, self.taken, self.question = None, 0, None, None
         #: The fit, Young's modulus of the sample and its error (Pa), and rows of all curves.
         self.found = self.E = None
         self.rows: list[analysis.Row] = []
@@ -67,8 +66,7 @@ class Measurement(Actions):
         #: Whether the user has stopped what ran: the next change begins it again.
         self.cancelled = False
         # Samples that are fitted, () for those of the kind of sample, which was the last one.
-        self._samples: tuple[int, ...] = ()
-        self._medium = ""
+        self._samples, self._medium = (), ""
         self.form, self.results = Form(self), Results(self)
         self._view()
         self._open(query.read(link))
@@ -148,8 +146,7 @@ class Measurement(Actions):
 
     async def take_file(self, name: str, data: bytes, began: float) -> None:
         """Read a file that was dropped, or a set. Tip and sample stay, unless they were an example's."""
-        now = monotonic()
-        together, self._taken_at = began < self._taken_at + _TOGETHER, now
+        together, self._taken_at = began < self._taken_at + _TOGETHER, monotonic()
         if together:
             self._take_together(name, data)
             return
@@ -301,11 +298,6 @@ class Measurement(Actions):
         count = len(self.curve)
         if self._samples and self._samples[0] < min(self._samples[1], count):
             return self._samples[0], min(self._samples[1], count)
-        return self._usual_ends
-
-    @property
-    def _usual_ends(self) -> tuple[int, int]:
-        """Those of the part that is fitted of the kind of sample."""
         return self._ends_of(MEDIA[self.form.medium.value].part if self.form.medium.value else "all")
 
     def _ends_of(self, part: str) -> tuple[int, int]:
@@ -314,8 +306,9 @@ class Measurement(Actions):
     @property
     def part(self) -> str | None:
         """Which part of the curve is fitted: "all", "loading", "unloading", or None."""
-        parts = "all", "loading", "unloading"
-        return next((part for part in parts if self._ends_of(part) == self.ends), None)
+        return next(
+            (part for part in ("all", "loading", "unloading") if self._ends_of(part) == self.ends), None
+        )
 
     def _set_medium(self, name: str) -> None:
         self.form.set_medium(name)
@@ -348,7 +341,9 @@ class Measurement(Actions):
                 await self._fit_samples((first, last))
 
     async def _fit_samples(self, ends: tuple[int, int]) -> None:
-        self._samples = () if ends == self._usual_ends else ends
+        # The usual ends are those without a choice.
+        self._samples = ()
+        self._samples = () if ends == self.ends else ends
         await self.fit()
 
     async def fit(self) -> None:
