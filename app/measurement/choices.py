@@ -50,6 +50,8 @@ FITTED = {
 }
 #: What needs the times of the samples.
 IN_TIME = ("drift", *(name for name, each in PARAMETERS.items() if each.in_time))
+#: Parts of a curve, by their labels.
+PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
 
 
 class Tip(NamedTuple):

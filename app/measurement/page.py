@@ -21,7 +21,7 @@ from ..common.process import Here, Worker
 from ..common.ui import BOTH, WIDE, call, html, landmarks, show
 from . import analysis, query
 from .actions import Actions
-from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, MEDIA, NUMBERS
+from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, MEDIA, NUMBERS, PARTS
 from .form import Form
 from .results import Results
 from .widgets import ERROR
@@ -55,8 +55,7 @@ class Measurement(Actions):
         #: Columns and what parts curves, as the reader is given them; and for tables with known heads.
         self.options: dict[str, Any] = {}
         self._known: dict[Any, tuple[dict[str, Any], dict[str, float]]] = {}
-        #: The curve with the number of curves, its samples thinned out and corrected for drift and frame,
-        #: and the question about its file.
+        #: The curve, the number of curves, its samples that are fitted, and the question about its file.
         self.curve, self.count, self.taken, self.question = None, 0, None, None
         #: The fit, Young's modulus of the sample and its error (Pa), and rows of all curves.
         self.found = self.E = None
@@ -210,8 +209,7 @@ class Measurement(Actions):
     def wanted(self) -> set[str]:
         """Names of what the reader of the file asks for."""
         asked = (self.problem if self.curve is None else None), self.deflection
-        remedies = [each for one in asked if one for each in one.remedy]
-        names = {each.what for each in remedies if each.action == "give"}
+        names = {each.what for one in asked if one for each in one.remedy if each.action == "give"}
         return names | {"columns"} if self.question else names
 
     @property
@@ -306,9 +304,7 @@ class Measurement(Actions):
     @property
     def part(self) -> str | None:
         """Which part of the curve is fitted: "all", "loading", "unloading", or None."""
-        return next(
-            (part for part in ("all", "loading", "unloading") if self._ends_of(part) == self.ends), None
-        )
+        return next((part for part in PARTS.values() if self._ends_of(part) == self.ends), None)
 
     def _set_medium(self, name: str) -> None:
         self.form.set_medium(name)

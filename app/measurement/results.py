@@ -16,7 +16,7 @@ import mdr_core as mdr
 
 from ..common.ui import BOTH, WIDE, button, call, download, html, show
 from . import export, texts
-from .choices import CLASS_NAMES, MEDIA, OF_CLASS, TIPS
+from .choices import CLASS_NAMES, MEDIA, OF_CLASS, PARTS, TIPS
 from .plots import AllCurves, Plots
 from .remedies import remedy_button
 from .widgets import ERROR, fold
@@ -25,7 +25,6 @@ _HERE = Path(__file__).parent
 _SLIDER = (_HERE / "slider.css").read_text(encoding="utf-8")
 #: Files that are dropped together are sent at once; a browser would send two every two seconds.
 _DROPS = "FilePond.setOptions({maxParallelUploads: 1000, itemInsertInterval: 0})"
-_PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
 _REMARK = Markup("<p>{}</p>")
 _EXPLORER = Markup('<a href="?{}">Model of this curve in the explorer</a>')
 
@@ -85,7 +84,7 @@ class Results:
     def _range(self) -> None:
         page = self._page
         self.part = pn.widgets.RadioButtonGroup(
-            options=_PARTS, value="all", css_classes=["parts-of-curve"], margin=0, width=220
+            options=PARTS, value="all", css_classes=["parts-of-curve"], margin=0, width=220
         )
         self.part.param.watch(page.when_changed(lambda: page.part_chosen(self.part.value)), "value")
         self.ends = pn.widgets.IntRangeSlider(
