@@ -7,13 +7,13 @@ import numpy as np
 import panel as pn
 
 import mdr_core as mdr
+from mdr_core.show.csv_text import csv_text
 
 from ..extra import EXTRAS, Extra
 from ..plot import View
 from ..readouts import readings
 from ..shared.summary import file_name, summary
 from ..shared.widgets import field, tools
-from ..tables import as_csv
 from ..ui import JS, WIDE, html, show
 
 
@@ -46,7 +46,7 @@ def _table(view: View, title: str, columns: dict[str, Any]) -> str:
     """Columns in SI, with the scene in a header."""
     head = f"mdr_core {mdr.__version__}: {title}\n{summary(view.state)}\n{view.course.scene.to_python()}"
     rows = zip(*(np.asarray(column, float).tolist() for column in columns.values()), strict=True)
-    return as_csv(head.splitlines(), [columns, *rows])
+    return csv_text(head.splitlines(), [columns, *rows])
 
 
 class Share:

@@ -1,23 +1,25 @@
-"""Tables as CSV, as spreadsheets and the reader of `mdr_core` open them."""
+"""Tables as CSV, as spreadsheets and `read_curves` open them."""
 
 import csv
 import re
 from collections.abc import Iterable
 from io import StringIO
+from typing import Any
 
 #: Beginnings of a cell that a spreadsheet takes for a formula, also where it parts cells at ";".
 _FORMULA = re.compile(r"(^|[;\t])(?=[=+\-@\t\r])")
 
 
-def as_csv(header: Iterable[str], rows: Iterable[Iterable[str | float | None]]) -> str:
+def csv_text(header: Iterable[str], rows: Iterable[Iterable[str | float | None]]) -> str:
     """A table below lines of a header, which begin with "# ".
 
-    Numbers have all digits, and None is an empty cell. A text that a spreadsheet would take for a formula,
-    as the name of a file "=1+1.csv", has an apostrophe in front; so has one behind a comma of the header.
+    Numbers have all digits, and None and NaN are empty cells. A text that a spreadsheet would take for a
+    formula, as the name of a file "=1+1.csv", has an apostrophe in front; so has one behind a comma of the
+    header.
 
     Examples
     --------
-    >>> print(as_csv(["curves of a,=1+1.csv"], [["name", "E* (Pa)"], ["=1+1", -2.0]]), end="")
+    >>> print(csv_text(["curves of a,=1+1.csv"], [["name", "E* (Pa)"], ["=1+1", -2.0]]), end="")
     # curves of a,'=1+1.csv
     name,E* (Pa)
     '=1+1,-2.0
@@ -32,7 +34,12 @@ def as_csv(header: Iterable[str], rows: Iterable[Iterable[str | float | None]]) 
     return text.getvalue()
 
 
-def _cell(value: str | float | None) -> str:
-    if value is None:
+def safe_cell(value: Any) -> Any:
+    """A text that no spreadsheet takes for a formula; anything else as it is."""
+    return _FORMULA.sub(r"\1'", value) if isinstance(value, str) else value
+
+
+def _cell(value):
+    if value is None or value != value:
         return ""
-    return _FORMULA.sub(r"\1'", value) if isinstance(value, str) else repr(value)
+    return safe_cell(value) if isinstance(value, str) else repr(value)
