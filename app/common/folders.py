@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 from .errors import Refused
-from .files import SESSION_BYTES, SET_FILES
+from .upload import SESSION_BYTES, SET_FILES
 
 try:
     import fcntl

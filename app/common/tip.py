@@ -10,7 +10,7 @@ from mdr_core.measurements.files.tips import samples_of
 from mdr_core.show.units import written
 from mdr_core.solver.profiles.sampled import tip_through
 
-from .files import MAX_SAMPLES, in_line
+from .upload import MAX_SAMPLES, in_line
 
 #: Most samples that a tip is fitted to, and most rows of a file.
 _FITTED, _MAX_ROWS = 2000, 20_000

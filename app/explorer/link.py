@@ -6,9 +6,9 @@ from math import isfinite
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from ..common.files import MAX_SAMPLES
 from ..common.quantities import CHOICES, QUANTITIES
 from ..common.units import in_full
+from ..common.upload import MAX_SAMPLES
 from .changes import equivalent, put
 from .courses import LAST_PROGRESS
 from .state import (

@@ -12,12 +12,12 @@ from markupsafe import Markup
 
 from mdr_core.show.units import UNITS, Unit, fitting, written
 
-from ..common.files import TIP_BYTES, Uploaded, in_line
 from ..common.folders import Files
 from ..common.process import Here, Refused, Replaced, Worker, queue_text
 from ..common.quantities import CHOICES, QUANTITIES, Quantity
 from ..common.ui import JS, LAYOUT, WIDE, as_html, html_subscripts, linked, show, symbol
 from ..common.units import entry, read
+from ..common.upload import TIP_BYTES, Uploaded, in_line
 from . import changes
 from .changes import option, options
 from .plot import View

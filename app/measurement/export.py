@@ -1,7 +1,7 @@
 """A fit as a file, JSON with its samples or CSV of its numbers, in SI; and its scene in the explorer."""
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from math import floor, log10
 from typing import Any
 
@@ -9,8 +9,8 @@ import numpy as np
 
 import mdr_core as mdr
 from mdr_core.measurements.fit.parameters import PARAMETERS
+from mdr_core.show.csv_text import csv_text
 
-from ..common.files import csv_table
 from ..explorer import link
 from ..explorer.state import checked, preset_state
 from .choices import CORRECTIONS, NUMBERS, TIPS, slope_of
@@ -91,7 +91,7 @@ def as_csv(found: Any, told: dict[str, Any]) -> str:
     for name, each in told["numbers"].items():
         numbers = _float(each["value"]), _float(each["standard_error"])
         rows.append([name, each["long_name"], each["symbol"], *numbers, each["units"]])
-    return csv_table(lines, rows)
+    return csv_text(lines, rows)
 
 
 def _float(value: Any) -> float | None:
@@ -108,19 +108,10 @@ def table_of(rows: list[Any], settings: dict[str, str], moduli: tuple[Any, Any] 
         quoted=[row.source for row in rows], reason=[row.reason for row in rows],
         remarks=[""] * len(rows), results=[],
     )  # fmt: skip
-    return table.sample_modulus(*moduli) if moduli else table
-
-
-def curves_csv(table: mdr.CurveTable) -> str:
-    """Return a table as CSV below its settings and its summary."""
-    frame, head = table.to_pandas(), [f"{name}: {text}" for name, text in table.settings.items()]
-    head += table.summary().to_csv(lineterminator="\n").splitlines()
-    rows = ([*map(_cell, row)] for row in frame.itertuples(index=False))
-    return csv_table(head, [[*frame.columns], *rows])
-
-
-def _cell(value: Any) -> Any:
-    return None if isinstance(value, float) and np.isnan(value) else value
+    try:
+        return table.sample_modulus(*moduli) if moduli else table
+    except ValueError as error:
+        return replace(table, settings=settings | {"sample": f"no E: {error}"})
 
 
 def rounded(value: float, error: float | None) -> float:

@@ -12,10 +12,10 @@ from mdr_core.measurements.reading import SIZES
 from mdr_core.show.units import written
 
 from ..common.errors import Refused
-from ..common.files import CURVE_BYTES, TIP_BYTES, Uploads, in_line
 from ..common.folders import Files
 from ..common.process import Here, Worker
 from ..common.ui import WIDE, button, html, show
+from ..common.upload import CURVE_BYTES, TIP_BYTES, Uploads, in_line
 from . import texts
 from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, IN_TIME, MEDIA, MODULI, NUMBERS, TIPS
 from .widgets import ERROR, FileField, UnitInput, fold, select, show_errors

@@ -15,10 +15,10 @@ from markupsafe import Markup
 from mdr_core.base.remark import Remark
 
 from ..common.errors import Refused
-from ..common.files import in_line
 from ..common.folders import Files
 from ..common.process import Here, Worker
 from ..common.ui import BOTH, WIDE, call, html, landmarks, show
+from ..common.upload import in_line
 from . import analysis, query
 from .actions import Actions
 from .choices import CANTILEVER, CORRECTIONS, EXAMPLES, FITTED, MEDIA, NUMBERS, PARTS

@@ -8,7 +8,7 @@ from urllib.parse import parse_qsl, urlencode
 
 from mdr_core.measurements.reading import WORDS
 
-from ..common.files import in_line
+from ..common.upload import in_line
 from .choices import FITTED, MEDIA, NUMBERS, TIPS
 
 #: Most characters of a link that is read, and most parts of a table in it.

@@ -106,9 +106,7 @@ class Results:
         self.all = button("Fit all", partial(page.do, page.fit_all))
         self.progress = pn.indicators.Progress(value=0, max=1, visible=False, margin=0, width=220)
         self.summary, self.list = html("", "note"), html("", "curves", visible=False)
-        csv = download(
-            "All as CSV", lambda: StringIO(export.curves_csv(self._table())), filename="curves.csv"
-        )
+        csv = download("All as CSV", self._csv, filename="curves.csv")
         excel = download("All as Excel", self._excel, filename="curves.xlsx")
         # A static page has no package that writes Excel files.
         excel.visible = find_spec("openpyxl") is not None
@@ -127,6 +125,12 @@ class Results:
         if page.unread:
             settings["files not read"] = "; ".join(page.unread)
         return export.table_of(page.rows, settings, page.form.materials())
+
+    def _csv(self) -> StringIO:
+        file = StringIO()
+        self._table().to_csv(file)
+        file.seek(0)
+        return file
 
     def _excel(self) -> BytesIO:
         file = BytesIO()
@@ -286,9 +290,10 @@ class Results:
         page = self._page
         running = bool(page.busy) and bool(page.rows)
         show(self.progress, visible=running, max=max(page.count, 1), value=len(page.rows))
-        young = self._table().E if page.rows and page.form.materials() else None
-        found = [] if young is None else young.tolist()
-        show(self.summary, object=texts.curves_summary(page.rows, page.count, found))
+        text = f"{len(page.rows)} of {page.count} curves fitted" if page.rows else ""
+        if page.rows and not running:
+            text = texts.curves_summary(text, self._table())
+        show(self.summary, object=text)
 
     def fill(self, column: Any, remarks: Any, form: Markup = _REMARK) -> None:
         """Show remarks below each other, each with buttons for what one can do about it."""

@@ -174,24 +174,18 @@ def _found(value: float | None, error: float | None) -> str:
     return "–" if value is None else amount(value, error, "Pa")
 
 
-def curves_summary(rows: list[Any], count: int, young: list[float]) -> str:
-    """Return how many curves are fitted, mean and standard deviation of E*, H and E, and the medians.
-
-    `young` are Young's moduli (Pa) of the sample, NaN for a curve without one.
-    """
-    if not rows:
-        return ""
-    parts = [f"{len(rows)} of {count} curves fitted"]
-    columns = {"E*": [row.E for row in rows], "E": young, "H": [row.H for row in rows]}
-    for symbol, values in columns.items():
-        found = [value for value in values if value is not None and np.isfinite(value)]
-        if found:
-            mean = amount(
-                float(np.mean(found)), float(np.std(found, ddof=1)) if len(found) > 1 else None, "Pa"
+def curves_summary(count: str, table: Any) -> str:
+    """Return how many curves are fitted, mean and standard deviation of E*, E and H, and the medians."""
+    parts, summary = [count], table.summary().to_dict("index")
+    for name, symbol in {"E*": "E*", "E": "E", "hardness": "H"}.items():
+        if known := summary.get(name):
+            deviation = known["standard deviation"]
+            mean = amount(known["mean"], deviation if np.isfinite(deviation) else None, "Pa")
+            text = (
+                f"mean ± standard deviation of {known['n']:g}, median {amount(known['median'], None, 'Pa')}"
             )
-            median = amount(float(np.median(found)), None, "Pa")
-            parts.append(f"{symbol} = {mean}, mean ± standard deviation of {len(found)}, median {median}")
-    lost = sum(row.E is None for row in rows)
+            parts.append(f"{symbol} = {mean}, {text}")
+    lost = int(np.isnan(table.E_star).sum())
     return "; ".join((*parts, f"{lost} without a number to quote")) + "."
 
 

@@ -10,9 +10,9 @@ from markupsafe import Markup
 
 from mdr_core.show.units import UNITS, fitting
 
-from ..common.files import PART_BYTES, SESSION_BYTES, Uploads
 from ..common.ui import WIDE, field, html, html_subscripts, show
 from ..common.units import entry, read
+from ..common.upload import PART_BYTES, SESSION_BYTES, Uploads
 from .choices import Number
 
 #: A text that says why something was not taken.

@@ -169,11 +169,11 @@ def read_curves(
     >>> print(len(curves), round(curves[1].force.max(), 9))
     2 0.004
     """
-    given = {}
-    if spring_constant is not None:
-        given["spring constant"] = check.positive_number("spring_constant", spring_constant, unit="N/m")
-    if sensitivity is not None:
-        given["sensitivity"] = check.positive_number("sensitivity", sensitivity, unit="m/V")
+    given = {"spring_constant": (spring_constant, "N/m"), "sensitivity": (sensitivity, "m/V")}
+    given = {
+        name: None if value is None else check.positive_number(name, value, unit=unit)
+        for name, (value, unit) in given.items()
+    }
     options = {"columns": columns or None, "by": by, "given": given}
     found = set_of(path, _of_path, _of_text)
     if found is None:
@@ -191,7 +191,7 @@ def _of_path(path, options):
     with path.open("rb"):
         pass
     if is_workbook(path):
-        return MeasuredCurves(path.name, None, from_workbook(path, _in_words(options)))
+        return MeasuredCurves(path.name, None, from_workbook(path, options))
     if path.suffix.lower().startswith(SUFFIXES):
         if options["columns"] or options["by"] is not None:
             raise MeasurementError(
@@ -205,14 +205,12 @@ def _of_text(name, data, options, path=None):
     """`MeasuredCurves` of the bytes of a text, of a file that an AFM may have written if it has a path."""
     refuse_binary(Path(name), data)
     text, given = decoded(data), options["given"]
-    of_nova = name.lower().endswith(".txt") and len(given) == 2 and not re.search("[A-Za-z]", text[:1000])
+    of_nova = (
+        name.lower().endswith(".txt")
+        and None not in given.values()
+        and not re.search("[A-Za-z]", text[:1000])
+    )
     told = options["columns"] or options["by"] is not None
     if path is not None and not told and (of_nova or is_afm_text(text)):
         return from_afm(path, given)
-    return MeasuredCurves(name, None, curves_of_text(text, name, _in_words(options)))
-
-
-def _in_words(options):
-    """Options with the constants of a cantilever by the names of arguments."""
-    constants = {name.replace(" ", "_"): value for name, value in options["given"].items()}
-    return options | {"given": dict.fromkeys(("spring_constant", "sensitivity")) | constants}
+    return MeasuredCurves(name, None, curves_of_text(text, name, options))

@@ -5,8 +5,8 @@ import re
 import numpy as np
 import pytest
 
-from app.common.files import TIP_BYTES, Uploaded
 from app.common.quantities import ASSETS
+from app.common.upload import TIP_BYTES, Uploaded
 from app.explorer.page import Page
 
 from .states import part, table

@@ -241,6 +241,20 @@ def test_a_set_asks_once_and_a_zip_is_one_too():
         assert [row.E for row in page.rows] == approx([GLASS.E_star] * 3, rel=1e-3)
 
 
+@pytest.mark.parametrize("tip_modulus", [60e9, 20e9])
+def test_a_set_is_fitted_and_saved_under_a_tip_that_is_softer_than_its_samples(tip_modulus):
+    """Softer than some of them, or than all."""
+    page = page_of()
+    choose(page, tip="berkovich", medium="constant")
+    take_set(page, {f"{k}.csv": curve_file(mdr.Medium(k * 20e9, hardness=14e9)) for k in (2, 4, 5)})
+    choose(page, poisson=0.2, tip_modulus=tip_modulus)
+    press(page.results.all)
+    assert [row.E for row in page.rows] == approx([40e9, 80e9, 100e9], rel=1e-3)
+    assert "3 of 3 curves fitted" in page.results.summary.object
+    csv_file, _ = (each.callback() for each in page.results.curves_files)
+    assert "softer than the contact of 2 of 3" in csv_file.read() or tip_modulus < 40e9
+
+
 def test_a_set_has_bounds(monkeypatch):
     monkeypatch.setattr(folders, "SET_FILES", 2)
     page = page_of()
@@ -816,7 +830,7 @@ def test_all_curves_of_a_file_are_fitted_and_a_dead_one_says_why():
     assert len(plain(rows[0][3])) > 20
     csv_file, excel_file = (each.callback() for each in page.results.curves_files)
     table = pandas.read_csv(csv_file, comment="#")
-    assert table["E_star"].tolist() == approx([*values[:1], np.nan, *values[2:]], rel=1e-12, nan_ok=True)
+    assert table["E* (Pa)"].tolist() == approx([*values[:1], np.nan, *values[2:]], rel=1e-12, nan_ok=True)
     cells = pandas.read_excel(excel_file, header=None).to_numpy().ravel().tolist()
     # A workbook keeps 15 digits.
     assert any(isinstance(each, float) and each == approx(values[2], rel=1e-14) for each in cells)

@@ -8,9 +8,9 @@ import pytest
 from scipy.integrate import trapezoid
 
 import mdr_core as mdr
-from app.common.files import MAX_SAMPLES
 from app.common.quantities import CHOICES, QUANTITIES
 from app.common.tip import read_tip
+from app.common.upload import MAX_SAMPLES
 from app.explorer import changes, link
 from app.explorer.drives import DRIVES, follow, scene_of, turning_point
 from app.explorer.extras import share

@@ -1,16 +1,17 @@
 """Files of the page as a spreadsheet and the project's own reader open them."""
 
 import csv
+from io import StringIO
 
 import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app.common.files import csv_table
 from app.explorer.extras import share
 from app.explorer.state import preset_state
 from app.measurement.analysis import Row
-from app.measurement.export import curves_csv, table_of
+from app.measurement.export import table_of
+from mdr_core.show.csv_text import csv_text
 
 from .states import view_of
 
@@ -25,12 +26,14 @@ NAMES = (
 def test_no_cell_of_somebodys_text_is_a_formula(delimiter):
     for name in NAMES:
         rows = [Row("1", name, E=1e9, E_error=2e7), Row("2", name, reason=f"{name}: no contact")]
-        text = curves_csv(table_of(rows, {"file": name}, None))
+        file = StringIO()
+        table_of(rows, {"file": name}, None).to_csv(file)
+        text = file.getvalue()
         for row in csv.reader(text.splitlines(), delimiter=delimiter):
             for cell in row:
                 assert not cell.startswith(("=", "+", "-", "@", "\t")), cell
     # A number stays one.
-    assert csv_table([], [[-1.5, "-1.5"]]) == "-1.5,'-1.5\n"
+    assert csv_text([], [[-1.5, "-1.5"]]) == "-1.5,'-1.5\n"
 
 
 def test_what_the_page_writes_is_read_back(tmp_path):
@@ -45,5 +48,5 @@ def test_what_the_page_writes_is_read_back(tmp_path):
     for name in NAMES:
         header = [f"made of {name}", "d (m), F (N)"]
         rows = zip(curve.depth.tolist(), curve.force.tolist(), strict=True)
-        path.write_text(csv_table(header, [["depth (m)", "force (N)"], *rows]), encoding="utf-8")
+        path.write_text(csv_text(header, [["depth (m)", "force (N)"], *rows]), encoding="utf-8")
         assert np.array_equal(mdr.read_curve(path).force, curve.force)

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from app.common.files import CURVE_BYTES, PART_BYTES, SESSION_BYTES, TIP_BYTES, Uploads
+from app.common.upload import CURVE_BYTES, PART_BYTES, SESSION_BYTES, TIP_BYTES, Uploads
 from app.measurement.widgets import FileField
 
 from .conftest import ROOT, deployed

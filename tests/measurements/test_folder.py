@@ -1,6 +1,7 @@
 """Sets of files: a folder, a list, a pattern, a zip; one table of their curves."""
 
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -209,9 +210,22 @@ def test_a_table_says_what_is_missing_and_what_is_doubted(files, tmp_path):
     assert "# remark units: 3 of 3 curves" in (tmp_path / "soft.csv").read_text(encoding="utf-8")
 
 
+def test_a_curve_that_is_stiffer_than_the_tip_has_no_modulus_of_the_sample():
+    table = mdr.oliver_pharr(TIP, curves())
+    low, middle, _ = table.E_star
+    tip = (low + middle) / 2, 0.0
+    sample = table.sample_modulus(0.2, tip)
+    assert np.isfinite(sample.E).tolist() == [True, False, False]
+    assert sample.E[0] == approx(0.96 / (1 / low - 1 / tip[0]), rel=1e-12)
+    assert "2 of 3 curves" in sample.settings["sample"]
+    with pytest.raises(ValueError, match="must be stiffer than the contact"):
+        table.sample_modulus(0.2, (low / 2, 0.0))
+
+
 def test_a_name_of_a_file_is_no_formula_in_a_table(tmp_path):
     openpyxl = pytest.importorskip("openpyxl")
     table = mdr.oliver_pharr(TIP, [mdr.MeasuredCurve(PATH, LOAD, name="=1+1.csv")])
+    table = replace(table, settings={"file": "=1+1.csv"})
     table.to_excel(tmp_path / "table.xlsx")
     cells = [cell for row in openpyxl.load_workbook(tmp_path / "table.xlsx").active for cell in row]
     assert "'=1+1.csv" in [cell.value for cell in cells]

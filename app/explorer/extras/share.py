@@ -7,8 +7,8 @@ import numpy as np
 import panel as pn
 
 import mdr_core as mdr
+from mdr_core.show.csv_text import csv_text
 
-from ...common.files import csv_table
 from ...common.ui import WIDE, button, call, download, field, html, show, tools
 from ..extra import EXTRAS, Extra
 from ..link import file_name, summary
@@ -45,7 +45,7 @@ def _table(view: View, title: str, columns: dict[str, Any]) -> str:
     """Columns in SI, with the scene in a header."""
     head = f"mdr_core {mdr.__version__}: {title}\n{summary(view.state)}\n{view.course.scene.to_python()}"
     rows = zip(*(np.asarray(column, float).tolist() for column in columns.values()), strict=True)
-    return csv_table(head.splitlines(), [columns, *rows])
+    return csv_text(head.splitlines(), [columns, *rows])
 
 
 class Share:

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...base.check import Array, frozen
 from ...base.remark import KINDS, Remark
+from ...show.csv_text import csv_text, safe_cell
 from ...show.measured import plot_measured
 from ...show.progress import progress
 from ...show.quantities import described, engineering
@@ -111,20 +112,27 @@ class CurveTable:
         return rows
 
     def sample_modulus(self, nu: float, tip: tuple[float, float] | None = None) -> "CurveTable":
-        """The same table with Young's modulus of the sample, see `OliverPharr.sample_modulus`."""
+        """The same table with Young's modulus of the sample, see `OliverPharr.sample_modulus`.
+
+        Of curves that are stiffer than the tip it is NaN; raises ValueError if all are.
+        """
         E, error = sample_modulus(self.E_star, self.E_star_error, nu, tip)
         text = "rigid tip" if tip is None else f"tip with {engineering(tip[0], 'Pa')} and {tip[1]:g}"
+        if stiffer := np.count_nonzero(np.isnan(E) & np.isfinite(self.E_star)):
+            text += f", which is softer than the contact of {stiffer} of {len(self)} curves"
         settings = self.settings | {"sample": f"Poisson ratio {nu:g}, {text}"}
         return replace(self, E=frozen(E), E_error=frozen(error), settings=settings)
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The table in SI units; `attrs` has the settings."""
         pandas = imported("pandas", "to_pandas()")
-        names = [each.name for each in fields(self) if each.name not in ("settings", "results")]
-        columns = {name: column for name in names if (column := getattr(self, name)) is not None}
-        table = pandas.DataFrame(columns, index=pandas.RangeIndex(len(self), name="curve"))
+        table = pandas.DataFrame(self._columns(), index=pandas.RangeIndex(len(self), name="curve"))
         table.attrs.update(self.settings)
         return table
+
+    def _columns(self):
+        names = [each.name for each in fields(self) if each.name not in ("settings", "results")]
+        return {name: column for name in names if (column := getattr(self, name)) is not None}
 
     def summary(self) -> "pandas.DataFrame":
         """Number of curves, mean, standard deviation, median and quartiles (Pa) of E*, H and E."""
@@ -133,10 +141,14 @@ class CurveTable:
 
     def to_csv(self, file: str | PathLike[str] | TextIO) -> None:
         """Write the table as CSV, after lines with settings and summary, which begin with #."""
-        head = [f"{name}: {text}" for name, text in (*self.settings.items(), *self._doubts())]
-        head += self.summary().to_csv(lineterminator="\n").splitlines()
-        text = "".join(f"# {line}\n" for line in head)
-        text += self._written().to_csv(lineterminator="\n", index=False)
+        head = [" ".join(f"{name}: {text}".split()) for name, text in self._head().items()]
+        summary = self._summary()
+        head += [",".join(("in Pa", *row)) for row in [*summary.values()][:1]]
+        head += [",".join((name, *map(str, row.values()))) for name, row in summary.items()]
+        columns = self._columns()
+        heads = [_HEADS.get(name, name) for name in columns]
+        cells = (np.asarray(column).tolist() for column in columns.values())
+        text = csv_text(head, [heads, *zip(*cells, strict=True)])
         if isinstance(file, str | PathLike):
             Path(file).write_text(text, encoding="utf-8", newline="\n")
         else:
@@ -146,19 +158,19 @@ class CurveTable:
         """Write settings, summary and table, one below the other, to a sheet of an Excel file."""
         imported("openpyxl", "to_excel()")
         pandas = imported("pandas", "to_excel()")
-        head, summary = pandas.Series(self.settings | dict(self._doubts())), self.summary()
+        head = pandas.Series({name: safe_cell(text) for name, text in self._head().items()})
+        summary, table = self.summary(), self.to_pandas().map(safe_cell).rename(columns=_HEADS)
         with pandas.ExcelWriter(file, engine="openpyxl") as book:
             head.to_excel(book, sheet_name="curves", header=False)
             summary.to_excel(book, sheet_name="curves", startrow=len(head) + 1)
             below = len(head) + len(summary) + 3
-            self._written().to_excel(book, sheet_name="curves", startrow=below, index=False)
+            table.to_excel(book, sheet_name="curves", startrow=below, index=False)
             for column in "ABCDEFGH":
                 book.sheets["curves"].column_dimensions[column].width = 24
 
-    def _written(self):
-        """The table with units, and no text that a spreadsheet takes for a formula, as "=1+1.csv"."""
-        texts = {name: {r"^(?=[=+\-@])": "'"} for name in ("file", "reason", "remarks")}
-        return self.to_pandas().replace(texts, regex=True).rename(columns=_HEADS)
+    def _head(self):
+        """Settings and doubts, by their names."""
+        return self.settings | dict(self._doubts())
 
     def plot(self) -> Any:
         """Force over depth of all curves as a HoloViews element."""

@@ -20,7 +20,7 @@ def sample_modulus(E_star, standard_error, nu, tip=None):
     """`SampleModulus` by 1/E* = (1 − ν²)/E + (1 − ν_t²)/E_t, Johnson (1985), Contact Mechanics, Eq. (4.5).
 
     `nu` is the Poisson ratio of the sample, `tip` the modulus (Pa) and the Poisson ratio of the tip; None
-    is a rigid tip.
+    is a rigid tip. Of many contacts those that are stiffer than the tip have NaN.
     """
     nu = poisson_ratio("Poisson ratio nu", nu)
     compliance = 0.0
@@ -28,11 +28,12 @@ def sample_modulus(E_star, standard_error, nu, tip=None):
         modulus, ratio = tip
         modulus = check.positive_number("modulus of the tip", modulus, unit="Pa")
         compliance = (1 - poisson_ratio("Poisson ratio of the tip", ratio) ** 2) / modulus
-    rest = 1 / E_star - compliance
-    if np.any(rest <= 0):
+    rest = 1 / np.asarray(E_star) - compliance
+    if np.any(rest <= 0) and not np.any(rest > 0):
         raise check.MDRError(
             f"the tip, E_t = {engineering(modulus, 'Pa')}, must be stiffer than the contact, E* = "
             f"{engineering(np.nanmax(E_star), 'Pa')}: give the modulus of its material"
         )
+    rest = np.where(rest > 0, rest, np.nan)[()]
     E = (1 - nu**2) / rest
     return SampleModulus(E, E / rest / E_star**2 * standard_error)

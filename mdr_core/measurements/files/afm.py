@@ -105,8 +105,9 @@ def _in_words(error, errors):
 
 
 def from_afm(path, given):
-    """`MeasuredCurves` of a file that `afmformats` reads."""
+    """`MeasuredCurves` of a file that `afmformats` reads, with the constants of its cantilever."""
     refuse_large(path)
+    given = {name.replace("_", " "): value for name, value in given.items() if value is not None}
     afmformats = imported("afmformats", f"reading {path.name}", '"mdr-core[afm]"')
     if path.suffix.lower() in (".h5", ".hdf5"):
         refuse_outside(path)

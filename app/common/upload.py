@@ -1,10 +1,6 @@
-"""Files that a browser sends, within bounds that the server keeps too, and tables as CSV."""
+"""Files that a browser sends, within bounds that the server keeps too."""
 
-import csv
-import re
-from collections.abc import Iterable
 from dataclasses import dataclass, field
-from io import StringIO
 from time import monotonic
 from typing import Any
 
@@ -17,8 +13,6 @@ TIP_BYTES, CURVE_BYTES, SESSION_BYTES, PART_BYTES = 5_000_000, 50_000_000, 100_0
 SET_FILES = 1_000
 #: Bytes of a part beside its own.
 _LISTED = 64
-#: Beginnings of a cell that a spreadsheet takes for a formula, also where it parts cells at ";".
-_FORMULA = re.compile(r"(^|[;\t])(?=[=+\-@\t\r])")
 
 
 def in_line(name: str) -> str:
@@ -102,32 +96,3 @@ class Uploads:
                 f"{in_line(name)} is left out: drop it again when the others are there"
             )
         return None
-
-
-def csv_table(header: Iterable[str], rows: Iterable[Iterable[str | float | None]]) -> str:
-    """A table below lines of a header, which begin with "# ".
-
-    Numbers have all digits, and None is an empty cell. A text that a spreadsheet would take for a formula,
-    as the name of a file "=1+1.csv", has an apostrophe in front; so has one behind a comma of the header.
-
-    Examples
-    --------
-    >>> print(csv_table(["curves of a,=1+1.csv"], [["name", "E* (Pa)"], ["=1+1", -2.0]]), end="")
-    # curves of a,'=1+1.csv
-    name,E* (Pa)
-    '=1+1,-2.0
-    """
-    text = StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    for line in header:
-        # Quotation marks would take the "#" in, by which a comment is known.
-        cells = f"# {line}".rstrip().replace('"', "'").split(",")
-        writer.writerow(map(_cell, cells))
-    writer.writerows(map(_cell, row) for row in rows)
-    return text.getvalue()
-
-
-def _cell(value: str | float | None) -> str:
-    if value is None:
-        return ""
-    return _FORMULA.sub(r"\1'", value) if isinstance(value, str) else repr(value)
