@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 import mdr_core as mdr
 
 from ..common.quantities import CHOICES, QUANTITIES
@@ -12,6 +14,8 @@ from .state import PRESETS, VIEW, State, checked, kept_extras, medium, preset_st
 
 #: Constants of the hardness, by the power of the contact radius in them.
 CONSTANTS = ("volume_hardness", "q_c", "f_c")
+#: Points at which a sign is looked for at once.
+_GRID = 81
 
 
 def options(state: State, name: str) -> list[str]:
@@ -142,3 +146,20 @@ _CONVERT: dict[str, Callable[[State, str], dict[str, float]]] = {
     "damping": _damping,
     "drive": equivalent,
 }
+
+
+def crossing(function, low, high):
+    """Smallest number between two positive ones at which a function changes its sign; None without one.
+
+    The function takes an array, in which a number costs a small part of one by itself: so it is looked for
+    on a grid of equal ratios that is refined once, which leaves 10⁻³ of it, and then by a chord, 10⁻⁶.
+    """
+    for _ in range(2):
+        numbers = np.geomspace(low, high, _GRID)
+        values = function(numbers)
+        changes = np.flatnonzero(values[:-1] * values[1:] < 0)
+        if not changes.size:
+            return None
+        first = changes[0]
+        low, high = numbers[first : first + 2]
+    return low + (high - low) * values[first] / (values[first] - values[first + 1])

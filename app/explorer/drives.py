@@ -37,6 +37,14 @@ class Drive(ABC):
         """Arguments of the core's function for this drive; arrays where the state of a sweep has them."""
         return {}
 
+    def given_quickly(self, state: State) -> dict[str, Any]:
+        """`given` for many solutions, with a coarser model where the exact one is slow."""
+        return self.given(state)
+
+    def limiting_cases(self, state: State) -> dict[str, dict[str, Any]]:
+        """Arguments of limiting cases, by the names of their lines in a sweep."""
+        return {}
+
     def follow(self, scene: mdr.Scene, progress: float) -> Course:
         """States of a scene, one of them at a progress; approximate where an exact solution is slow.
 

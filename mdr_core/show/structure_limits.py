@@ -14,7 +14,7 @@ from .quantities import engineering
 #: (tests/solver/impacts/test_modes.py).
 _EDGES = 1 / 3
 #: A wave of bending is back from a way r after r²/(7.70 √(D/ρh)), where Si(r²/(4 t √(D/ρh))) is π/2.
-_BACK = 7.70
+BACK = 7.70
 #: Contact radius over the thickness, and contact time over the way of shear waves through it.
 _THIN = 0.5
 _PERIODS = 6.0
@@ -63,7 +63,7 @@ def _edge_limit(structure, hit, plate):
         )
         yield Limit("edges", np.inf, _EDGES, True, text, severe=False)
         return
-    back = (2 * np.asarray(structure.edge)) ** 2 / (_BACK * structure.wave_spread)
+    back = (2 * np.asarray(structure.edge)) ** 2 / (BACK * structure.wave_spread)
     ratio = np.where(plate, time / back, 0.0)
     first = np.unravel_index(np.argmax(ratio), ratio.shape)
     value = float(ratio[first])
@@ -82,7 +82,7 @@ def _second_contact(structure, hit, plate):
     plate = plate & (e > 0)
     if structure.edge is None or structure.wave_spread is None or not plate.any():
         return
-    back = (2 * np.asarray(structure.edge)) ** 2 / (_BACK * structure.wave_spread)
+    back = (2 * np.asarray(structure.edge)) ** 2 / (BACK * structure.wave_spread)
     with np.errstate(divide="ignore"):
         ratio = np.where(plate, _AGAIN * hit.mass / (structure.impedance * back) * (1 + e) / e, 0.0)
     value = float(ratio.max())

@@ -10,12 +10,15 @@ from markupsafe import Markup
 from scipy.optimize import brentq
 
 import mdr_core as mdr
+from mdr_core.show.structure_limits import BACK
 from mdr_core.show.units import written
+from mdr_core.solver.impacts.modal import contact_instants, motion_at
+from mdr_core.solver.medium.modes import Modes
 
 from ...common.quantities import QUANTITIES
 from ...common.ui import html_subscripts
-from ..courses import Course
-from ..drives import DRIVES, Impact, follow
+from ..courses import Course, path_progress
+from ..drives import DRIVES, INSTANTS, Impact, follow
 from ..extra import Extra
 from ..plot import Plot, View
 from ..plots import PLOTS
@@ -24,6 +27,11 @@ from ..widgets import Part, button
 
 #: What is said of a body that never leaves.
 _STAYS = "The body never leaves the plate: waves take all of the energy that yield leaves, e = 0."
+_CAPTURED = "The body stays on the plate for more than 100 periods of both together, e = 0."
+#: Modes of a plate with edges: of what is read; and of what is drawn meanwhile or swept at least, with
+#: those that swing less than twice in the contact time of a rigid body, which leave 0.002 of e.
+MODES, FEW, _SWINGS = 100, 12, 2.0
+_PENDING = f"Computing {MODES} modes; drawn so far by fewer."
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -58,13 +66,46 @@ class OnStructure(Impact):
         structure = structure_of(state)
         return super().given(state) | ({} if structure is None else {"structure": structure})
 
+    def given_quickly(self, state):
+        given = self.given(state)
+        if _has_edges(given.get("structure")):
+            rigid = mdr.impact(profile(state), medium(state), **super().given(state))
+            given["structure"] = few_modes(given["structure"], rigid)
+        return given
+
+    def limiting_cases(self, state):
+        """Without edges, and without mass: both sides of a plate with edges."""
+        numbers = numbers_of(state, "structure.behind")
+        if state["structure.behind"] != "edges" or any(np.ndim(state[name]) for name in numbers):
+            return {}
+        support = mdr.Structure(stiffness=structure_of(state).stiffness)
+        endless = structure_of(state.replace(**{"structure.behind": "plate"}))
+        cases = {"plate without edges": endless, "support without mass": support}
+        return {
+            name: super(OnStructure, self).given(state) | {"structure": each}
+            for name, each in cases.items()
+        }
+
     def follow(self, scene, progress):
+        if _has_edges(scene.drive.structure):
+            rigid = replace(scene, drive=replace(scene.drive, structure=None)).solve()
+            drive = replace(scene.drive, structure=few_modes(scene.drive.structure, rigid))
+            return replace(self.exact(replace(scene, drive=drive)), scene=scene, pending=_PENDING)
         course = super().follow(scene, progress)
         if course.structure is None:
             return course
         own = {field.name: getattr(course, field.name) for field in fields(course)}
         notes = (_STAYS,) * bool(course.hit.captured)
         return StructureCourse(**own | {"notes": notes})
+
+    def exact(self, scene):
+        """States of an impact by modes, in all contacts."""
+        hit = scene.solve()
+        motion = motion_at(hit, contact_instants(hit, INSTANTS))
+        return StructureCourse(
+            scene=scene, progress=path_progress(motion.time, motion.depth), states=motion.states,
+            motion=motion, hit=hit, turns=hit.contacts > 1, notes=(_CAPTURED,) * bool(hit.captured),
+        )  # fmt: skip
 
     def converted(self, state, choice, wanted):
         """Numbers of a structure that nobody has set, so that it matters beside the present impact."""
@@ -80,6 +121,11 @@ class OnStructure(Impact):
             of_one_metre = float(mdr.Structure.plate(1.0, **found).impedance)
             thickness = (2 * stiffness * float(hit.contact_time) / of_one_metre) ** 0.5
             found["thickness"] = float(f"{thickness:.2g}")
+        if wanted == "edges":
+            # Waves are back from the edges when the contact ends.
+            spread = mdr.Structure.plate(**found).wave_spread
+            side = (BACK * spread * float(hit.contact_time)) ** 0.5
+            found |= dict.fromkeys(("width", "length"), float(f"{side:.2g}"))
         found = {f"structure.{name}": value for name, value in found.items()}
         known = preset_values(state.preset).keys() | state.extras.keys()
         return {name: QUANTITIES[name].bounded(each) for name, each in found.items() if name not in known}
@@ -120,28 +166,55 @@ def structure_of(state: State) -> mdr.Structure | None:
     if behind == "block":
         return None
     if losses := _losses(state):
+        label = state.chosen("structure.behind").label
         raise ValueError(
-            f"a {behind} is not computed together with {losses}: choose “thick block” as the structure, "
+            f"a {label} is not computed together with {losses}: choose “thick block” as the structure, "
             f"or no {losses} (More about the medium)"
         )
     own = {name.removeprefix("structure."): state[name] for name in numbers_of(state, "structure.behind")}
     if behind == "support":
         return mdr.Structure(**own)
+    by_thickness = state["structure.plate"] == "moduli"
+    if state["structure.plate"] == "bending":
+        # An isotropic plate by its bending stiffness: its Poisson ratio, here 0, does not matter.
+        D = own.pop("D")
+        own |= {"D11": D, "D12": 0.0, "D22": D, "D66": D / 2}
+    if behind == "edges":
+        make = mdr.Structure.supported_isotropic_plate if by_thickness else mdr.Structure.supported_plate
+        return make(**own, modes=MODES)
     # 0 is an edge that is not known.
     edge = own.pop("edge") or None
-    if state["structure.plate"] == "bending":
-        D = own["D"]
-        # An isotropic plate by its bending stiffness: its Poisson ratio, here 0, does not matter.
-        return mdr.Structure.laminate(D, 0.0, D, D / 2, own["mass_per_area"], edge=edge)
-    return mdr.Structure.plate(**own, edge=edge)
+    return (mdr.Structure.plate if by_thickness else mdr.Structure.laminate)(**own, edge=edge)
+
+
+def _has_edges(structure: mdr.Structure | None) -> bool:
+    return structure is not None and structure.modes is not None
+
+
+def few_modes(structure: mdr.Structure, rigid: mdr.Impact) -> mdr.Structure:
+    """A plate by the lowest modes that an impact needs; its static stiffness holds the others."""
+    modes = structure.modes
+    count = max(int(np.searchsorted(modes.frequency, _SWINGS / float(rigid.contact_time))), FEW)
+    lowest = (each[:count] for each in (modes.frequency, modes.mass, modes.damping))
+    return replace(structure, modes=Modes(*lowest))
 
 
 def notes(view: View) -> dict[str, str]:
     """What the numbers of a plate make, and how far its edges must be."""
     course = view.course
-    if not isinstance(course, StructureCourse) or not course.structure.is_plate:
+    if not isinstance(course, StructureCourse):
         return {}
     plate = course.structure
+    if _has_edges(plate):
+        mass = 4 * plate.modes.mass[0]
+        parts = [
+            f"mass of the plate M = {written(mass, 'mass')}, m/M = {course.hit.mass / mass:.3g}",
+            f"K = {written(float(plate.stiffness), 'yield constant')}",
+            f"f_1 = {plate.modes.frequency[0]:.4g} Hz",
+        ]
+        return {"form": html_subscripts(", ".join(parts))}
+    if not plate.is_plate:
+        return {}
     # Z is 8√(D ρh).
     stiffness, mass = plate.impedance * plate.wave_spread / 8, plate.impedance / plate.wave_spread / 8
     parts = [
@@ -163,13 +236,17 @@ def _far(course: StructureCourse) -> float:
     return float(np.sqrt(limit.value / limit.bound))
 
 
-def e_over_h(page: Any, plot: Plot, view: View) -> list[Part]:
-    """The button above the force that shows the restitution over the thickness of the plate."""
-    thickness = "structure.thickness"
-    if plot.name != "force" or "sweep" not in PLOTS or thickness not in numbers_of(view.state, "drive"):
+def e_over(page: Any, plot: Plot, view: View) -> list[Part]:
+    """The button above the force that shows the restitution over the mass, or over the thickness."""
+    thickness, drawn = "structure.thickness", plot.name == "force" and "sweep" in PLOTS
+    if drawn and _has_edges(view.course.structure):
+        label, swept = "e over m", "mass"
+    elif drawn and thickness in numbers_of(view.state, "drive"):
+        label, swept = "e over h", thickness
+    else:
         return []
-    shown = {"tiles": ("sweep",), "sweep.swept": thickness, "sweep.against": "restitution"}
-    return [button("e over h", lambda: page.apply(lambda state: state.replace(**shown)))]
+    shown = {"tiles": ("sweep",), "sweep.swept": swept, "sweep.against": "restitution"}
+    return [button(label, lambda: page.apply(lambda state: state.replace(**shown)))]
 
 
-EXTRA = Extra("structure", drives={"impact": OnStructure()}, notes=notes, on_plots=e_over_h)
+EXTRA = Extra("structure", drives={"impact": OnStructure()}, notes=notes, on_plots=e_over)

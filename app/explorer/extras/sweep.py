@@ -1,7 +1,9 @@
 """The plot *Sweep*: results over one number, with other classes and the limit of fast impacts."""
 
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
@@ -19,7 +21,7 @@ from ...common.host import last
 from ...common.quantities import CHOICES, QUANTITIES, Option, quantity, read_data, unicode_subscripts
 from ...common.ui import html_subscripts
 from ...common.units import in_full
-from ..changes import CONSTANTS, option, shown
+from ..changes import CONSTANTS, crossing, option, shown
 from ..drives import DRIVES
 from ..extra import Extra
 from ..figures import Logarithmic
@@ -30,10 +32,12 @@ from ..widgets import Part, button, slider_range
 
 #: Functions of the core by drives.
 SOLVERS = {"depth": "indent", "force": "indent_to_force", "impact": "impact"}
-#: Points along the range, and of impacts in time, which take a millisecond each.
-POINTS, IN_TIME = 81, 31
+#: Points along the range; of impacts in time, which take a millisecond each; of impacts by modes, which
+#: take 0.1 s; and of these as many again between others where the result changes most.
+POINTS, IN_TIME, BY_MODES, FINER = (81, 31, 13, 0) if sys.platform == "emscripten" else (81, 31, 25, 12)
 #: Names of the fast limit, which is that of class (b), and of the three classes: options and constants.
 FAST = "fast limit (23) (24), class (b)"
+LIMITING = "plate without edges", "support without mass"
 CLASSES = {
     "(a) hardness constant": ("constant", "volume_hardness"),
     "(b) hardness ∝ 1/a": ("q_c", "q_c"),
@@ -64,13 +68,23 @@ class Sweep:
     @property
     def in_time(self):
         """Whether it is of impacts with dashpots or on a structure."""
-        structure = DRIVES[self.state.drive].given(self.state).get("structure")
-        return self.solver == "impact" and (self.state.damping != "none" or structure is not None)
+        return self.solver == "impact" and (self.state.damping != "none" or self.structure is not None)
+
+    @cached_property
+    def structure(self):
+        """The structure of the present scene, None without one."""
+        return DRIVES[self.state.drive].given_quickly(self.state).get("structure")
+
+    @property
+    def by_modes(self):
+        """Whether it is of impacts on a structure by its modes."""
+        return self.structure is not None and self.structure.modes is not None
 
     @property
     def numbers(self):
         space = np.geomspace if self.low > 0 else np.linspace
-        return space(self.low, self.high, IN_TIME if self.in_time else POINTS)
+        count = BY_MODES if self.by_modes else IN_TIME if self.in_time else POINTS
+        return space(self.low, self.high, count)
 
     def at(self, numbers):
         """The scene with values of the swept number."""
@@ -81,7 +95,7 @@ class Sweep:
     def solve(self, numbers):
         """Results of the core for values of the swept number."""
         state = self.at(numbers)
-        given = DRIVES[state.drive].given(state)
+        given = DRIVES[state.drive].given_quickly(state)
         return getattr(mdr, self.solver)(profile(state), medium(state), **given)
 
     def column(self, numbers, quantity):
@@ -93,6 +107,30 @@ class Sweep:
             if len(numbers) == 1:
                 return np.full(1, np.nan)
             return np.hstack([self.column(half, quantity) for half in np.array_split(numbers, 2)])
+
+    def one_by_one(self, numbers, quantity):
+        """Numbers with more of them between, and results at these; after a step for each of them."""
+        values = []
+        for number in numbers:
+            values.append(self.column(number[None], quantity)[0])
+            yield None
+        for _ in range(FINER):
+            middles = (numbers[:-1] + numbers[1:]) / 2
+            change = np.abs(np.diff(values)) * (np.diff(numbers) > 0.01 * middles)
+            k = int(np.argmax(np.nan_to_num(change)))
+            numbers = np.insert(numbers, k + 1, middles[k])
+            values.insert(k + 1, self.column(middles[k : k + 1], quantity)[0])
+            yield None
+        return numbers, np.array(values)
+
+    def limiting(self, numbers):
+        """Results of the limiting cases of the drive, by their names."""
+        state, found = self.at(numbers[:, None]), {}
+        for name, given in DRIVES[state.drive].limiting_cases(state).items():
+            result = getattr(mdr, self.solver)(profile(state), medium(state), **given)
+            values = attrgetter(self.against)(result)
+            found[name] = np.broadcast_to(values, (len(numbers), 1))[:, 0]
+        return found
 
     @property
     def yields(self):
@@ -142,30 +180,14 @@ class Sweep:
         return replace(other, state=other.state.replace(**{constant: shown(found)}), swept=self.swept)
 
 
-def crossing(function, low, high):
-    """Smallest number between two positive ones at which a function changes its sign; None without one.
-
-    The function takes an array, in which a number costs a small part of one by itself: so it is looked for
-    on a grid of equal ratios that is refined once, which leaves 10⁻³ of it, and then by a chord, 10⁻⁶.
-    """
-    for _ in range(2):
-        numbers = np.geomspace(low, high, POINTS)
-        values = function(numbers)
-        changes = np.flatnonzero(values[:-1] * values[1:] < 0)
-        if not changes.size:
-            return None
-        first = changes[0]
-        low, high = numbers[first : first + 2]
-    return low + (high - low) * values[first] / (values[first] - values[first + 1])
-
-
 _DATA = read_data(Path(__file__).with_suffix(".json"))
 _RESULTS = _DATA["results"]
 #: The energy of an impact, which is swept by the speed.
 _ENERGY = quantity(**_DATA["energy"])
 
 #: Dashes of the lines beside that of the scene.
-LINES = dict(zip((FAST, *CLASSES), ("dashed", "dotted", "dashed", "dotdash"), strict=True))
+_DASHES = "dashed", "dotted", "dashed", "dotdash", "dashed", "dotted"
+LINES = dict(zip((FAST, *CLASSES, *LIMITING), _DASHES, strict=True))
 #: Of a ratio, as the restitution, what is nothing beside its largest value.
 _NOTHING = 1e-3
 #: Shapes with closed forms.
@@ -229,10 +251,13 @@ def in_steps(course, sweep: Sweep) -> Iterator[Found | None]:
         return
     result = course.turning_point if course.hit is None else course.hit
     numbers, present = sweep.numbers, getattr(result, sweep.against)
-    values = sweep.column(numbers, sweep.against)
+    if sweep.by_modes:
+        numbers, values = yield from sweep.one_by_one(numbers, sweep.against)
+    else:
+        values = sweep.column(numbers, sweep.against)
     yield None
     inside = sweep.low <= sweep.present <= sweep.high
-    columns, classes = {"this scene": values} | sweep.fast(numbers), {}
+    columns, classes = {"this scene": values} | sweep.fast(numbers) | sweep.limiting(numbers), {}
     for row, each in sweep.each_class() if inside else ():
         yield None
         classes[row], columns[row] = each, each.column(numbers, each.against)
@@ -293,7 +318,7 @@ def _notes(sweep, numbers, values, classes, inside):
         shown = in_full(sweep.present, quantity.kind)
         value = html_subscripts(f"{quantity.symbol} = {shown}")
         yield Markup("The present value, {}, is outside the range.").format(value)
-    elif sweep.low > 0 and (power := _power(sweep)):
+    elif sweep.low > 0 and not sweep.by_modes and (power := _power(sweep)):
         result = html_subscripts(RESULTS[sweep.against].symbol)
         yield Markup("At the present value {} ∝ {}.").format(result, power)
     if classes:

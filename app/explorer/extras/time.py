@@ -27,6 +27,15 @@ def _law(course: Course) -> str:
     return f"m d²{'(d + w)' if course.structure else 'd'}/dt² = −F,  § 9"
 
 
+def _contacts(view: View) -> str:
+    """Number of contacts of a body that may hit several times."""
+    structure = view.course.structure
+    if structure is None or structure.modes is None:
+        return ""
+    count = view.course.hit.contacts
+    return f"{count} contact{'s' * (count > 1)}"
+
+
 MOTION = Plot(
     "motion", "Depth and force over time",
     _law,
@@ -39,6 +48,7 @@ MOTION = Plot(
         mark("F now", marker="diamond", size=11, axis=2, legend=False),
     ),
     motion_places, applies=lambda view: view.course.motion is not None, tab="In time", order=30,
+    aside=_contacts,
 )  # fmt: skip
 
 
@@ -47,7 +57,7 @@ def energies(course: Course) -> dict:
     m = course.ledger
     more = {"friction": m.friction_work} if hasattr(m, "friction_work") else {}
     if course.structure:
-        more = {"waves": m.structure_work, "support": m.support_energy}
+        more = {"waves": m.structure_work, "structure": m.support_energy}
     return more | {
         "plastic": m.plastic_work,
         "viscous": m.viscous_work,
@@ -93,7 +103,7 @@ ENERGY = Plot(
     (
         area("friction", "slip", 0.6, "x"),
         area("waves", "stick", 0.45, "-"),
-        area("support", "stick", 0.3, "|"),
+        area("structure", "stick", 0.3, "|"),
         area("plastic", "yielded", 0.45, "/"),
         area("viscous", "loss", 0.5, "\\"),
         area("stored", "elastic", 0.45),

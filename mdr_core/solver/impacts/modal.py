@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -114,7 +115,8 @@ class ModalImpact(Impact):
         `structure_work` is what damping has dissipated, `support_energy` the energy of the structure.
         """
         check_single(self, "motion")
-        return _motion(self, self._motions[()], n)
+        motion = self._motions[()]
+        return motion_at(self, instants(n, motion.turning_time, motion.hits[-1].end))
 
 
 def modal_impact(profile, medium, mass, speed, imprint_depth, structure, tolerance=TOLERANCE):
@@ -144,10 +146,18 @@ def modal_impact(profile, medium, mass, speed, imprint_depth, structure, toleran
     )  # fmt: skip
 
 
-def _motion(hit, motion, n):
-    """The `Motion` of one impact at n instants."""
-    law, time = motion.law, instants(n, motion.turning_time, motion.hits[-1].end)
-    found = _sampled(motion, time)
+def contact_instants(hit, n):
+    """About n ascending times (s) of one impact: in all contacts, few in flights, and the turning point."""
+    motion, count = hit._motions[()], max(n // len(hit.hits), 8)
+    contacts = [np.linspace(each.start, each.end, count) for each in hit.hits]
+    flights = [np.linspace(one.end, other.start, 6) for one, other in pairwise(hit.hits)]
+    return np.unique(np.concatenate([*contacts, *flights, [motion.turning_time]]))
+
+
+def motion_at(hit, time):
+    """The `Motion` of one impact at ascending times (s)."""
+    motion = hit._motions[()]
+    law, found = motion.law, _sampled(motion, time)
     y, p, yields = found["penetration"], found["imprint"], found["yields"]
     interval, increase = law.rule.loading(np.maximum(y, 0.0), p)
     increase = np.where(yields, increase, 0.0)
@@ -169,7 +179,7 @@ def _motion(hit, motion, n):
         time=time, depth=p + y, velocity=found["free_velocity"] / softer, force=found["force"],
         contact_radius=states.contact_radius * (live > 0), plastic_radius=states.plastic_radius,
         plastic_depth=plastic, live_depth=live, kinetic_energy=kinetic, stored_energy=stored,
-        plastic_work=work, viscous_work=np.zeros(n), deflection=found["position"] - p - y,
+        plastic_work=work, viscous_work=np.zeros(len(time)), deflection=found["position"] - p - y,
         body_velocity=found["body_velocity"], structure_work=found["damping_work"],
         support_energy=found["structure_energy"], states=states, impact=hit,
     )  # fmt: skip
