@@ -14,6 +14,7 @@ from app.explorer.extras import time as in_time
 from app.explorer.extras.guide import step_state
 from app.explorer.page import Page
 from app.explorer.readouts import line
+from app.explorer.search import exact
 from app.explorer.state import PRESETS, altered, medium, preset_state, profile
 
 from ..approx import approx
@@ -22,6 +23,7 @@ from .states import linked_state, numbers, press, state_with, view_of
 from .test_drawn import SIZES
 
 PLATE, SUPPORT = "small_ball-carbon_epoxy", "striker-glass_epoxy-plate"
+EDGES = "ball-carbon_laminate"
 
 
 def structure(state):
@@ -49,8 +51,92 @@ def test_the_presets_are_what_they_name():
     laminate = mdr.Medium.from_transversely_isotropic(52e9, 9e9, 0.31, 0.06, 4e9)
     both = 1 / (1 / laminate.E_star + (1 - 0.3**2) / 210e9)
     assert float(preset_state(PLATE).E_star) == approx(float(both), rel=1e-3)
-    for key in (PLATE, SUPPORT):
+    for key in (PLATE, SUPPORT, EDGES):
         assert altered(preset_state(key)) == []
+
+
+def test_the_laminate_of_sun_and_chen_is_what_it_names():
+    """Its stiffnesses are those of the plies; the ball hits twice, theory.md § 15."""
+    state = preset_state(EDGES)
+    values = PRESETS[EDGES].values
+    E1, E2, G, nu, h = 120e9, 7.9e9, 5.5e9, 0.3, 2.69e-3
+    Q = np.array([E1, E2, nu * E2, G * (1 - nu**2 * E2 / E1)]) / (1 - nu**2 * E2 / E1)
+    z = np.linspace(-h / 2, h / 2, 11)
+    cubes = np.diff(z**3) / 3
+    turned = np.array([0, 1, 0, 1, 0, 0, 1, 0, 1, 0], bool)
+    D11, D22 = (np.sum(np.where(turned ^ k, Q[1], Q[0]) * cubes) for k in (False, True))
+    known = {"D11": D11, "D22": D22, "D12": Q[2] * cubes.sum(), "D66": Q[3] * cubes.sum()}
+    for name, D in known.items():
+        # Seven digits.
+        assert values[f"structure.{name}"] == approx(D, rel=1e-6)
+    assert values["structure.mass_per_area"] == approx(1580 * h)
+    hit = exact(follow(state)).hit
+    assert (round(float(hit.max_force), 1), round(float(hit.restitution), 3)) == (309.6, 0.175)
+    assert hit.contacts == 2
+    assert {"deflection", "dent"} <= {limit.what for limit in hit.limits}
+
+
+def test_a_plate_with_edges_is_that_of_the_library_drawn_by_fewer_modes_at_first():
+    state = preset_state(EDGES)
+    drawn = follow(state)
+    course = exact(drawn)
+    given = (0.2, 0.2, 131.4233, 3.867273, 77.27888, 8.921508, 4.2502)
+    made = mdr.Structure.supported_plate(*given, thickness=2.69e-3)
+    assert structure(state) == made
+    hit = mdr.impact(profile(state), medium(state), state.mass, state.speed, structure=made)
+    assert float(course.hit.restitution) == float(hit.restitution)
+    assert drawn.pending
+    # Up to twice the swings of a contact leave 0.002 of e.
+    assert float(drawn.hit.restitution) == approx(float(hit.restitution), abs=4e-3)
+    # Both contacts are drawn, and the flight between them.
+    time, force = course.motion.time, course.motion.force
+    for each in hit.hits:
+        inside = (time >= each.start) & (time <= each.end)
+        assert force[inside].max() == approx(each.max_force, rel=5e-3)
+    (first, second) = hit.hits
+    assert (force[(time > first.end) & (time < second.start)] == 0).all()
+    assert in_time.MOTION.aside(view_of(state)) == "2 contacts"
+    total = sum(in_time.energies(course).values())
+    np.testing.assert_allclose(total, state.mass * state.speed**2 / 2, rtol=1e-8)
+
+
+@pytest.mark.parametrize("by", ["moduli", "bending"])
+def test_an_isotropic_plate_with_edges_by_its_thickness_and_by_its_stiffness(by):
+    h, E, nu, rho = 4e-3, 52e9, 0.31, 1600.0
+    values = {"thickness": h, "E": E, "nu": nu, "density": rho, "width": 0.1, "length": 0.15}
+    values |= {"D": E * h**3 / 12 / (1 - nu**2), "mass_per_area": rho * h}
+    state = state_with(PLATE, behind="edges", plate=by)
+    state = state.replace(**{f"structure.{name}": value for name, value in values.items()})
+    plate = mdr.Structure.supported_isotropic_plate(0.1, 0.15, h, E, nu, rho)
+    assert structure(state).stiffness == approx(plate.stiffness, rel=1e-12)
+    assert structure(state).modes.frequency == approx(plate.modes.frequency, rel=1e-12)
+    said = re.sub("<[^>]+>", "", structures.notes(view_of(state))["form"])
+    mass = rho * h * 0.1 * 0.15
+    assert f"M = {1e3 * mass:.4g} g" in said
+    assert f"m/M = {state.mass / mass:.3g}" in said
+
+
+def test_the_sweep_over_the_mass_goes_from_the_plate_without_edges_to_the_support():
+    """And through what the library finds by all modes, to 0.005."""
+    page = Page(f"preset={EDGES}")
+    press(page, "e over m")
+    state = page.state
+    found = sweep.found(follow(state), sweep.asked(state))
+    mass, restitution = found.rows["this scene"]
+    (_, endless), (_, support) = (found.rows[name] for name in sweep.LIMITING)
+    made, M = structure(state), 0.2 * 0.2 * 4.2502
+    light = mass < 0.015 * M
+    assert light.sum() > 5
+    assert restitution[light] == approx(endless[light], abs=0.006)
+    assert support == approx(np.ones(mass.size), abs=1e-9)
+    # Resonances stay below it.
+    assert 0.85 < restitution[-1] < 1
+    for k in range(0, mass.size, 9):
+        hit = mdr.impact(profile(state), medium(state), mass[k], state.speed, structure=made)
+        assert restitution[k] == approx(float(hit.restitution), abs=5e-3)
+    # Not where the plate itself is swept.
+    swept = state.replace(**{"sweep.swept": "structure.length"})
+    assert not {*sweep.LIMITING} & {*sweep.found(follow(swept), sweep.asked(swept)).rows}
 
 
 def test_the_numbers_are_those_of_the_library():
@@ -105,6 +191,14 @@ def test_a_plate_says_what_its_numbers_make_and_a_support_has_none():
     assert structures.notes(view_of(preset_state(SUPPORT))) == {}
 
 
+def test_links_and_files_carry_a_plate_with_edges():
+    page = Page(f"preset={EDGES}&structure.length=0.25&structure.plate=bending&structure.D=100")
+    assert linked_state(page.state) == page.state
+    scene, values = page.view.course.scene, {}
+    exec(scene.to_python(), values)
+    assert values["scene"] == mdr.Scene.from_json(scene.to_json()) == scene
+
+
 def test_links_undo_and_files_carry_it():
     page = Page(f"preset={PLATE}&structure.thickness=0.002")
     page.choose("structure.behind", "support")
@@ -121,10 +215,11 @@ def test_links_undo_and_files_carry_it():
 
 
 @pytest.mark.parametrize("loss", [("damping", "eta"), ("adhesion", "work")])
-@pytest.mark.parametrize("behind", ["plate", "support"])
+@pytest.mark.parametrize("behind", ["plate", "edges", "support"])
 def test_it_is_refused_in_words_with_dashpots_or_adhesion(behind, loss):
     word = {"damping": "viscosity", "adhesion": "adhesion"}[loss[0]]
-    said = f"a {behind} is not computed together with {word}: choose “thick block”"
+    label = {"edges": "plate with edges"}.get(behind, behind)
+    said = f"a {label} is not computed together with {word}: choose “thick block”"
     page = Page(f"preset={GOLD}&drive=impact")
     notices = []
     page.notify = notices.append
@@ -144,14 +239,14 @@ def test_it_is_refused_in_words_with_dashpots_or_adhesion(behind, loss):
 def test_a_structure_that_nobody_has_set_matters(key):
     """Neither is the body caught at once, nor is it as on a block, at nanometres and at millimetres."""
     block = state_with(key, "impact")
-    for behind in ("plate", "support"):
+    for behind in ("plate", "edges", "support"):
         hit = follow(changes.choose(block, "structure.behind", behind)).hit
         assert 0.2 < hit.max_depth / follow(block).hit.max_depth < 0.97
         assert 0.01 < hit.restitution <= 1
 
 
 def test_another_drive_and_back_is_the_same_impact():
-    for key in (PLATE, SUPPORT):
+    for key in (PLATE, SUPPORT, EDGES):
         state = preset_state(key)
         back = changes.choose(changes.choose(state, "drive", "depth"), "drive", "impact")
         assert back.speed == approx(state.speed, rel=1e-4)
