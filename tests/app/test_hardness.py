@@ -276,7 +276,7 @@ def test_every_plot_and_export_has_the_class(key, choices):
 def test_the_constant_of_a_class_is_swept():
     """Under a cone of constant hardness the force is H (1 − κ/2) times the area of the contact."""
     state = preset_state(SILICA).replace(**{"sweep.swept": "volume_hardness"})
-    found = sweep.found(follow(state), sweep.asked(state))
+    found = last(sweep.found(follow(state), sweep.asked(state)))
     hardness, force = found.rows["this scene"]
     kappa = hardness / (state.E_star * state.cone_slope)
     a = 2 * state.max_depth / (pi * state.cone_slope)

@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 
+from app.common.host import last
 from app.explorer import changes
 from app.explorer.drives import follow
 from app.explorer.extras import hardness, labels, oblique, sweep
@@ -29,7 +30,7 @@ def slope(x, y):
 def powers(step):
     """Powers of the curves of a sweep at the present value, as its note has them: own, and by class."""
     state = step_state(step, preset_state())
-    found = sweep.found(follow(state), sweep.asked(state))
+    found = last(sweep.found(follow(state), sweep.asked(state)))
     note = re.sub("</?(sub|i)>", "", found.note).replace("−", "-")
     told = [float(text) for text in re.findall(r"<sup>(-?[\d.]+)</sup>", note)]
     return dict(zip(["own", *re.findall(r"\(([abc])\) \w", note)], told, strict=True))

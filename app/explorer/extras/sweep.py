@@ -17,7 +17,6 @@ from mdr_core.show.quantities import QUANTITIES as RESULTS
 from mdr_core.show.units import KINDS, digits
 
 from ...common.errors import error_text
-from ...common.host import last
 from ...common.quantities import CHOICES, QUANTITIES, Option, quantity, read_data, unicode_subscripts
 from ...common.ui import html_subscripts
 from ...common.units import in_full
@@ -149,11 +148,7 @@ class Sweep:
         return {}
 
     def classes(self):
-        """Sweeps of the other classes of hardness, through the present value, by their rows."""
-        return dict(self.each_class())
-
-    def each_class(self):
-        """Rows of the other classes of hardness, and their sweeps through the present value, one by one."""
+        """Yield rows of the other classes of hardness, and their sweeps through the present value."""
         own = yield_constant(self.state)
         others = {row: pair for row, pair in CLASSES.items() if pair[1] not in own}
         constant = self.swept in numbers_of(self.state, "plasticity")
@@ -239,13 +234,8 @@ def quick(sweep: Sweep) -> bool:
     return not (one_by_one or sweep.in_time) and sweep.state.shape in _SHAPES
 
 
-def found(course, sweep: Sweep) -> Found:
-    """Curve of the sweep with the present value and limits."""
-    return last(in_steps(course, sweep))
-
-
-def in_steps(course, sweep: Sweep) -> Iterator[Found | None]:
-    """`found`, after a step for each of its lines."""
+def found(course, sweep: Sweep) -> Iterator[Found | None]:
+    """Curve of the sweep with the present value and limits, after a step for each of its lines."""
     if not sweep.solver:
         yield Found({}, [], "This drive has no sweep: press to a depth or a force, or let a body hit.")
         return
@@ -258,7 +248,7 @@ def in_steps(course, sweep: Sweep) -> Iterator[Found | None]:
     yield None
     inside = sweep.low <= sweep.present <= sweep.high
     columns, classes = {"this scene": values} | sweep.fast(numbers) | sweep.limiting(numbers), {}
-    for row, each in sweep.each_class() if inside else ():
+    for row, each in sweep.classes() if inside else ():
         yield None
         classes[row], columns[row] = each, each.column(numbers, each.against)
         yield None
@@ -350,7 +340,7 @@ SWEEP = SweepPlot(
         line("this scene", "elastic", 2.4, symbol=OF_AXIS),
         mark("present value"),
     ),
-    find=in_steps, asks=asked, quick=quick, tab="Sweep", order=90, picture=Logarithmic,
+    find=found, asks=asked, quick=quick, tab="Sweep", order=90, picture=Logarithmic,
     controls=("sweep.swept", "sweep.against", "sweep.scale"),
 )  # fmt: skip
 
