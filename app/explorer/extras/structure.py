@@ -133,7 +133,7 @@ class OnStructure(Impact):
     def equivalent(self, state, turning_point):
         """On a structure the speed is larger than that of the work alone."""
         numbers = super().equivalent(state, turning_point)
-        given = self.given(state) | numbers
+        given = self.given_quickly(state) | numbers
         if "structure" not in given or hasattr(DRIVES[state.drive].make(state), "speed"):
             return numbers
         depth, shape, made = float(turning_point.depth), profile(state), medium(state)

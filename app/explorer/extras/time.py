@@ -33,7 +33,7 @@ def _contacts(view: View) -> str:
     if structure is None or structure.modes is None:
         return ""
     count = view.course.hit.contacts
-    return f"{count} contact{'s' * (count > 1)}"
+    return "1 contact" if count == 1 else f"{count} contacts"
 
 
 MOTION = Plot(
