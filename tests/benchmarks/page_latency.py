@@ -24,6 +24,8 @@ SCENES = {
     "dry impact": ("?preset=striker-glass_epoxy-drop-weight", "v_0"),
     "viscous impact": ("?preset=striker-glass_epoxy-drop-weight&damping=eta&eta=524000", "v_0"),
     "oblique impact": ("?preset=striker-glass_epoxy-drop-weight&drive=oblique&incoming_speed=2", "V_0"),
+    "plate without edges": ("?preset=small_ball-carbon_epoxy", "v_0"),
+    "plate with edges": ("?preset=ball-carbon_laminate", "v_0"),
     "sweep beside an impact": ("?preset=striker-glass_epoxy-drop-weight&tiles=sweep", "v_0"),
 }
 
