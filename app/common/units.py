@@ -9,7 +9,7 @@ from mdr_core.show.units import UNITS, Unit, digits, fitting, with_unit
 _READ = {"length": (Unit("Å", 1e-10), Unit("um", 1e-6))}
 #: Letters of units, with those that keyboards have for them.
 _KEYBOARD = str.maketrans("µ·³²", "u*32")
-_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
+_NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
 #: A comma before exactly three digits is a decimal comma, or separates thousands.
 _TWO_READINGS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?!\d)", re.ASCII)
 
@@ -36,7 +36,7 @@ def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
     Parameters
     ----------
     text : str
-        A number, with a unit or without. One with an exponent and without a unit is in SI.
+        A number, with a unit or without.
     kind : str
         Kind of quantity, a key of `UNITS`.
     shown : Unit
@@ -64,17 +64,17 @@ def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
     match = _NUMBER.fullmatch(plain) if len(plain) <= 40 else None
     known = (*UNITS[kind], *_READ.get(kind, ()))
     units = {name: unit for unit in known for name in (unit.name, unit.name.translate(_KEYBOARD))}
-    if match and kind == "slope" and match[3] == "°" and 0 < float(match[1]) < 90:
+    if match and kind == "slope" and match[2] == "°" and 0 < float(match[1]) < 90:
         return 1 / tan(radians(float(match[1]))), shown
-    if match and kind == "slope" and match[3] == "°":
+    if match and kind == "slope" and match[2] == "°":
         raise ValueError("the half-angle must be above 0° and below 90°")
-    if match is None or (match[3] and match[3] not in units):
+    if match is None or (match[2] and match[2] not in units):
         names = ", ".join(unit.name for unit in UNITS[kind] if unit.name) or "°" * (kind == "slope")
         raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {names}" * bool(names))
-    factor = units[match[3]].factor if match[3] else 1.0 if match[2] else shown.factor
+    factor = units[match[2]].factor if match[2] else shown.factor
     # 15 nm as 1.5e-08, not as 1.5000000000000002e-08.
     value = float(f"{float(match[1]) * factor:.15g}")
     if not isfinite(value):
         raise ValueError(f"“{text}” is too large")
-    typed = (unit for unit in known if match[3] and unit.factor == factor)
+    typed = (unit for unit in known if match[2] and unit.factor == factor)
     return value, next(typed, shown)

@@ -173,19 +173,22 @@ class Field:
         return Part("number", self._name, self._told | look, self._take)
 
     def _take(self, message: Any) -> None:
-        """Take a number that is typed, or sent by the slider as if it was; a refusal is shown beside it."""
+        """Take a typed number, or the value (SI) of the slider; a refusal is shown beside it."""
         self.refused, dragged = "", False
         self._typed = self._unit
         match message:
             case {"text": str(entered)}:
+                self._page.apply(partial(self._read, entered), self._refuse)
+            case {"value": int() | float() as value} if abs(value) < 1e300:
                 dragged = "dragged" in message
-                self._page.apply(partial(self._put, entered), self._refuse, self._name * dragged)
+                change = partial(changes.put, name=self._name, value=value)
+                self._page.apply(change, self._refuse, self._name * dragged)
         if not (self.refused or dragged):
             # Not the one that fits the number, in which it was shown meanwhile.
             self._unit = self._typed
             self._page.refresh()
 
-    def _put(self, entered: str, state: State) -> State:
+    def _read(self, entered: str, state: State) -> State:
         value, self._typed = read(entered, self._known.kind, self._unit)
         return changes.put(state, self._name, value)
 

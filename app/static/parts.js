@@ -31,7 +31,7 @@ class NumberPart {
     range.addEventListener("input", () => this.drag())
     // What waits when the slider is let go is sent at once: an answer may have been lost.
     range.addEventListener("change", () => this.askWish())
-    range.addEventListener("dblclick", () => this.ask({ text: this.now.middle.toExponential() }))
+    range.addEventListener("dblclick", () => this.ask({ value: this.now.middle }))
     text.addEventListener("input", () => { this.typing = true })
     text.addEventListener("change", () => this.ask({ text: text.value }))
     text.addEventListener("focus", () => text.select())
@@ -48,7 +48,7 @@ class NumberPart {
   askWish() { if (this.wish !== null) this.ask(this.wish) }
   drag() {
     this.share()
-    const what = { text: this.dragged().toExponential(), dragged: true }
+    const what = { value: this.dragged(), dragged: true }
     if (this.busy) this.wish = what
     else this.ask(what)
   }

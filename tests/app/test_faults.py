@@ -108,8 +108,8 @@ def test_a_refused_number_stays_until_it_is_another_or_all_is_set_anew(page):
 
 def test_a_drag_is_one_change_and_undo_leaves_the_view(page):
     start = page.state.max_depth
-    for text in ("1.05e-8", "1.25e-8", "1.48e-8"):
-        part(page, "max_depth").act({"text": text, "dragged": True})
+    for value in (1.05e-8, 1.25e-8, 1.48e-8):
+        part(page, "max_depth").act({"value": value, "dragged": True})
     assert page.state.max_depth > start
     page.apply(lambda state: state.replace(at=0.5))
     page.undo()

@@ -163,7 +163,7 @@ def test_a_number_without_a_unit_has_that_of_the_number_in_its_field():
         modulus.value = "70"
         assert (modulus.value, page.found.fit.medium.E_star) == ("70 GPa", 70e9)
         modulus.value = ""
-    frame.value = "1e-9"
+    frame.value = "1e-9 m/N"
     assert frame.si == 1e-9
     frame.value = ""
     frame.value = "0.1"

@@ -10,7 +10,8 @@ from mdr_core.show.units import UNITS, fitting
 from ..approx import approx
 
 TYPED = [
-    ("25", "length", 25e-9), ("2,5", "length", 2.5e-9), ("1e-6", "length", 1e-6), ("5 Å", "length", 5e-10),
+    ("25", "length", 25e-9), ("2,5", "length", 2.5e-9), ("1e1", "length", 1e-8), ("1e-6 m", "length", 1e-6),
+    ("5 Å", "length", 5e-10),
     ("0.012 µm", "length", 12e-9), ("3e-3um", "length", 3e-9), ("10 000 nm", "length", 1e-5),
     ("10\u202f000 nm", "length", 1e-5), ("70.3°", "slope", 1 / tan(radians(70.3))), ("0.36", "slope", 0.36),
     ("90", "angle", pi / 2), ("0,125", "length", 0.125e-9), ("1234,567 nm", "length", 1234.567e-9),
