@@ -26,6 +26,20 @@ _ENERGIES = (
 )  # fmt: skip
 
 
+@dataclass(frozen=True)
+class Caution:
+    """A limit that is exceeded so far that some readouts are no results."""
+
+    #: The `Limit` (its `what`).
+    what: str
+    #: What to do, and why.
+    sentence: str
+    readouts: tuple[str, ...]
+    #: Choice and option that do it, if there is one.
+    choice: str = ""
+    option: str = ""
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Course:
     """States of a scene along its path; every array has one value (SI) for each state.
@@ -82,6 +96,21 @@ class Course:
     def limits(self) -> list[Any]:
         """Assumptions of the model."""
         return list(self.states.limits if self.hit is None else self.hit.limits)
+
+    @property
+    def cautions(self) -> tuple[Caution, ...]:
+        """Limits that are exceeded so far that some readouts are no results."""
+        return ()
+
+    @cached_property
+    def doubtful(self) -> dict[str, str]:
+        """Names of the readouts that are no results, each with what to do."""
+        return {name: each.sentence for each in self.cautions for name in each.readouts}
+
+    @property
+    def asides(self) -> dict[str, str]:
+        """Words in the cells of readouts, by their names."""
+        return {}
 
     @property
     def initial_plastic_depth(self) -> float:

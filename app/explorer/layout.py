@@ -11,10 +11,10 @@ import panel as pn
 from markupsafe import Markup, escape
 
 from ..common.host import last
-from ..common.quantities import QUANTITIES
+from ..common.quantities import CHOICES, QUANTITIES
 from ..common.ui import FULL, LAYOUT, WIDE, as_html, html, html_subscripts, show
 from . import readouts
-from .courses import Course
+from .courses import Caution, Course
 from .extra import EXTRAS, Side
 from .figures import PLACES, Picture, drawn, legend, picture_of
 from .plot import Plot, View
@@ -96,10 +96,12 @@ class Layout:
         self.more = Parts("more", stylesheets=LAYOUT)
         self.line = Parts("top", stylesheets=LAYOUT)
         self.player = Parts("player", stylesheets=LAYOUT)
+        # What makes numbers no results, each with what to do.
+        self.cautions = Parts("bar", "cautions", stylesheets=LAYOUT)
         self.below = html("", "lights")
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
         self._side = pn.Column(self.form.view, **look)
-        plots = (self.line, self.player, self.below, self.grid)
+        plots = (self.line, self.player, self.cautions, self.below, self.grid)
         results = pn.Column(*plots, css_classes=["results"], **FULL)
         columns = pn.Row(self._side, results, css_classes=["columns"], **FULL)
         head = pn.Row(self.header, self.more, css_classes=["above"], **WIDE | {"stylesheets": LAYOUT})
@@ -144,7 +146,7 @@ class Layout:
         self.more.show([_FIT, *filter(None, more), dark])
         numbers = readouts.line(view.course)
         heads = text("heads", readouts.heads(numbers), "heads")
-        page.messages.words = as_html(readouts.values(numbers, view.course.now))
+        page.messages.words = as_html(readouts.values(view.course, numbers, view.course.now))
         self.line.show([heads, Part("words", "words", {})])
         self.player.show([player(view, page.move), self.others(view)])
         for name, part in self.parts.items():
@@ -161,6 +163,16 @@ class Layout:
         """Show texts that wait while a slider moves, because a changed one causes a new layout."""
         found = (extra.notes(view).get("below") for extra in EXTRAS.values())
         show(self.below, object=Markup("").join(made() for made in found if made))
+        cautions = view.course.cautions
+        show(self.cautions, visible=bool(cautions))
+        self.cautions.show([part for each in cautions for part in self._caution(each)])
+
+    def _caution(self, caution: Caution) -> Iterator[Part]:
+        """What to do, and a button that does it."""
+        yield text(caution.what, html_subscripts(caution.sentence), "severe")
+        if caution.option:
+            label = f"Take a {CHOICES[caution.choice].options[caution.option].label}"
+            yield button(label, partial(self._page.choose, caution.choice, caution.option))
 
     # The plots.
 
@@ -219,7 +231,7 @@ def frames_in_steps(view: View, pictures: list[Picture]) -> Iterator[list[Any]]:
                 places = json.dumps({name: columns[name] for name in PLACES if name in columns})
                 found.setdefault(source, []).append(places.replace("NaN", "null"))
     moving = {source: texts for source, texts in found.items() if len(set(texts)) > 1}
-    words = [readouts.values(numbers, i) for i in states]
+    words = [readouts.values(view.course, numbers, i) for i in states]
     yield [[*moving], [*moving.values()], words, view.course.times.tolist()]
 
 

@@ -15,7 +15,7 @@ from mdr_core.show.units import written
 
 from ..common.ui import call
 from .courses import Course, onset_depth
-from .plot import AxisSpec, Plot, View
+from .plot import WIDTH, AxisSpec, Plot, View, width
 from .state import LISTS, Entries
 
 # Axes, which other plots may share.
@@ -184,7 +184,10 @@ def force(view: View, i: int) -> dict:
     if onset is not None and not course.dashpots:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if (lower := float(states.plastic_depth[i])) > 0:
-        rows["dₚ"] = max(lower - 3 * right, right), 0.12 * view.end(F), "dₚ"
+        text = f"dₚ = {written(lower, 'length', 3)}"
+        # Right of its point where there is no room on the left.
+        room = (width(text) + 4) / WIDTH * view.end(D)
+        rows["dₚ"] = lower - room if lower > room else lower + right, 0.12 * view.end(F), text
     if course.chained or course.adhesive:
         # No live interval tells what is stored in elements that have each a memory of their own, and with
         # adhesion the area below the curve is not what is stored.

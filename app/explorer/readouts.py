@@ -17,6 +17,8 @@ from .courses import Course
 MOST = 8
 #: Relative to the largest term of a sum: what is left of it by rounding, some units in the last place.
 _RESIDUE = 16 * np.finfo(float).eps
+#: Restitution below which no digits are shown: the model does not have them.
+_LEAST = 1e-3
 
 
 def readings(course: Course, asked: list[Readout] = READOUTS) -> dict[Readout, Any]:
@@ -42,19 +44,33 @@ def line(course: Course) -> dict[Readout, Any]:
 
 def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
     """Value in state i with its unit."""
-    value = values if np.ndim(values) == 0 else values[i]
-    return written(float(value), KINDS[readout.unit], count)
+    value = float(values if np.ndim(values) == 0 else values[i])
+    if readout.name == "restitution" and 0 < value < _LEAST:
+        return f"< {_LEAST:g}"
+    return written(value, KINDS[readout.unit], count)
 
 
 _STRIP = Markup('<div class="strip">{}</div>')
-_CELL = Markup('<output data-name="{}">{}</output>')
+_CELL = Markup('<output data-name="{}" class="{}" title="{}">{}{}</output>')
+_ASIDE = Markup(" <small>{}</small>")
 _ABOUT = Markup('<span class="name" title="{}">{} {}</span>')
+_NUMBER = Markup("<dt>{} {}</dt><dd>{}</dd>")
 _EXPLAINED = Markup("<dt>{} {}</dt><dd>{} <em>{}</em></dd>")
 
 
-def values(numbers: dict[Readout, Any], i: int) -> Markup:
-    """Cells of the line in state i, as HTML."""
-    cells = (_CELL.format(each.name, text(each, value, i)) for each, value in numbers.items())
+def values(course: Course, numbers: dict[Readout, Any], i: int) -> Markup:
+    """Cells of the line of a course in state i, as HTML; numbers that are no results are marked."""
+    doubtful, asides = course.doubtful, course.asides
+    cells = (
+        _CELL.format(
+            each.name,
+            "doubtful" * (each.name in doubtful),
+            doubtful.get(each.name, ""),
+            text(each, value, i),
+            _ASIDE.format(asides[each.name]) if each.name in asides else "",
+        )
+        for each, value in numbers.items()
+    )
     return _STRIP.format(Markup("").join(cells))
 
 
@@ -67,6 +83,17 @@ def heads(numbers: dict[Readout, Any]) -> Markup:
 def head(readout: Readout) -> Markup:
     about = f"{unicode_subscripts(readout.help)} {unicode_subscripts(readout.equation)}".strip()
     return _ABOUT.format(about, symbol(readout.symbol), readout.short or readout.long_name)
+
+
+def table(course: Course) -> Markup:
+    """Numbers of the present state that are not in the line, as HTML."""
+    above = line(course)
+    rows = (
+        _NUMBER.format(symbol(each.symbol), each.long_name, text(each, value, course.now))
+        for each, value in readings(course).items()
+        if each not in above
+    )
+    return Markup("<dl>{}</dl>").format(Markup("").join(rows))
 
 
 def explained(numbers: dict[Readout, Any], link: Callable[[str], Markup] = linked) -> Markup:

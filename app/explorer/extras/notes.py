@@ -82,15 +82,17 @@ _HEAD = "Numbers, equations, assumptions"
 
 
 def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
-    """Levels ("good", "note", "beyond") and sentences of the assumptions."""
+    """Levels ("good", "note", "beyond", "severe") and sentences of the assumptions."""
     for sentence in (*course.notes, course.pending):
         if sentence:
             yield "note", sentence
+    yield from (("severe", each.sentence) for each in course.cautions)
+    told = {each.what for each in course.cautions}
     speed = [] if course.hit is None else [course.hit.speed_limit(state.density)]
     for limit in sorted([*course.limits, *speed], key=lambda limit: limit.concerns != "result"):
         # The fast limit is one without adhesion; what is still computed may have dashpots.
         without = {"fast limit": course.adhesive, "viscosity": bool(course.pending)}
-        if without.get(limit.what):
+        if without.get(limit.what) or limit.what in told:
             continue
         own = _own_words(limit, state)
         yield ("note", own) if own else (limit.level, limit.sentence)
@@ -121,8 +123,10 @@ def below(view: View) -> Markup:
     for level, sentence in limits(view.course, view.state):
         html = _SENTENCE.format(level, linked(sentence))
         exceeded += html * (level == "beyond")
-        others += html * (level != "beyond")
+        # Cautions are above it, with their buttons.
+        others += html * (level in ("good", "note"))
     others += readouts.explained(readouts.line(view.course))
+    others += readouts.table(view.course)
     others += _laws(view, visible(view), linked)
     return exceeded + Markup("<details><summary>{}</summary>{}</details>").format(_HEAD, others)
 

@@ -63,7 +63,7 @@ def scene_file(view: View, bokeh: str = "") -> str:
     for picture in pictures:
         picture.show(picture.columns(view, course.now), view)
         document.add_root(picture.figure)
-    readout = readouts.values(numbers, course.now)
+    readout = readouts.values(course, numbers, course.now)
     _connect(document, view, pictures, Messages(words=as_html(readout)))
     words = {
         "style": CSS,

@@ -1,6 +1,7 @@
 """The structure behind the medium in the drive *impact*: a thick block, a plate, or a support."""
 
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from math import exp, inf, log
 from types import SimpleNamespace
 from typing import Any
@@ -11,13 +12,13 @@ from scipy.optimize import brentq
 
 import mdr_core as mdr
 from mdr_core.show.structure_limits import BACK
-from mdr_core.show.units import written
+from mdr_core.show.units import digits, written
 from mdr_core.solver.impacts.modal import contact_instants, motion_at
 from mdr_core.solver.medium.modes import Modes
 
 from ...common.quantities import QUANTITIES
 from ...common.ui import html_subscripts
-from ..courses import Course, path_progress
+from ..courses import Caution, Course, path_progress
 from ..drives import DRIVES, INSTANTS, Impact, follow
 from ..extra import Extra
 from ..plot import Plot, View
@@ -34,15 +35,38 @@ MODES, FEW, _SWINGS = 100, 12, 2.0
 _PENDING = f"Computing {MODES} modes; drawn so far by fewer."
 
 
+#: Value of a limit over its bound above which readouts are no results, and these readouts.
+_FAR = 3.0
+_OF_BODY = ("force", "restitution", "contact_time", "structure_work", "support_energy")
+_DOUBTFUL = {
+    "edges": (*_OF_BODY, "deflection"),
+    "second contact": ("restitution", "structure_work"),
+    "deflection": (*_OF_BODY, "deflection"),
+    "dent": ("force", "depth", "plastic_depth", "plastic_work"),
+}
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StructureCourse(Course):
     """A course of an impact on a plate or a support."""
 
     @property
     def in_place(self):
-        # Both radii are seen; what is damaged has the radius c.
         taken = "structure_work" if self.structure.is_plate else "support_energy"
-        return {"damaged_area": taken, "contact_radius": "deflection"}
+        return {"damaged_area": taken, "plastic_radius": "deflection"}
+
+    @cached_property
+    def cautions(self):
+        found = [_caution(limit) for limit in self.limits if _far_beyond(limit)]
+        # What another structure cures comes first; other numbers of this one then tell nothing.
+        return next(((each,) for each in found if each.option), tuple(found))
+
+    @property
+    def asides(self):
+        if not _has_edges(self.structure):
+            return {}
+        count = self.hit.contacts
+        return {"restitution": "1 contact" if count == 1 else f"{count} contacts"}
 
     @property
     def behind(self) -> SimpleNamespace:
@@ -57,6 +81,30 @@ class StructureCourse(Course):
     def largest_terms(self):
         own = {"deflection": self.hit.max_deflection, "body_velocity": self.hit.speed}
         return super().largest_terms | own
+
+
+def _far_beyond(limit: Any) -> bool:
+    """Whether a limit is exceeded so far that readouts are no results."""
+    again = limit.what == "second contact" and limit.exceeded
+    return limit.what in _DOUBTFUL and (again or limit.value > _FAR * limit.bound)
+
+
+def _caution(limit: Any) -> Caution:
+    """What to do where a limit of a structure is exceeded, and why."""
+    readouts, times = _DOUBTFUL[limit.what], f"{digits(limit.value / 2, 3)} times the thickness"
+    if limit.what == "deflection":
+        text = f"Take a thicker plate or a slower body: the deflection, {times}, stretches the plate"
+        return Caution(limit.what, f"{text}.", readouts)
+    if limit.what == "dent":
+        text = f"Take a thicker plate or a larger indenter: the dent reaches {times} of the plate"
+        return Caution(limit.what, f"{text}.", readouts)
+    text = "Take a plate with edges: this one swings back and hits the body again"
+    if limit.what == "edges":
+        text = "Take a plate with edges: no wave comes back to lift the body from this one"
+        if limit.value < inf:
+            text = f"Take a plate with edges: the contact lasts {digits(limit.value, 3)} times as long as waves"
+            text += " take to the edge and back"
+    return Caution(limit.what, f"{text}.", readouts, "structure.behind", "edges")
 
 
 class OnStructure(Impact):

@@ -27,15 +27,6 @@ def _law(course: Course) -> str:
     return f"m d²{'(d + w)' if course.structure else 'd'}/dt² = −F,  § 9"
 
 
-def _contacts(view: View) -> str:
-    """Number of contacts of a body that may hit several times."""
-    structure = view.course.structure
-    if structure is None or structure.modes is None:
-        return ""
-    count = view.course.hit.contacts
-    return "1 contact" if count == 1 else f"{count} contacts"
-
-
 MOTION = Plot(
     "motion", "Depth and force over time",
     _law,
@@ -48,7 +39,7 @@ MOTION = Plot(
         mark("F now", marker="diamond", size=11, axis=2, legend=False),
     ),
     motion_places, applies=lambda view: view.course.motion is not None, tab="In time", order=30,
-    aside=_contacts,
+    aside=lambda view: view.course.asides.get("restitution", ""),
 )  # fmt: skip
 
 
