@@ -80,6 +80,9 @@ class StructureCourse(Course):
     @property
     def largest_terms(self):
         own = {"deflection": self.hit.max_deflection, "body_velocity": self.hit.speed}
+        if _has_edges(self.structure):
+            # The depth is the way of the body less the deflection.
+            own["depth"] = self.hit.max_deflection
         return super().largest_terms | own
 
 

@@ -147,11 +147,16 @@ def modal_impact(profile, medium, mass, speed, imprint_depth, structure, toleran
 
 
 def contact_instants(hit, n):
-    """About n ascending times (s) of one impact: in all contacts, few in flights, and the turning point."""
-    motion, count = hit._motions[()], max(n // len(hit.hits), 8)
-    contacts = [np.linspace(each.start, each.end, count) for each in hit.hits]
-    flights = [np.linspace(one.end, other.start, 6) for one, other in pairwise(hit.hits)]
-    return np.unique(np.concatenate([*contacts, *flights, [motion.turning_time]]))
+    """About n ascending times (s) of one impact: in all contacts, few in flights, and the turning point.
+
+    Half of the times of a contact are before and half after the turning point or its middle.
+    """
+    turn, half = hit._motions[()].turning_time, max(n // len(hit.hits), 8) // 2
+    found = [np.linspace(one.end, other.start, 6) for one, other in pairwise(hit.hits)]
+    for each in hit.hits:
+        middle = turn if each.start < turn < each.end else (each.start + each.end) / 2
+        found += [np.linspace(each.start, middle, half + 1), np.linspace(middle, each.end, half + 1)]
+    return np.unique(np.concatenate(found))
 
 
 def motion_at(hit, time):
