@@ -70,6 +70,12 @@ def _moduli(state: State, E_star: float) -> dict[str, float]:
     return {"E_1": 2 * E_star * (1 - state.nu_1**2), "E_2": 2 * E_star * (1 - state.nu_2**2)}
 
 
+def with_tile(state: State, name: str) -> State:
+    """Show an optional plot instead of the present one, or none; large if a plot is large."""
+    shown = "" if state.large in state.tiles else state.large
+    return state.replace(tiles=(name,) if name else (), large=name if name and state.large else shown)
+
+
 def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
     """Use samples of a measured tip as the indenter; the depth is at most half their range."""
     tip = mdr.Sampled(*samples)

@@ -14,6 +14,7 @@ from ..common.host import last
 from ..common.quantities import CHOICES, QUANTITIES
 from ..common.ui import FULL, LAYOUT, WIDE, as_html, html, html_subscripts, show
 from . import readouts
+from .changes import with_tile
 from .courses import Caution, Course
 from .extra import EXTRAS, Side
 from .figures import PLACES, Picture, drawn, legend, picture_of
@@ -37,11 +38,6 @@ _FIT = text("fit", Markup('<a href="?fit">Fit a measurement</a>'), "way")
 def _toggle_dark(state: State) -> State:
     """Dark instead of light, or back."""
     return state.replace(dark=not state.dark)
-
-
-def with_tile(state: State, name: str) -> State:
-    """With an optional plot, or none, in the place of the one that is shown."""
-    return state.replace(tiles=(name,) if name else ())
 
 
 class Card:
@@ -157,7 +153,7 @@ class Layout:
     def _button(self, name: str) -> Part:
         """The button that opens a part."""
         pressed = name in self.opened.values()
-        return button(EXTRAS[name].tab, partial(self.toggle, name), pressed, key="escape")
+        return button(EXTRAS[name].tab, partial(self.toggle, name), pressed, key="escape", opens=name)
 
     def rest(self, view: View) -> None:
         """Show texts that wait while a slider moves, because a changed one causes a new layout."""

@@ -21,7 +21,7 @@ OPENING = next(iter(_DATA["scenes"]))
 MEDIUM_CHOICES = ("elasticity", "plasticity", "damping", "adhesion")
 FOLDED_CHOICES = ("elasticity", "damping", "adhesion")
 #: What the view is like rather than the scene, with defaults: undo leaves it alone. Extras add theirs.
-VIEW: dict[str, Any] = {"at": 1.0, "tiles": (), "dark": False}
+VIEW: dict[str, Any] = {"at": 1.0, "tiles": (), "large": "", "dark": False}
 
 
 @dataclass(frozen=True)
@@ -44,13 +44,14 @@ class State:
 
     E* of two bodies, and q_c of a hardness at a radius, follow from these. A number of a shape that has not
     been looked at is None: it is sized when it is. `at` is the progress of the state that is seen, `tiles`
-    the optional plots that are shown, `samples` radii and heights of a measured tip, `extras` the values of
+    the optional plots that are shown, `large` the plot that fills the page, `samples` radii and heights of a measured tip, `extras` the values of
     extras that are not at their defaults.
     """
 
     preset: str = OPENING
     at: float = 1.0
     tiles: tuple[str, ...] = ()
+    large: str = ""
     dark: bool = False
     shape: str = "cone"
     elasticity: str = "modulus"

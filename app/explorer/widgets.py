@@ -48,10 +48,14 @@ def text(name: str, html: str, classes: str = "note") -> Part:
 
 
 def button(
-    label: str, act: Callable[[], None], pressed: bool | None = None, disabled: bool = False, key: str = ""
-) -> Part:
-    """A button: `pressed` is None if it does not stay down, `key` is a key of the keyboard."""
-    look = {"label": label, "pressed": pressed, "disabled": disabled, "key": key}
+    label: str, act: Callable[[], None], pressed: bool | None = None, disabled: bool = False, key: str = "",
+    opens: str = "",
+) -> Part:  # fmt: skip
+    """A button: `pressed` is None if it does not stay down, `key` is a key of the keyboard.
+
+    What has the class `opens` scrolls into view once it is pressed.
+    """
+    look = {"label": label, "pressed": pressed, "disabled": disabled, "key": key, "opens": opens}
     return Part("button", label, look, lambda message: None if disabled else act())
 
 

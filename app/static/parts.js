@@ -105,12 +105,14 @@ const KINDS = {
     messages.properties.words.change.connect(show)
     return [el, show]
   },
-  button({ key }, send) {
+  button({ key, opens }, send) {
     const el = made("button", "act")
     Object.assign(el, { onclick: () => send(null) }).dataset.key = key
     return [el, ({ label, pressed, disabled }) => {
       // What is unfolded below it may be below the window.
-      if (key === "fold" && pressed && el.matches(":focus")) requestAnimationFrame(() => el.scrollIntoView())
+      const opened = pressed && el.ariaPressed === "false" && el.matches(":focus")
+      if (opened && key === "fold") requestAnimationFrame(() => el.scrollIntoView())
+      if (opened && opens) pages.reveal(opens)
       Object.assign(el, { textContent: label, name: label, disabled, ariaPressed: pressed })
     }]
   },
@@ -129,8 +131,12 @@ const KINDS = {
       ? `<div class="radio"><button class="word" popovertarget="about-${id}">${label}</button>${popover}<div class="options"></div></div>`
       : `<div class="list"><label for="list-${id}">${label}</label><select id="list-${id}" title="${label}"></select>${help}</div>`)
     const list = el.querySelector(radio ? ".options" : "select")
-    let [asked, offered] = [0, ""]
-    const choose = (option) => { asked = send(option) }
+    // What is chosen before the answer to an earlier option waits, and replaces what waits.
+    let [asked, done, wish, offered] = [0, 0, null, ""]
+    const choose = (option) => {
+      if (done < asked) wish = option
+      else [asked, wish] = [send(option), null]
+    }
     const filled = (options) => list.replaceChildren(...options.map(([option, text]) => {
       if (!radio) return new Option(text, option)
       const label = made("label", "", `<input type="radio" name="of-${id}">`)
@@ -143,7 +149,9 @@ const KINDS = {
       if (offered !== JSON.stringify(options)) filled(options)
       offered = JSON.stringify(options)
       // Also what was refused is answered: the present option stands again. Earlier answers do not touch what is asked now.
-      if (answered < asked) return
+      done = answered
+      if (done < asked) return
+      if (wish !== null) return choose(wish)
       if (radio) for (const { firstChild } of list.children) firstChild.checked = firstChild.value === value
       else list.value = value
     }]

@@ -157,6 +157,12 @@ window.pages = (() => {
       for (const slider of all(document).filter((each) => each.classList.contains("ends")))
         toolkit.name_handles(slider, ["First sample of the fit", "Last sample of the fit"])
     },
+    // Scroll what has a class into view, once it is there.
+    reveal(name, tries = 120) {
+      const place = all(document).find((each) => each.classList.contains(name) && each.getClientRects().length)
+      if (place) place.scrollIntoView({ block: "nearest" })
+      else if (tries > 0) requestAnimationFrame(() => pages.reveal(name, tries - 1))
+    },
     // Lead to the first field of what has a class, once it is there: a fold may have to open before.
     lead(name) {
       const lead = (tries) => {

@@ -22,12 +22,12 @@ _SCALE = 1.5
 
 def turned(state: State, name: str) -> State:
     """With a plot large, or with none if it is large already."""
-    return state.replace(**{"large.plot": None if state["large.plot"] == name else name})
+    return state.replace(large="" if state.large == name else name)
 
 
 def large_button(page: Any, plot: Plot, view: View) -> Part:
     """The button *Large* of a plot."""
-    is_large = view.state["large.plot"] == plot.name
+    is_large = view.state.large == plot.name
     act = partial(page.apply, lambda state: turned(state, plot.name))
     return button("Small" if is_large else "Large", act, pressed=is_large, key="escape")
 
@@ -66,7 +66,7 @@ class Cards(Service):
     def show(self, view: View) -> None:
         cards = {name: card for name, card in self.page.layout.cards.items() if card.picture.axes}
         for name, card in cards.items():
-            is_large = name == view.state["large.plot"]
+            is_large = name == view.state.large
             show(card.view, css_classes=["card", name, *["large"] * is_large])
             scale = _SCALE if is_large else 1.0
             if scale != self._set.get(name, 1.0):
@@ -109,6 +109,4 @@ def on_plot(page: Any, plot: Plot, view: View) -> list[Part]:
     return [of_plot(plot, view), large_button(page, plot, view)]
 
 
-EXTRA = Extra(
-    "cards", order=32, values={"large.plot": None}, on_plots=on_plot, header=of_all, service=Cards
-)
+EXTRA = Extra("cards", order=32, on_plots=on_plot, header=of_all, service=Cards)

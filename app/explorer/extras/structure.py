@@ -18,6 +18,7 @@ from mdr_core.solver.medium.modes import Modes
 
 from ...common.quantities import QUANTITIES
 from ...common.ui import html_subscripts
+from ..changes import with_tile
 from ..courses import Caution, Course, path_progress
 from ..drives import DRIVES, INSTANTS, Impact, follow
 from ..extra import Extra
@@ -105,8 +106,8 @@ def _caution(limit: Any) -> Caution:
     if limit.what == "edges":
         text = "Take a plate with edges: no wave comes back to lift the body from this one"
         if limit.value < inf:
-            text = f"Take a plate with edges: the contact lasts {digits(limit.value, 3)} times as long as waves"
-            text += " take to the edge and back"
+            text = f"Take a plate with edges: the contact lasts {digits(limit.value, 3)} times as long as"
+            text += " waves take to the edge and back"
     return Caution(limit.what, f"{text}.", readouts, "structure.behind", "edges")
 
 
@@ -296,8 +297,8 @@ def e_over(page: Any, plot: Plot, view: View) -> list[Part]:
         label, swept = "e over h", thickness
     else:
         return []
-    shown = {"tiles": ("sweep",), "sweep.swept": swept, "sweep.against": "restitution"}
-    return [button(label, lambda: page.apply(lambda state: state.replace(**shown)))]
+    chosen = {"sweep.swept": swept, "sweep.against": "restitution"}
+    return [button(label, lambda: page.apply(lambda state: with_tile(state, "sweep").replace(**chosen)))]
 
 
 EXTRA = Extra("structure", drives={"impact": OnStructure()}, notes=notes, on_plots=e_over)

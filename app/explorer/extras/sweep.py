@@ -20,7 +20,7 @@ from ...common.errors import error_text
 from ...common.quantities import CHOICES, QUANTITIES, Option, quantity, read_data, unicode_subscripts
 from ...common.ui import html_subscripts
 from ...common.units import in_full
-from ..changes import CONSTANTS, crossing, option, shown
+from ..changes import CONSTANTS, crossing, option, shown, with_tile
 from ..drives import DRIVES
 from ..extra import Extra
 from ..figures import Logarithmic
@@ -349,8 +349,10 @@ def e_over_v(page: Any, plot: Plot, view: View) -> list[Part]:
     """The button above the force of an impact that shows the restitution over the speed."""
     if plot.name != "force" or view.state.drive != "impact":
         return []
-    shown = {"tiles": ("sweep",), "sweep.swept": "speed", "sweep.against": "restitution"}
-    return [button("e over v", lambda: page.apply(lambda state: state.replace(**shown)))]
+    chosen = {"sweep.swept": "speed", "sweep.against": "restitution"}
+    return [
+        button("e over v", lambda: page.apply(lambda state: with_tile(state, "sweep").replace(**chosen)))
+    ]
 
 
 EXTRA = Extra(
