@@ -30,8 +30,8 @@ _ENERGIES = (
 class Caution:
     """A limit that is exceeded so far that some readouts are no results."""
 
-    #: The `Limit` (its `what`).
-    what: str
+    #: The limits (`Limit.what`) that it stands for, itself first.
+    limits: tuple[str, ...]
     #: What to do, and why.
     sentence: str
     readouts: tuple[str, ...]

@@ -165,7 +165,7 @@ class Layout:
 
     def _caution(self, caution: Caution) -> Iterator[Part]:
         """What to do, and a button that does it."""
-        yield text(caution.what, html_subscripts(caution.sentence), "severe")
+        yield text(caution.limits[0], html_subscripts(caution.sentence), "severe")
         if caution.option:
             label = f"Take a {CHOICES[caution.choice].options[caution.option].label}"
             yield button(label, partial(self._page.choose, caution.choice, caution.option))

@@ -44,8 +44,8 @@ class State:
 
     E* of two bodies, and q_c of a hardness at a radius, follow from these. A number of a shape that has not
     been looked at is None: it is sized when it is. `at` is the progress of the state that is seen, `tiles`
-    the optional plots that are shown, `large` the plot that fills the page, `samples` radii and heights of a measured tip, `extras` the values of
-    extras that are not at their defaults.
+    the optional plots that are shown, `large` the plot that fills the page, `samples` radii and heights of
+    a measured tip, `extras` the values of extras that are not at their defaults.
     """
 
     preset: str = OPENING

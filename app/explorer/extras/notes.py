@@ -87,7 +87,7 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
         if sentence:
             yield "note", sentence
     yield from (("severe", each.sentence) for each in course.cautions)
-    told = {each.what for each in course.cautions}
+    told = {what for each in course.cautions for what in each.limits}
     speed = [] if course.hit is None else [course.hit.speed_limit(state.density)]
     for limit in sorted([*course.limits, *speed], key=lambda limit: limit.concerns != "result"):
         # The fast limit is one without adhesion; what is still computed may have dashpots.

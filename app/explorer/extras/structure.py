@@ -59,8 +59,9 @@ class StructureCourse(Course):
     @cached_property
     def cautions(self):
         found = [_caution(limit) for limit in self.limits if _far_beyond(limit)]
-        # What another structure cures comes first; other numbers of this one then tell nothing.
-        return next(((each,) for each in found if each.option), tuple(found))
+        # Where another structure is to be taken, other limits of this one tell nothing.
+        other = next((each for each in found if each.option), None)
+        return tuple(found) if other is None else (replace(other, limits=(*other.limits, *_DOUBTFUL)),)
 
     @property
     def asides(self):
@@ -98,17 +99,17 @@ def _caution(limit: Any) -> Caution:
     readouts, times = _DOUBTFUL[limit.what], f"{digits(limit.value / 2, 3)} times the thickness"
     if limit.what == "deflection":
         text = f"Take a thicker plate or a slower body: the deflection, {times}, stretches the plate"
-        return Caution(limit.what, f"{text}.", readouts)
+        return Caution((limit.what,), f"{text}.", readouts)
     if limit.what == "dent":
         text = f"Take a thicker plate or a larger indenter: the dent reaches {times} of the plate"
-        return Caution(limit.what, f"{text}.", readouts)
+        return Caution((limit.what,), f"{text}.", readouts)
     text = "Take a plate with edges: this one swings back and hits the body again"
     if limit.what == "edges":
         text = "Take a plate with edges: no wave comes back to lift the body from this one"
         if limit.value < inf:
             text = f"Take a plate with edges: the contact lasts {digits(limit.value, 3)} times as long as"
             text += " waves take to the edge and back"
-    return Caution(limit.what, f"{text}.", readouts, "structure.behind", "edges")
+    return Caution((limit.what,), f"{text}.", readouts, "structure.behind", "edges")
 
 
 class OnStructure(Impact):
