@@ -15,6 +15,7 @@ import numpy as np
 import mdr_core as mdr
 from mdr_core.base.remark import Remark, Remedy
 from mdr_core.measurements.fit.noise import depth_noise_of
+from mdr_core.measurements.fit.remarks import remark_on_tension
 from mdr_core.measurements.reading import UnknownColumns
 from mdr_core.show.units import written
 
@@ -30,7 +31,9 @@ MOST = 2000
 #: Most samples of a curve that is drawn beside all others.
 _DRAWN = 150
 #: Kinds of remarks on what changes a number by more than its error, by the source of that.
-_OF_THE_NUMBER = {"unloading": {"zero", "creep", "tip"}, "fit": {"drift", "drag", "tilt", "tip"}}
+_OF_THE_NUMBER = {
+    "unloading": {"zero", "creep", "tip"}, "fit": {"drift", "drag", "tilt", "tip", "adhesion"},
+}  # fmt: skip
 #: E* (Pa): nothing of constant hardness has less than the first, polymers have more than the second, and
 #: rubber has less than the third.
 _NONE, _SOFT, _STIFF = 1e6, 1e8, 1e9
@@ -170,6 +173,7 @@ def fit(curve: Any, asked: dict[str, Any]) -> SimpleNamespace:
     used = (ends[0] <= taken.number) & (taken.number <= ends[1])
     _check_range(taken, used, arguments)
     found, remarks = _fitted(asked.profile, taken, used, arguments)
+    remarks += _adhesion(found, taken, remarks) if asked.medium == "gel" else ()
     part = next((each for each in ("loading", "unloading") if ends_of(taken, len(curve), each) == ends), "")
     quoted, above, below = _plausible(found.quoted, asked, arguments, curve, taken, used, part)
     of_unloading = None
@@ -254,6 +258,14 @@ def _fitted(profile: Any, taken: Any, used: np.ndarray, arguments: dict[str, Any
         if other.quoted.value is not None:
             return other, tuple(dict.fromkeys((*found.remarks, *other.remarks)))
     return found, found.remarks
+
+
+def _adhesion(found: Any, taken: Any, remarks: tuple[Remark, ...]) -> tuple[Remark, ...]:
+    """Return a remark on the tension of the whole curve if there is none on that of its fitted samples."""
+    error = found.standard_errors.get("E_star", 0.0) / float(found.medium.E_star)
+    known = any(each.kind == "adhesion" for each in remarks)
+    remark = None if known else remark_on_tension(taken.depth, taken.force, error)
+    return () if remark is None else (remark,)
 
 
 # Whether a modulus is one to quote for the kind of sample that was chosen.

@@ -27,6 +27,9 @@ def remedy_button(remedy: Remedy, page: Any) -> Any:
     name = FITTED[what].label if what in FITTED else ""
     set_number = form.numbers[what].param.update if what in form.numbers else None
     match remedy.action:
+        case "free" if what == "work_of_adhesion" and form.medium.value == "gel":
+            take = partial(form.medium.param.update, value="sticky")
+            return button("Take an elastic sample with adhesion", take)
         case "free" if what in shown and not is_fitted:
             return button(f"Free the {name}", partial(set_number, si=None))
         case "hold" if is_fitted and value is None:

@@ -212,9 +212,11 @@ class Results:
         return texts.WELCOME
 
     def _number(self) -> Markup:
-        page = self._page
-        rigid_frame = not page.form.value("frame")
-        return texts.headline(page.found, page.E, page.form.tip.value != "measured", rigid_frame)
+        page, form = self._page, self._page.form
+        assumed = ["an ideal tip"] * (form.tip.value != "measured")
+        assumed += ["a rigid frame"] * (not form.value("frame"))
+        others = texts.of_curves(page.rows, "set’s" if isinstance(page.path, list) else "file’s")
+        return texts.headline(page.found, page.E, assumed, others)
 
     def _show_classes(self, found: Any) -> None:
         letter = MEDIA[self._page.form.medium.value].letter
@@ -244,7 +246,7 @@ class Results:
             show(widget, filename=f"{Path(page.file).stem}_fit.{kind}")
         shown = form.parameters(found.fit.time is not None)
         given = form.corrections() | form.given("depth_noise")
-        show(self.report, value=texts.report(found, self._number(), page.file, shown, given))
+        show(self.report, value=texts.report(found, page.E, page.file, shown, given))
         tip = form.tip.value
         try:
             query = export.explorer_query(found, tip, form.given(*TIPS[tip].numbers), form.medium.value)

@@ -1,6 +1,8 @@
 """Results of a fit as HTML: the number to quote, tables, remarks; and its report as plain text."""
 
 import re
+from collections.abc import Iterator
+from math import floor, log10
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +11,9 @@ from markupsafe import Markup, escape
 
 from mdr_core.measurements.fit.parameters import PARAMETERS
 from mdr_core.measurements.unloading.oliver_pharr_result import OLIVER_PHARR, texts_of
+from mdr_core.show.quantities import unit_of
 from mdr_core.show.report import with_error
-from mdr_core.show.units import KINDS, fitting, with_unit, written
+from mdr_core.show.units import KINDS, digits, fitting, with_unit, written
 
 from ..common.ui import html_subscripts, own_html
 from .choices import CLASS_NAMES, FITTED, MEDIA, NUMBERS
@@ -19,9 +22,11 @@ from .choices import CLASS_NAMES, FITTED, MEDIA, NUMBERS
 WELCOME, HELP = (own_html(Path(__file__).with_name(name)) for name in ("welcome.html", "help.html"))
 #: Ratio of misfits from which another class fits clearly better.
 _CLEARLY = 5.0
+#: Relative error below which an error is that of the arithmetic.
+_EXACT = 1e-6
 _SOURCES = {"unloading": "from the unloading, by Oliver and Pharr", "fit": "from the fit"}
 _LARGE = Markup('<p class="big">E* = <output>{}</output></p><p class="of">Effective modulus, {}.{}</p>')
-_SECOND = Markup('<p class="second">{} = <output>{}</output>, {}</p>')
+_SECOND = Markup('<p class="second">{} = <output>{}</output>{}, {}</p>')
 _TO_DO = Markup('<p class="big none">{}</p><p class="of">{}</p>')
 _WAITING = Markup('<p class="waiting" role="status">{} …</p>')
 _TABLE, _ROW = Markup("<table>{}</table>"), Markup("<tr class='{}'><th>{}</th>{}</tr>")
@@ -57,6 +62,16 @@ def amount(value: float, error: float | None, unit: str) -> str:
     return _minus(exact if error is None else with_error(value, error, unit))
 
 
+def short(value: float, error: float | None, unit: str) -> tuple[str, str]:
+    """Return a number of at most four digits, and its error with one digit or "", both with the unit."""
+    size = unit_of(abs(value), unit)
+    if error is None or error <= _EXACT * abs(value):
+        return with_unit(_minus(f"{value / size.factor:.4g}"), size.name), ""
+    count = min(max(floor(log10(abs(value))) - floor(log10(error)) + 2, 1), 4)
+    number, noise = digits(value / size.factor, count), digits(error / size.factor, 1)
+    return with_unit(number, size.name), with_unit(noise, size.name)
+
+
 def near(value: float, kind: str, like: float = 0.0) -> str:
     """Return a value with its unit; 0 has that of the value `like`."""
     return written(value, kind) if value else with_unit("0", fitting(0.0, kind, like).name)
@@ -79,24 +94,42 @@ def to_do(what: str, how: str = "Then the fit runs at once.") -> Markup:
     return _TO_DO.format(what, how)
 
 
-def headline(found: Any, E: tuple[float, float] | None, ideal_tip: bool, rigid_frame: bool) -> Markup:
-    """Return the number to quote, large, its source, and what its error leaves out."""
+def headline(found: Any, E: tuple[float, float] | None, assumed: list[str], others: str = "") -> Markup:
+    """Return the number to quote, large, with its source and error, what is assumed, and other curves."""
     quoted = found.quoted
     if quoted.source is None:
         return _TO_DO.format("No E* to quote", "")
-    number = amount(quoted.value, quoted.standard_error, "Pa")
-    assumed = " and ".join(["an ideal tip"] * ideal_tip + ["a rigid frame"] * rigid_frame)
-    error = (
-        " ± of the noise"
-        + f"; {assumed} {'are' if ideal_tip and rigid_frame else 'is'} assumed" * bool(assumed)
+    number, noise = short(quoted.value, quoted.standard_error, "Pa")
+    told = [f"± {noise} of noise"] * bool(noise)
+    told += [f"{' and '.join(assumed)} {'are' if len(assumed) > 1 else 'is'} assumed"] * bool(
+        noise and assumed
     )
-    html = _LARGE.format(number, _SOURCES[quoted.source], f"{error}." * ("±" in number))
-    if E is not None:
-        html += _SECOND.format("E", amount(*E, "Pa"), "Young’s modulus of the sample")
-    if (result := found.unloading) is not None:
-        H = amount(float(result.hardness), float(result.standard_errors["hardness"]), "Pa")
-        html += _SECOND.format("H", H, "hardness by Oliver and Pharr")
+    told += [others] * bool(others)
+    html = _LARGE.format(number, _SOURCES[quoted.source], f" {'; '.join(told)}." * bool(told))
+    for symbol, value, error, name in _beside(found, E):
+        number, noise = short(value, error, "Pa")
+        html += _SECOND.format(symbol, number, f" ± {noise}" * bool(noise), name)
     return html
+
+
+def _beside(found: Any, E: tuple[float, float] | None) -> Iterator[tuple[str, float, float, str]]:
+    """Yield symbols, values, errors and names of E and H."""
+    if E is not None:
+        yield "E", *E, "Young’s modulus of the sample"
+    if (result := found.unloading) is not None:
+        H, error = float(result.hardness), float(result.standard_errors["hardness"])
+        yield "H", H, error, "hardness by Oliver and Pharr"
+
+
+def of_curves(rows: list[Any], what: str) -> str:
+    """Return the range of E* of the curves of a file or a set, nothing of one curve."""
+    known = [row.E for row in rows if row.E is not None]
+    if len(known) < 2:
+        return ""
+    low, high = min(known), max(known)
+    size = unit_of(high, "Pa")
+    ends = " to ".join(digits(end / size.factor, 2) for end in (low, high))
+    return f"the {what} {len(known)} curves: {ends} {size.name}"
 
 
 def why(found: Any) -> Markup:
@@ -207,10 +240,19 @@ def range_text(curve: Any, ends: tuple[int, int], fitted: bool) -> str:
     return f"{'Fitted: s' if fitted else 'S'}amples {' to '.join(places)} of {len(curve)}"
 
 
-def report(found: Any, html: Markup, file: str, shown: list[str], corrections: dict[str, float]) -> str:
+def report(
+    found: Any, E: tuple[float, float] | None, file: str, shown: list[str], corrections: dict[str, float]
+) -> str:
     """Return a fit as lines of text to be pasted into a report."""
-    number = html.replace(Markup("</p>"), "; ").striptags().strip("; ")
-    lines = [f"{file}: {number}" + f": {found.quoted.reason}" * (found.quoted.source is None)]
+    quoted = found.quoted
+    lines = [f"{file}: No E* to quote: {quoted.reason}"]
+    if quoted.source is not None:
+        value = amount(quoted.value, quoted.standard_error, "Pa")
+        numbers = [f"E* = {value}, effective modulus {_SOURCES[quoted.source]}"]
+        numbers += [
+            f"{s} = {amount(value, error, 'Pa')}, {name}" for s, value, error, name in _beside(found, E)
+        ]
+        lines = [f"{file}: {'; '.join(numbers)}"]
     lines += [each.text for each in (*found.above, *found.below)]
     for name in shown:
         held = "" if name in found.fit.standard_errors else " (held)"

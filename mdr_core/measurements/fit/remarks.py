@@ -350,18 +350,24 @@ def of_tension(solved, i):
     curves = solved.curves
     if curves.adhesive or not curves.held_elastic or "E_star" not in curves.free:
         return
-    largest = tension(curves.depth[i], curves.force[i])
-    share = largest / (np.ptp(curves.force[i]) - largest)
-    # E* changes by about this share, which the error of a curve that deviates may cover.
-    if share <= solved.errors(i)["E_star"]:
+    found = remark_on_tension(curves.depth[i], curves.force[i], solved.errors(i)["E_star"])
+    if found is None:
         return
+    # That of a soft gel may be on the retract alone.
+    retracts = bool(curves.depth.shape[1] - np.argmax(curves.depth[i]) > _BRANCH)
+    yield Remark(found.text, found.kind, *found.remedy, *[Remedy("part", "loading")] * retracts)
+
+
+def remark_on_tension(depth, force, error):
+    """Remark on the tension of a curve whose E* has a relative error, None if that covers the tension."""
+    largest = tension(depth, force)
+    share = largest / (np.ptp(force) - largest)
+    # E* changes by about this share, which the error of a curve that deviates may cover.
+    if share <= error:
+        return None
     pull = engineering(float(f"{largest:.2g}"), "N")
     text = (
         f"the force falls {pull} below that of the air, {100 * share:.2g} % of the largest one: an "
-        "adhesion that is left out makes E* too large"
+        "adhesion that is left out changes E* by about as much"
     )
-    # That of a soft gel may be on the retract alone.
-    retracts = bool(curves.depth.shape[1] - np.argmax(curves.depth[i]) > _BRANCH)
-    yield Remark(
-        text, "adhesion", Remedy("free", "work_of_adhesion"), *[Remedy("part", "loading")] * retracts
-    )
+    return Remark(text, "adhesion", Remedy("free", "work_of_adhesion"))
