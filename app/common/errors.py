@@ -3,13 +3,15 @@
 import re
 from typing import Any
 
-from mdr_core.base.errors import InvalidArgument
+from mdr_core.base.errors import InvalidArgument, MDRError
 from mdr_core.show.units import KINDS, written
 
 from .quantities import QUANTITIES, unicode_subscripts
 
 #: Most characters of a text, which may quote a file.
 _MOST = 2000
+#: Numbers in SI, as the core writes them.
+_IN_SI = re.compile(rf"(?<![\w.])(\d+\.?\d*(?:e[+-]?\d+)?) ({'|'.join(filter(None, KINDS))})(?![\w/·²³°])")
 
 
 class Refused(Exception):
@@ -37,9 +39,15 @@ def error_text(error: ValueError) -> str:
     All other messages are as they stand, without names of Python where they have a text.
     """
     if not isinstance(error, InvalidArgument) or not isinstance(error.value, int | float):
-        return getattr(error, "text", str(error))
+        text = getattr(error, "text", str(error))
+        return in_fitting_units(text) if isinstance(error, MDRError) else text
     known = QUANTITIES.get(error.argument)
     name = f"{unicode_subscripts(known.symbol)}, {known.label}," if known else error.quantity
     value = written(float(error.value), KINDS.get(error.unit, "number"))
     advice = f"; {error.advice}" if error.advice and "SI units" not in error.advice else ""
-    return f"{name} = {value} {error.bound}{advice}"
+    return f"{name} = {value} {in_fitting_units(error.bound)}{advice}"
+
+
+def in_fitting_units(text: str) -> str:
+    """Return a message of the core, whose numbers are in SI, with each number in the unit that fits it."""
+    return _IN_SI.sub(lambda found: written(float(found[1]), KINDS[found[2]]), text)

@@ -336,7 +336,10 @@ def test_a_plot_is_large_while_others_have_never_been_drawn(page):
     press(page, "Sweep")
     part(page, "Large").act(None)
     press(page, "Section")
-    assert page.state.large
+    # It comes large in the place of the plot that was.
+    assert page.state.large == "section"
+    press(page, "Section")
+    assert page.state.large == ""
     assert page.notices == []
 
 

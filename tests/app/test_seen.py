@@ -91,6 +91,36 @@ def test_what_is_opened_leaves_the_buttons_of_a_large_plot(explorer):
     card.get_by_role("button", name="Large").wait_for()
 
 
+def test_the_guide_scrolls_into_view_when_it_is_opened(server, handheld):
+    """It is above the form, which is below the plots of a phone."""
+    explorer = Explorer(handheld.new_page(), server.url)
+    page = explorer.page
+    explorer.press("Guide")
+    title = page.get_by_label("Guided scene")
+    title.wait_for()
+    explorer.wait(
+        "(top) => explorer.all().find((on) => on.classList.contains('guide')).getBoundingClientRect().top < top",
+        800,
+    )
+    assert 0 <= title.bounding_box()["y"] < page.viewport_size["height"]
+    page.close()
+
+
+def test_of_choices_in_quick_succession_the_last_one_counts(explorer):
+    """The first is sent at once; what is chosen before it is answered waits, and replaces what waits."""
+    explorer.page.evaluate("""() => {
+      const drives = explorer.all().filter((on) => on.matches(".of-drive input"))
+      for (const drive of drives.slice(1).concat(drives[1], drives[3])) drive.click()
+    }""")
+    explorer.wait("explorer.idle()")
+    assert explorer.page.locator(".of-drive input:checked").get_attribute("value") == "impact"
+    # One step of undo for the first one, one for the last.
+    explorer.change(explorer.press, "Undo")
+    explorer.change(explorer.press, "Undo")
+    assert explorer.page.locator(".of-drive input:checked").get_attribute("value") == "depth"
+    assert not explorer.page.get_by_role("button", name="Undo", exact=True).is_visible()
+
+
 def test_words_of_all_buttons_in_share_are_in_their_middle(server, handheld):
     """Files are links in buttons, which are 44 pixels high for a finger."""
     explorer = Explorer(handheld.new_page(), server.url)

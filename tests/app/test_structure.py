@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import mdr_core as mdr
 from app.common.host import last
@@ -138,6 +139,53 @@ def test_the_sweep_over_the_mass_goes_from_the_plate_without_edges_to_the_suppor
     # Not where the plate itself is swept.
     swept = state.replace(**{"sweep.swept": "structure.length"})
     assert not {*sweep.LIMITING} & {*last(sweep.found(follow(swept), sweep.asked(swept))).rows}
+
+
+def cells(page):
+    """Readouts above the plots, by their names: classes, text."""
+    cell = re.compile(r'<output data-name="(\w+)" class="(\w*)" title="[^"]*">(.*?)</output>')
+    return {name: (classes, text) for name, classes, text in cell.findall(page.messages.words)}
+
+
+def test_a_plate_that_is_the_wrong_model_marks_its_numbers_and_offers_the_right_one():
+    """ASTM D7136 on a plate without edges: e = 1.1e-8, of which no digit is a result."""
+    page = Page(f"preset={SUPPORT}")
+    assert not any(classes for classes, _ in cells(page).values())
+    page.choose("structure.behind", "plate")
+    shown = cells(page)
+    for name in ("force", "restitution", "contact_time", "structure_work"):
+        assert shown[name][0] == "doubtful", name
+    assert shown["restitution"][1] == "&lt; 0.001"
+    assert {shown[name][0] for name in ("depth", "plastic_depth")} == {""}
+    (said,) = (each for name, each in page.layout.cautions.parts.items() if name == "edges")
+    assert said.look["object"].startswith("Take a plate with edges: ")
+    # The export has the value.
+    e = float(page.view.course.hit.restitution)
+    assert 0 < e < 1e-6
+    assert f"{e:.3g}"[:4] in share.csv(page.view)
+    press(page, "Take a plate with edges")
+    assert page.state["structure.behind"] == "edges"
+    assert (page.state["structure.width"], page.state["structure.length"]) == (0.075, 0.125)
+    assert not any(classes for classes, _ in cells(page).values())
+    assert not page.layout.cautions.visible
+    assert cells(page)["restitution"][1].endswith("<small>1 contact</small>")
+
+
+@pytest.mark.parametrize(("what", "reached"), [("deflection", "max_deflection"), ("dent", "plastic_depth")])
+def test_a_limit_is_a_caution_above_three_times_its_bound(what, reached):
+    """Half of the thickness is the bound of the deflection and of the dent."""
+    state = state_with(SUPPORT, behind="edges")
+    far = 1.5 * state["structure.thickness"]
+
+    def beyond(log_speed):
+        hit = follow(state.replace(speed=float(np.exp(log_speed)))).hit
+        return float(getattr(hit, reached)) / far - 1
+
+    speed = float(np.exp(brentq(beyond, np.log(state.speed), np.log(60 * state.speed), xtol=1e-3)))
+    for factor in (0.9, 1.1):
+        course = follow(state.replace(speed=factor * speed))
+        assert any(what in each.limits for each in course.cautions) == (factor > 1)
+        assert ("force" in course.doubtful) >= (factor > 1)
 
 
 def test_the_numbers_are_those_of_the_library():
