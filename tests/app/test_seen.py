@@ -98,10 +98,10 @@ def test_the_guide_scrolls_into_view_when_it_is_opened(server, handheld):
     explorer.press("Guide")
     title = page.get_by_label("Guided scene")
     title.wait_for()
-    explorer.wait(
-        "(top) => explorer.all().find((on) => on.classList.contains('guide')).getBoundingClientRect().top < top",
-        800,
-    )
+    explorer.wait("""() => {
+      const { top } = explorer.all().find((on) => on.classList.contains("guide")).getBoundingClientRect()
+      return top >= 0 && top < innerHeight
+    }""")
     assert 0 <= title.bounding_box()["y"] < page.viewport_size["height"]
     page.close()
 
