@@ -360,7 +360,7 @@ def test_onset_deeper_than_the_known_shape_is_refused():
         ),
         (
             lambda cone, glass: mdr.Medium(E, hardness=1e9, work_of_adhesion=0.1),
-            "hardness = .* is not modelled with adhesion",
+            "hardness = 1e\\+09 Pa .* work_of_adhesion to 0",
         ),
     ],
 )

@@ -171,7 +171,7 @@ def test_a_shape_that_may_change_is_refused():
         lambda: mdr.impact(Loose(0.1), MEDIUM, 1e-9, 0.1),
         lambda: mdr.chain_impact(Loose(0.1), MEDIUM, 1e-9, 0.1),
     ):
-        with pytest.raises(TypeError, match=r"Loose must not change .* @dataclass\(frozen=True\)"):
+        with pytest.raises(TypeError, match=r"Loose .* @dataclass\(frozen=True\)"):
             use()
 
 
