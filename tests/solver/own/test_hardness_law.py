@@ -375,7 +375,7 @@ class TestWhatIsNoLaw:
 
     def test_an_ensemble_is_looked_at_one_by_one(self):
         medium = mdr.Medium(E, hardness=NixGao(np.array([1e9, -1e9]), 1e-6))
-        with pytest.raises(ValueError, match=r"NixGao\(H0=[^\[]*-1.*it must be a number, not negative"):
+        with pytest.raises(ValueError, match=r"NixGao\(H0=[^\[]*-1.*must be a number, not negative"):
             mdr.impact(BALL, medium, 1e-12, 1.0)
         # Under the slender one of two cones the law grows too much.
         rising = mdr.Medium(E, hardness=Power(1e9, 1e-6, 0.5))
@@ -504,7 +504,7 @@ class TestTheMedium:
             lambda: mdr.Medium(E, hardness=self.law, **{name: [0.0, 5.0]}),
         ):
             with pytest.raises(
-                ValueError, match=rf"{name}.* = 5 N.* NixGao\(.*take hardness = 0 beside {name}"
+                ValueError, match=rf"{name}.* = 5 N.* NixGao\(.*take hardness = 0 with {name}"
             ):
                 call()
 
@@ -541,7 +541,7 @@ class TestTheMedium:
             def __init__(self):
                 self.H = 1e9
 
-        with pytest.raises(TypeError, match="Plain must not change: declare it with"):
+        with pytest.raises(TypeError, match=r"Plain .* @dataclass\(frozen=True\)"):
             mdr.Medium(E, hardness=Plain())
 
     def test_is_pickled_and_printed(self):
