@@ -82,24 +82,38 @@ class Limit:
     Attributes
     ----------
     what : str
-        Bounded quantity. In any result: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa,
-        "critical depth" below 0.1 nm, "Poisson ratio", "viscosity", "speed", "fast limit".
+        Bounded quantity. Any result may have "slope", "contact radius", "modulus" below 1 kPa or above
+        10 TPa, "critical depth" below 0.1 nm, "Poisson ratio", "viscosity", "speed" and "fast limit".
 
-        With adhesion: "Tabor's parameter", which must exceed its bound, and "facets" of samples.
+        With adhesion:
 
-        With friction: "coupling" and "slip direction". If elements stick, also "tolerance", "depth" over
-        the elastic compression at the turning point (d_c of a hardness q_c/a), and "mass" over the
-        tangential mass.
+        - "Tabor's parameter", which must exceed its bound
+        - "facets" of samples
 
-        With a constant hardness: "flow", the area of a flowing contact over its area in the model.
+        With friction:
 
-        On a path given by force: the length (m) of a "jump".
+        - "coupling" and "slip direction"
+        - "tolerance", if elements stick, like the next two
+        - "depth" over the elastic compression at the turning point (d_c of a hardness q_c/a)
+        - "mass" over the tangential mass
 
-        On a structure: "edges", the contact time over the time in which waves return from the nearest edge.
-        "second contact", its bound on the restitution over the restitution of the impact. "support", the
-        force that the mass of a support adds. "thin", the contact radius over half of the thickness, or 6
-        thicknesses over the speed of shear waves and the contact time. "deflection" and "dent" over half of
-        the thickness. "weight", the speed that gravity adds.
+        With a constant hardness:
+
+        - "flow": the area of a flowing contact over its area in the model
+
+        On a path given by force:
+
+        - the length (m) of a "jump"
+
+        On a structure:
+
+        - "edges": the contact time over the time in which waves return from the nearest edge
+        - "second contact": its bound on the restitution over the restitution of the impact
+        - "support": the force that the mass of a support adds
+        - "thin": the contact radius over half of the thickness, or 6 thicknesses over the speed of shear
+          waves and the contact time
+        - "deflection" and "dent" over half of the thickness
+        - "weight": the speed that gravity adds
     value, bound : float
         Largest value of the quantity over all states, and the largest value at which the assumption holds.
     exceeded : bool

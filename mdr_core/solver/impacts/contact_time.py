@@ -69,8 +69,8 @@ def _by_quadrature(rule, interval, increase, chosen, support_compliance):
         rows = order[start:stop]
         own_unit = unit.flat_entries(numbers[rows], shape)
         own = rule.flat_entries(numbers[rows], shape).in_units_of(own_unit, length[rows], depth[rows])
-        own_give = None if support_compliance is None else support_compliance[rows]
-        time[rows] = time_over_root(own, interval[rows], increase[rows], own_give)
+        own_compliance = None if support_compliance is None else support_compliance[rows]
+        time[rows] = time_over_root(own, interval[rows], increase[rows], own_compliance)
         start = stop
     return time / np.sqrt(length)
 

@@ -49,7 +49,7 @@ class DryImpact(Impact):
         """Time (s) from first contact to the loss of contact."""
         inertia = self.mass / (2 * self.medium.E_star)
         rule, interval = yield_rule(self.profile, self.medium), self.turning_point.live_interval
-        support_compliance = _give(self.medium, self.structure)
+        support_compliance = _support_compliance(self.medium, self.structure)
         return contact_time(
             rule, inertia, self.speed, interval, self.plastic_depth_increase, support_compliance
         )
@@ -58,7 +58,7 @@ class DryImpact(Impact):
 def dry_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID):
     """Solve impacts over imprints of given plastic depth (m), without the losses to plates."""
     energy = mass * speed**2 / (4 * medium.E_star)
-    rule, support_compliance = yield_rule(profile, medium), _give(medium, structure)
+    rule, support_compliance = yield_rule(profile, medium), _support_compliance(medium, structure)
     interval, increase = turning_interval(rule, energy, imprint_depth)
     if support_compliance is not None:
         deepest = depth_before_snap(
@@ -69,7 +69,7 @@ def dry_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID):
     return DryImpact(mass[()], speed[()], turning_point, increase, structure=structure)
 
 
-def _give(medium, structure):
+def _support_compliance(medium, structure):
     """Return κ = 2E*/K (1/m) of supports, or None without supports."""
     return 2 * medium.E_star / structure.stiffness if np.any(structure.is_support) else None
 
@@ -131,13 +131,13 @@ def turning_interval(rule, target, before, support_compliance=None, deepest=np.i
     )
     result = np.empty((4, target.size))
     for rows in chunks(target.size, LONG):
-        energy, imprint, length, depth, own_give, end = (array[rows] for array in arrays)
+        energy, imprint, length, depth, own_compliance, end = (array[rows] for array in arrays)
         part = rule.flat_entries(rows, (target.size,))
         part = part.in_units_of(unit.flat_entries(rows, shape), length, depth)
         imprint = imprint / depth
-        own_give = None if support_compliance is None else own_give * length
+        own_compliance = None if support_compliance is None else own_compliance * length
         energy = energy / (length * depth**2)
-        y = _penetration(part, energy, imprint, support_compliance=own_give, deepest=end / depth)
+        y = _penetration(part, energy, imprint, support_compliance=own_compliance, deepest=end / depth)
         interval, increase = part.turning(y, imprint)
         result[:, rows] = depth * np.array([interval.lower, interval.upper, interval.length, increase])
     *interval, increase = result.reshape(4, *shape)

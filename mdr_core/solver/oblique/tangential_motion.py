@@ -1,7 +1,7 @@
 """Motion along the surface of one oblique impact.
 
 The normal motion does not depend on the tangential motion. The tangential motion has a closed form if all
-elements slip throughout. Otherwise it is solved by runs, each with half the steps of the last run:
+elements slip throughout. Otherwise it is solved by runs, each with half the step size of the last run:
 `dry_friction` solves many impacts without viscosity at a time, `viscous_friction` one viscous impact.
 """
 

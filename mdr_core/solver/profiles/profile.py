@@ -56,7 +56,8 @@ class Profile(check.Parameters, ABC):
     g is 0 at the tip, finite, and does not fall, z is finite, and g′ is a number. Without known_depth and
     known_radius, a single shape ends where a function has no value, or g does not rise any more. An error
     is raised if g′ differs from the slope of g by more than 30 % at three quarters of the radii, or if a
-    contact radius differs from the radius by g by 0.1 %. Kinks, jumps of g and coarse tables are allowed.
+    contact radius differs by 0.1 % from the radius that follows from g. Kinks, jumps of g and coarse tables
+    are allowed.
 
     Examples
     --------
