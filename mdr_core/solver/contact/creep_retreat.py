@@ -109,7 +109,7 @@ class Retreat:
             decay, passed = np.exp(-ds), -np.expm1(-ds)
             memory, released, followed = self._memory(k, self.length[k + 1 : k + 2])[:, 0]
             later = remainder * decay**2 + 2 * fall * (depth_excess * decay * passed + released)
-            # ∫ e ds, the way back of the indenter.
+            # ∫ e ds, the distance by which the indenter recedes.
             travel = depth_excess * passed + followed
             taken = np.maximum((remainder - later) / 2 + fall * travel, 0.0)
             states[:, k + 1] = depth_excess * decay + memory, later, work + taken

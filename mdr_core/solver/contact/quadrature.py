@@ -45,7 +45,7 @@ def integrate(profile, interval, function, moment):
 
 
 def _sums(profile, lower, upper, length, function, moment):
-    """Do `integrate` for flat arrays, piece by piece."""
+    """Integrate for flat arrays, piece by piece; the arguments are as in `integrate`."""
     row, zone, start, stop, offset = pieces(profile, lower, upper, length)
     remainder = length[row] - stop
     # A piece between two cuts is the same for all states.

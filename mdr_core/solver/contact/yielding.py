@@ -33,8 +33,8 @@ from .live_interval import LiveInterval
 
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
 #: transition depth. Contact times of five shapes over seven decades of speed then have errors of at most
-#: 5·10⁻¹¹; without these depths 3·10⁻⁶, with half of them 7·10⁻¹⁰, and with twice as many 5·10⁻¹²
-#: (`python -m tests.benchmarks.constants`).
+#: 5·10⁻¹¹. Without these depths the errors are 3·10⁻⁶, with halved depths 7·10⁻¹⁰, and with doubled depths
+#: 5·10⁻¹² (`python -m tests.benchmarks.constants`).
 TRANSITIONS = np.array([1.0, 6.0])
 #: Gauss nodes of the plastic work in each piece. The work of five shapes over seven decades of speed then
 #: has errors of at most 4·10⁻¹⁵, with 16 nodes 7·10⁻¹³ (`python -m tests.benchmarks.constants`).

@@ -199,7 +199,8 @@ class ChainImpact(ImpactResult):
     viscous_work: float
     #: Energy (J) that waves of the structure carry away.
     structure_work: float
-    #: Estimated error, bounded by the tolerance: the larger of rebound speed (over `speed`) and depth.
+    #: Estimated error, which the tolerance bounds: the larger error of rebound speed (over `speed`) and of
+    #: the largest depth.
     error: float
     errors: ChainErrors
     #: The foundation at the end of contact; another impact may start from it.
@@ -221,7 +222,8 @@ class ChainImpact(ImpactResult):
     def motion(self, n: int | None = None) -> Motion:
         """Return the `Motion` of the finest run at every step, or interpolated at n instants.
 
-        Its energies sum to the initial energy for every step size.
+        The n instants are equally spaced before the turning point, and again after it. The sum of the
+        energies is the initial energy for every step size.
         """
         steps = replace(self._motion, impact=self)
         if n is None:

@@ -263,7 +263,7 @@ class ModalMotion:
         self.hits.append(Hit(start, self.time, float(largest.max()), float(impulse.sum())))
 
     def _halved(self, h, times=1):
-        """Return a too long duration (s), halved `times`, but at least once."""
+        """Halve a duration (s) that is too long `times`, but at least once."""
         if h < _SHORTEST * self.unit:
             raise MDRError(f"the contact on the structure is not solved by steps of {h:.3g} s; {_CHECK}")
         return h / 2 ** max(times, 1)

@@ -57,7 +57,7 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID,
     interval, increase = dry.turning_point.live_interval, dry.plastic_depth_increase
     penetration = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
     if profile.shape:
-        # With a wrong g′, or beyond the end of a table, steps do not end. One profile is checked before.
+        # With a wrong g′, or beyond the end of a table, steps do not end. One profile was checked before.
         check_shape(profile, interval.upper)
     bodies = Bodies.of(profile, medium, mass, speed, imprint_depth, penetration, structure)
     moving = (bodies.relaxation_time.reshape(mass.shape) > 0) | in_time

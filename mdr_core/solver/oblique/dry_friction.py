@@ -1,9 +1,9 @@
 """Friction along the surface without viscosity, for many impacts at a time: section 13 of the theory.
 
 Lengths along the surface are in units of μ/κ. U is the displacement of the point of contact. An element at
-a depth g of the reduced profile that sticks with the origin O has the load Q = U − O, and |Q| ≤ B = d −
-max(g, p) with the depth d and the plastic depth p. Slip moves its origin until |Q| = B. With C =
-2κE*/m_t the velocity W = U̇ of the point of contact follows Ẇ = −C ∫Q dx.
+a depth g of the reduced profile that sticks with the origin O has the load Q = U − O. Its bound is |Q| ≤ B
+with B = d − max(g, p), the depth d and the plastic depth p. Slip moves its origin until |Q| = B. With
+C = 2κE*/m_t, the velocity W = U̇ of the point of contact follows Ẇ = −C ∫Q dx.
 
 1. Levels of depth are the edges of cells, each with a pair of elements at Gauss points. A step is between
    two instants at which the edge of the contact passes a level: it covers or releases one cell.

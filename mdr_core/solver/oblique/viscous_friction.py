@@ -174,7 +174,10 @@ def _parabola(t, f, place):
 
 
 def slide(hit, levels, inertia, ratio, instants=()):
-    """Do one `FrictionRun` of a body of speed 1: C = `inertia` (1/(m s²)), B = `ratio` × normal load."""
+    """Return the `FrictionRun` of a body of speed 1.
+
+    C is `inertia` (1/(m s²)), and B is `ratio` times the normal load.
+    """
     tau = float(hit.medium.relaxation_time)
     interval, _ = yield_rule(hit.profile, hit.medium).loading(levels.depth)
     elements = SurfaceElements.of(hit.profile, levels.depth)

@@ -124,7 +124,7 @@ def check_shape(profile, depth):
 
 
 def _check_one(profile, depth):
-    """Do `check_shape` for one profile, at the radii of `sound_range`."""
+    """Check one profile, as in `check_shape`, at the radii of `sound_range`."""
     *_, x, values, right = profile.sound
     # The edge of the contact passes the radii up to the first radius with a larger g.
     count = max(int(np.argmax(np.append(values[0] > depth, True))), 1)
@@ -138,7 +138,7 @@ def _check_one(profile, depth):
 
 
 def _check_ensemble(profile, depth):
-    """Do `check_shape` for an ensemble, with one depth (m) per indenter."""
+    """Check an ensemble, as in `check_shape`, with one depth (m) per indenter."""
     radius = _contact_radius(profile, depth)[:, None]
     profile = profile.entries((slice(None), None), depth.shape)
     x = np.minimum(_SHARES * radius, np.minimum(profile.wall, profile.known_radius))

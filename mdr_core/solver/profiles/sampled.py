@@ -103,10 +103,9 @@ class Sampled(Profile):
         Samples may be on both sides of the axis at r = 0, in any order; the height of the tip is fitted.
         The fit is unbiased if the contact has many samples.
 
-        An error is raised if the misfit on one side exceeds 0.5 % of the height and is not noise. This
-        means that at least eight samples have a misfit of more than four times the noise between
-        neighbours, or that the misfit of at least 50 samples is a wave with about half of its variance or
-        more.
+        An error is raised if the misfit on one side exceeds 0.5 % of the height and is not noise. For eight
+        or more samples this is a misfit of more than four times the noise between neighbours. For 50 or
+        more samples it is also a wave with about half of the variance of the misfit or more.
 
         Noise of the heights makes the tip uncertain. For 400 heights with a noise of 2 nm, at radii up to
         0.5 µm on a tip of 1 µm radius, forces at a depth of 20 nm scatter by 4 %.

@@ -1,7 +1,7 @@
 """Sums over the vertices of a polygon, in a time that does not grow with their number.
 
 A polygon is a sum of truncated cones, one from each vertex: g is Σ β x arccos(r/x) over vertices at radii r
-with changes β of the slope. Over a panel of lengths x at a distance of twice its width from a vertex, such
+with changes β of the slope. Over a panel of lengths x, at least twice its width away from a vertex, such
 a term is a polynomial to rounding. Panels are halved until few vertices are nearer; the others share one
 polynomial.
 """
