@@ -1,8 +1,8 @@
 """Indentation and impact by the method of dimensionality reduction (MDR).
 
-Axisymmetric rigid indenters on an elastic half-space with a non-local yield criterion (a hardness that
-depends on the contact radius), mapped exactly onto a row of independent springs: V. L. Popov,
-Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
+The contact of an axisymmetric rigid indenter with an elastic half-space is mapped exactly onto a row of
+independent springs. The yield criterion is non-local: the hardness depends on the contact radius. See
+V. L. Popov, Facta Universitatis, Mech. Eng. 13(1), 2015, 39–46.
 """
 
 import ast
@@ -16,8 +16,8 @@ from .base.check import no_attribute
 
 __version__ = "0.9.0.dev0"
 
-#: Modules of the public names, which type checkers and editors read, too. Each is imported when one of its
-#: names is first asked for.
+#: Modules of the public names, also read by type checkers and editors. A module is imported at the first
+#: access to one of its names.
 _STUB = ast.parse(Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
 _MODULE_OF = {
     alias.name: node.module
@@ -25,7 +25,7 @@ _MODULE_OF = {
     if isinstance(node, ast.ImportFrom)
     for alias in node.names
 }
-#: Former names, which work in this version, and what they are now.
+#: Former names, which still work in this version, and their present names.
 _FORMER = {
     "critical_force": "yield_force",
     "DepthPath": "scene.DepthPath",
@@ -52,6 +52,6 @@ def __getattr__(name):
         value = import_module(f".{name}", __name__)
     else:
         raise no_attribute("mdr_core", name, __all__)
-    # The next time it is found without this function.
+    # Python then finds the name without this function.
     globals()[name] = value
     return value

@@ -1,4 +1,4 @@
-"""Whole calculations as values: a scene, and the drives of its body.
+"""Whole calculations as values: the scene and the drives of its body.
 
 An example:
 

@@ -107,10 +107,10 @@ class Wrong(HardnessLaw):
 #: What is said of each `Wrong` law.
 FAULTS = {
     "grows": "grows with the contact radius",
-    "negative": "is not finite and above 0",
-    "NaN": "is not finite and above 0",
+    "negative": "must be finite and above 0",
+    "NaN": "must be finite and above 0",
     "jumps up": "jumps",
     "jumps down": "jumps",
-    "other rate": "rate is the derivative of at",
-    "infinite": "is not finite and above 0",
+    "other rate": r"rate\(a\) = .* correct rate",
+    "infinite": "must be finite and above 0",
 }

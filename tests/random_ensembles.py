@@ -203,7 +203,7 @@ def compared(ensemble):
         result = many(ensemble)
     except ValueError as error:
         # Entries with adhesion are solved apart from others, by a sweep on its own.
-        mixed = "solve these apart" in str(error) and not ensemble.solver.startswith("sweep")
+        mixed = "solve these separately" in str(error) and not ensemble.solver.startswith("sweep")
         if one is _chain or mixed or _names_one(error, refused):
             return {}
         raise AssertionError(f"{ensemble}: {error}") from error

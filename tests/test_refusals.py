@@ -73,7 +73,7 @@ REFUSALS = {
         (
             "r",
             2.0,
-            "is beyond the radius up to which the shape is known, 1 m",
+            "must not exceed the known radius of the shape, 1 m",
             "m",
             "give a smaller radius",
         ),
@@ -91,8 +91,8 @@ REFUSALS = {
         (
             "speed",
             NAMED,
-            "has dimensions with names, ('speed',), which would be lost: arrays broadcast by the order of "
-            "their axes",
+            "has named dimensions, ('speed',), which would be lost: arrays broadcast by the "
+            "order of their axes",
             "m/s",
             "give its .values, transposed as needed",
         ),

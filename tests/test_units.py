@@ -112,9 +112,9 @@ class Labelled:
 def test_named_dimensions_are_refused(kind):
     make = Labelled if kind == "protocol" else pytest.importorskip("xarray").DataArray
     mass, speed = make([1e-9, 2e-9], dims=("body",)), make([0.1, 0.2], dims=("speed",))
-    with pytest.raises(ValueError, match=r"mass has dimensions with names, \('body',\)"):
+    with pytest.raises(ValueError, match=r"mass has named dimensions, \('body',\)"):
         mdr.impact(mdr.Cone(0.3), MEDIUM, mass, speed)
-    with pytest.raises(ValueError, match=r"depth has dimensions with names"):
+    with pytest.raises(ValueError, match="depth has named dimensions"):
         mdr.indent(mdr.Cone(0.3), MEDIUM, speed)
 
 

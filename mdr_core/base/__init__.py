@@ -1,1 +1,1 @@
-"""What all stands on: checks of arguments, errors, remarks, base classes of results."""
+"""Foundations of all modules: argument checks, errors, remarks, base classes of results."""

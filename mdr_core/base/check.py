@@ -1,4 +1,4 @@
-"""Checks of arguments, with errors that name the quantity, its value, the bound and what to do."""
+"""Argument checks. Their errors name the quantity, its value, the bound and the remedy."""
 
 import difflib
 from collections.abc import Callable, Sequence
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     class Array(np.ndarray[tuple[Any, ...], np.dtype[np.float64]]):
-        """A quantity: an array, or NumPy's scalar for one state, which has the methods of an array."""
+        """A quantity: an array, or for one state a NumPy scalar, which has the methods of an array."""
 
         def __round__(self, ndigits: int = ...) -> float: ...
 
@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 
     _Number = float | np.floating[Any] | np.integer[Any]
     _Numbers = _Number | NDArray[np.floating[Any]] | NDArray[np.integer[Any]] | _WithUnit
-    #: A number or an array of numbers. NumPy's `ArrayLike` has text in it, and so has a recursive type.
+    #: A number or an array of numbers. NumPy's `ArrayLike` and a recursive type would also accept strings.
     ArrayLike = _Numbers | Sequence[_Numbers] | Sequence[Sequence[_Numbers]]
-    #: A parameter of a profile, a medium or a structure, as it is stored.
+    #: A stored parameter of a profile, a medium or a structure.
     Parameter = float | NDArray[np.float64]
 
 else:
@@ -43,15 +43,15 @@ SHORTEST, LONGEST = 1e-25, 1e25
 #: Bounds of all other quantities (SI).
 SMALLEST, LARGEST = 1e-60, 1e60
 
-# Bound of radii, whose squares stay in double precision: a contact may be far wider than it is deep.
+# Bound of radii: their squares stay in double precision. A contact may be far wider than deep.
 FARTHEST = 1e140
 
-# NumPy broadcasts up to 32 dimensions, and a few are added internally.
+# NumPy broadcasts up to 32 dimensions; this package adds a few internally.
 _MOST_DIMENSIONS = 16
 
 
 def one_of(quantity, value, known):
-    """`value`, if it is one of the `known` names."""
+    """Return `value` if it is one of the `known` names; otherwise raise an error."""
     if not isinstance(value, str) or value not in known:
         bound = f"must be one of {', '.join(map(repr, known))}"
         raise InvalidArgument(f"{quantity} = {shown(value)} {bound}", quantity, value, bound)
@@ -59,13 +59,13 @@ def one_of(quantity, value, known):
 
 
 def _is_double(value):
-    """Whether a value is one double, or an int that is one exactly: no array is needed to look at it."""
+    """Whether a value is a double, or an int that a double holds exactly; such values need no array."""
     kind = type(value)
     return kind is float or kind is np.float64 or (kind is int and abs(value) <= 2**53)
 
 
 def number(quantity, value, unit=""):
-    """`value` as a float, if it is one real number: no bool, no text, no array."""
+    """Return `value` as a float if it is one real number: no bool, no text, no array."""
     if _is_double(value):
         return float(value)
     value = in_unit(quantity, value, unit)
@@ -79,21 +79,21 @@ def number(quantity, value, unit=""):
 
 
 def _no_number(quantity, value, what, unit):
-    """The error of a value that is not `what` it must be."""
+    """Return the error for a value that must be `what`, such as "one real number"."""
     bound = f"must be {what}"
     return InvalidArgument(f"{quantity} {bound}, got {shown(value)}", quantity, value, bound, unit)
 
 
 def in_unit(quantity, value, unit):
-    """`value` converted to a unit and without it; a value without a unit is returned unchanged.
+    """Return `value` as plain numbers in a unit; values without a unit are unchanged.
 
     Quantities of pint, astropy and unyt have `unit` or `units`, and `to`. Arrays with labelled axes
-    (xarray) are refused because arrays broadcast by the order of their axes here, and lazy arrays (dask)
-    because they would be loaded into memory as a whole.
+    (xarray) raise an error because arrays broadcast by the order of their axes here. Lazy arrays (dask)
+    raise an error because they would be loaded into memory as a whole.
     """
     if hasattr(value, "dims") and hasattr(value, "coords"):
         bound = (
-            f"has dimensions with names, {shown(value.dims)}, which would be lost: arrays broadcast by the "
+            f"has named dimensions, {shown(value.dims)}, which would be lost: arrays broadcast by the "
             "order of their axes"
         )
         advice = "give its .values, transposed as needed"
@@ -123,9 +123,9 @@ def _carries_unit(value):
 
 
 def positive(quantity, value, *, unit="", infinite=False, zero=False, within=None):
-    """`value` as a float or a read-only array, if positive (or zero, or infinite, where allowed).
+    """Return `value` as a float or a read-only array if it is positive (or zero, or infinite, if allowed).
 
-    Finite numbers must lie `within` two bounds, by default those of quantities of their unit.
+    Finite numbers must lie `within` two bounds, by default the bounds of quantities with their unit.
     """
     least, most = within or _bounds(unit, zero)
     if _is_double(value) and (
@@ -151,20 +151,20 @@ def positive(quantity, value, *, unit="", infinite=False, zero=False, within=Non
 
 
 def _bounds(unit, zero):
-    """Bounds of finite positive numbers of a unit, if they may be `zero` or not."""
+    """Return the bounds of finite positive numbers of a unit; `zero` is whether they may be 0."""
     if unit not in ("m", "N", "Pa"):
         return SMALLEST, LARGEST
-    # Where 0 is meant, rounding may leave less than any length.
+    # If 0 is meant, rounding may leave a number smaller than any length.
     return SMALLEST if zero else SHORTEST, LONGEST
 
 
 def positive_number(quantity, value, *, unit="", **allowed):
-    """`value` as a float, if it is one number that is `positive`."""
+    """Return `value` as a float if it is one `positive` number."""
     return positive(quantity, number(quantity, value, unit), unit=unit, **allowed)
 
 
 def store(thing, **values):
-    """Set fields of a frozen dataclass from its `__post_init__`, to values that have been checked."""
+    """Set fields of a frozen dataclass to checked values, in its `__post_init__`."""
     for name, value in values.items():
         object.__setattr__(thing, name, value)
 
@@ -173,7 +173,7 @@ def set_positive(profile, **units):
     """Replace each named field of a frozen profile by its checked value, a float or an array."""
     for name, unit in units.items():
         quantity = f"{type(profile).__name__} {name}"
-        # The coefficient of a power law may have any size that double precision has.
+        # The coefficient of a power law may have any size within double precision.
         within = (1e-300, 1e300) if unit == "m^(1-n)" else (SHORTEST, LONGEST)
         value = positive(quantity, getattr(profile, name), unit=unit, within=within)
         store(profile, **{name: value})
@@ -185,7 +185,7 @@ def _real_array(quantity, value, what="real numbers", unit=""):
         array = np.asarray(value)
         if array.dtype.kind not in "iuf" or array.ndim > _MOST_DIMENSIONS or np.ma.is_masked(value):
             raise TypeError
-        # Numbers of longer types that overflow become infinite, and are refused.
+        # Numbers of longer types that overflow become infinite; the caller's check rejects them.
         with np.errstate(over="ignore"):
             return array.astype(float, copy=False)
     except (TypeError, ValueError):
@@ -193,10 +193,10 @@ def _real_array(quantity, value, what="real numbers", unit=""):
 
 
 def finite_array(quantity, value, *, unit="", most=FARTHEST, missing=False):
-    """A copy of `value` as a float array of numbers up to `most`, without infinity; NaN where `missing`."""
+    """Return a copy of `value` as a float array, with numbers up to `most`; NaN is valid if `missing`."""
     if _is_double(value) and -most <= value <= most:
         return np.array(value, float)
-    # A result that keeps the array must not change with the argument.
+    # A result may keep the array, and must not change with the argument.
     array = _real_array(quantity, in_unit(quantity, value, unit), unit=unit).copy()
     large = np.isfinite(array) & (np.abs(array) > most)
     raise_if(quantity, array, large, f"is beyond {most:g}", unit=unit, advice="give it in SI units")
@@ -206,7 +206,7 @@ def finite_array(quantity, value, *, unit="", most=FARTHEST, missing=False):
 
 
 def force(quantity, value):
-    """`value` as a float array of normal forces, which are not negative."""
+    """Return `value` as a float array of normal forces, which must not be negative."""
     array = finite_array(quantity, value, unit="N", most=LONGEST)
     raise_if(
         quantity, array, array < 0, "is negative", unit="N", advice="a tension needs work_of_adhesion > 0"
@@ -216,17 +216,17 @@ def force(quantity, value):
 
 
 def raise_if(quantity, array, bad, bound, *, unit="", advice="", remedy=()):
-    """`array`, if no entry is `bad`; else an error that names the first one and counts the others."""
-    # Of one entry it takes a third of the time of np.any.
+    """Return `array` if no entry is `bad`; else raise an error with the first bad entry and the count."""
+    # For one entry it takes a third of the time of np.any.
     if np.count_nonzero(bad):
         raise InvalidEntries(quantity, array, bad, bound, unit, advice, remedy)
     return array
 
 
 def numbers_of(name, function, argument, refused):
-    """What a user's function of an array of radii gives, as an array of numbers.
+    """Return a user's function of an array of radii, as an array of numbers.
 
-    If it fails, or gives anything else, the error is `refused` of what is wrong and of what to do.
+    If the function fails, or returns anything else, `refused(fault, remedy)` makes the error.
     """
     try:
         with np.errstate(all="ignore"):
@@ -240,7 +240,7 @@ def numbers_of(name, function, argument, refused):
 
 
 def values_of(name, function, argument, refused):
-    """`numbers_of` an array of radii, refused unless there is one for each."""
+    """Return the `numbers_of` an array of radii; raise an error unless there is one for each radius."""
     value = numbers_of(name, function, argument, refused)
     try:
         return np.broadcast_to(value, argument.shape)
@@ -250,7 +250,7 @@ def values_of(name, function, argument, refused):
 
 
 def doubles(name, value, refused):
-    """A value of a user's function as an array of double precision, else `refused` as by `numbers_of`."""
+    """Return a value of a user's function as an array of double precision; errors as in `numbers_of`."""
     array = np.asarray(value)
     if hasattr(value, "units") or hasattr(value, "unit") or array.dtype.kind not in "biuf":
         kind = "complex numbers" if array.dtype.kind == "c" else shown(value)
@@ -262,7 +262,7 @@ def doubles(name, value, refused):
 
 
 def common_shape(what, **values):
-    """Shape to which the values broadcast; else an error that names their shapes."""
+    """Return the shape to which the values broadcast; raise an error with their shapes if they do not."""
     if all(map(_is_double, values.values())):
         return ()
     for name, value in values.items():
@@ -276,14 +276,14 @@ def common_shape(what, **values):
 
 
 def frozen(values):
-    """`values` as a scalar, or as an array that cannot be written to."""
+    """Return `values` as a scalar or a read-only array."""
     values = np.asarray(values)
     values.setflags(write=False)
     return values[()]
 
 
 def frozen_property(function: "Callable[[Any], Any]") -> "cached_property[Array]":
-    """A property that is computed once, and `frozen`."""
+    """Make a property that is computed once and is `frozen`."""
     return cached_property(wraps(function)(lambda self: frozen(function(self))))
 
 
@@ -293,13 +293,13 @@ _Result = TypeVar("_Result")
 
 @lru_cache
 def _parameters(function):
-    """Names of the parameters of a function; None if it takes any keyword."""
+    """Return the names of the parameters of a function, or None if it takes any keyword."""
     parameters = signature(function).parameters
     return None if any(each.kind == each.VAR_KEYWORD for each in parameters.values()) else list(parameters)
 
 
 def _refuse_keywords(name, keywords, parameters):
-    """Refuses keywords that are no parameters, and names the parameters."""
+    """Raise an error that names the parameters if a keyword is not one of them."""
     for keyword in keywords:
         if parameters is not None and keyword not in parameters:
             hint = lazy.hints.keyword_hint(name, keyword)
@@ -308,9 +308,9 @@ def _refuse_keywords(name, keywords, parameters):
 
 
 def keywords_explained(function: "Callable[_Arguments, _Result]") -> "Callable[_Arguments, _Result]":
-    """The function with errors on unknown keywords that name its parameters and suggest one.
+    """Decorate a function: errors on unknown keywords name its parameters and suggest one.
 
-    Of a class method, below `classmethod`.
+    On a class method, write it below `classmethod`.
     """
 
     @wraps(function)
@@ -324,7 +324,7 @@ def keywords_explained(function: "Callable[_Arguments, _Result]") -> "Callable[_
     return checked
 
 
-#: Last words of names of quantities of which a result has several.
+#: Last words of quantity names that a result uses several times.
 _SHARED = ("depth", "energy", "work", "speed", "velocity")
 
 
@@ -337,9 +337,9 @@ def _is_misspelled(name, nearest):
 
 
 def no_attribute(owner, name, known):
-    """AttributeError on an unknown name of a result or the package, which says what may be meant.
+    """Return the AttributeError for an unknown name of a result or the package, with a suggestion.
 
-    That is the name that is known for what the field calls so, else the nearest one.
+    It suggests the name in this package of a term of the field, or else the most similar name.
     """
     if owner == "mdr_core":
         hint = lazy.hints.model_hint(name) or None
@@ -350,12 +350,12 @@ def no_attribute(owner, name, known):
     nearest = difflib.get_close_matches(name, known, 1, 0.7)
     if nearest and hint is None and _is_misspelled(name, nearest[0]):
         suggestion = f"; did you mean {nearest[0]!r}?"
-    # With its name, Python does not add a suggestion of its own.
+    # With `name` given, Python adds no other suggestion.
     return AttributeError(f"{owner} has no {name!r}{suggestion}", name=name)
 
 
 def former(old, new):
-    """Property with the old name of an attribute, which warns; `new` may go over several attributes."""
+    """Make a property with the old name of an attribute, which warns; `new` may be a dotted name."""
 
     def value(self):
         warn(f"{type(self).__name__}.{old} is {new} now", DeprecationWarning, stacklevel=2)
@@ -365,7 +365,7 @@ def former(old, new):
 
 
 class Parameters:
-    """A frozen dataclass whose parameters may be arrays: equal where all entries are, and hashable."""
+    """A hashable frozen dataclass whose parameters may be arrays: equal if all their entries are equal."""
 
     def __new__(cls, *positional: Any, **keywords: Any) -> Self:
         if keywords and (parameters := _parameters(cls.__init__)):
@@ -376,7 +376,7 @@ class Parameters:
 
     @classmethod
     def _refuse_positional(cls, count):
-        """Refuses more values than there are parameters by position, with the names of the others."""
+        """Raise an error if more values are given by position than allowed; name the other parameters."""
         by_name = [each.name for each in fields(cls) if each.kw_only]
         by_position = [each.name for each in fields(cls) if not each.kw_only]
         if by_name and count > len(by_position):
@@ -387,12 +387,12 @@ class Parameters:
             )
 
     def __str__(self) -> str:
-        """Parameters that are not defaults, with six digits; `repr` has all digits."""
+        """Return parameters other than the defaults, with six digits; `repr` has all digits."""
         with np.printoptions(precision=6, threshold=10):
             texts = []
             for each in fields(self):
                 value = getattr(self, each.name)
-                # None as a default stands for 0, as of a hardness that a medium does not have.
+                # A default of None means 0, for example a hardness constant that the medium does not have.
                 if value is not None and not np.array_equal(value, each.default or 0.0):
                     text = f"{value:.6g}" if isinstance(value, float) else str(value)
                     texts.append(f"{each.name}={text}")
@@ -407,21 +407,21 @@ class Parameters:
 
     @cached_property
     def shape(self) -> tuple[int, ...]:
-        """Shape to which array-valued parameters broadcast, () for a single one."""
-        # A tuple, as of vertices, is one parameter.
+        """Shape to which array-valued parameters broadcast, () for single numbers."""
+        # A tuple, for example of vertices, is one parameter.
         values = self.__getstate__().values()
         arrays = (value for value in values if isinstance(value, np.ndarray | Parameters))
         return np.broadcast_shapes(*(value.shape for value in arrays))
 
     def entries(self, index: Any, shape: tuple[int, ...] | None = None) -> Self:
-        """The profiles or media at an index, with parameters broadcast to `shape` first.
+        """Return the profiles or media at an index, with parameters broadcast to `shape` first.
 
         Parameters
         ----------
         index : int, slice, tuple or array_like
-            An index of a NumPy array of the shape of the parameters.
+            Index of a NumPy array with the shape of the parameters.
         shape : tuple of int, optional
-            The shape, where it is not that of the parameters alone.
+            Shape of the ensemble, if it differs from the shape of the parameters.
 
         Examples
         --------
@@ -441,11 +441,11 @@ class Parameters:
         return self._with(values)
 
     def _with(self, values):
-        """The same with other values of the parameters."""
+        """Return the same profile or medium with other values of the parameters."""
         return type(self)(**values)
 
     def flat_entries(self, rows: Any, shape: tuple[int, ...]) -> Self:
-        """The profiles or media at rows of the flattened `shape` of an ensemble."""
+        """Return the profiles or media at rows of the flattened `shape` of an ensemble."""
         if not self.shape:
             return self
         if isinstance(rows, slice):
@@ -463,15 +463,15 @@ class Parameters:
 
 
 def _equal(one, other):
-    """Whether two parameters are equal, which may have parameters, or be arrays."""
-    # A dataclass has its own comparison, by default, which fails for arrays.
+    """Whether two parameters are equal; they may be arrays or have parameters themselves."""
+    # The default comparison of a dataclass fails for arrays.
     if isinstance(one, Parameters):
         return Parameters.__eq__(one, other) is True
     return np.array_equal(one, other)
 
 
 def _hashable(value):
-    """A parameter as something that can be hashed."""
+    """Return a hashable form of a parameter."""
     if isinstance(value, Parameters):
         return Parameters.__hash__(value)
     return (value.shape, *value.ravel().tolist()) if isinstance(value, np.ndarray) else value

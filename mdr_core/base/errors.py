@@ -1,4 +1,4 @@
-"""Errors of the package, with what is wrong and what to do as attributes."""
+"""Errors of the package, with the fault and the remedy as attributes."""
 
 import reprlib
 from typing import Any
@@ -11,11 +11,11 @@ _short.maxstring = _short.maxother = 80
 
 
 def shown(value):
-    """Short text of any argument, for a message."""
+    """Return a short text of any argument, for a message."""
     return _short.repr(value)
 
 
-#: Names of the arguments that are not the last word of their quantity.
+#: Names of arguments that differ from the last word of their quantity.
 _ARGUMENTS = {
     "half-angle": "degrees",
     "radius of the hardness": "radius",
@@ -31,11 +31,11 @@ class MDRError(ValueError):
     Attributes
     ----------
     text : str
-        The message without names of Python, as a page shows it.
+        The message without Python names, for a page.
     remedy : tuple of Remedy
-        What one can do, as of a `Remark`; mostly empty.
+        Remedies, as in a `Remark`; mostly empty.
     kind : str
-        What is wrong with a measurement, one of the kinds of remarks; else empty.
+        Fault of a measurement, one of the kinds of remarks; else empty.
 
     Examples
     --------
@@ -65,11 +65,11 @@ class InvalidArgument(MDRError):
     argument : str
         Its name in the call: "E_star", "slope".
     value : object
-        The value that is refused, without its unit; of an array, its first invalid entry.
+        The invalid value without its unit; for an array, the first invalid entry.
     bound : str
-        The requirement, or what is wrong with the value: "must be finite and positive", "is negative".
+        The requirement, or the fault of the value: "must be finite and positive", "is negative".
     unit, advice : str
-        SI unit, and what to do; empty where there is none.
+        SI unit and remedy, or empty texts.
 
     Examples
     --------
@@ -84,7 +84,7 @@ class InvalidArgument(MDRError):
     def __init__(self, message, quantity, value, bound, unit="", advice="", remedy=()):
         super().__init__(message, quantity, value, bound, unit, advice, remedy)
         self.quantity = quantity
-        # The depth of the third of several curves is depth[2].
+        # In a fit of several curves, the depth of the third curve is depth[2].
         self.argument = _ARGUMENTS.get(quantity, quantity.split()[-1]).partition("[")[0]
         self.value = value
         self.bound = bound
@@ -97,17 +97,17 @@ class InvalidArgument(MDRError):
 
 
 class InvalidEntries(InvalidArgument):
-    """The error of `raise_if`: `bad` says which entries of the `values` of a quantity are invalid."""
+    """The error of `raise_if`: `bad` marks the invalid entries of the `values` of a quantity."""
 
     def __init__(self, quantity, values, bad, bound, unit, advice, remedy=()):
         self.values, self.bad = np.broadcast_arrays(values, bad)
         value = self.values.flat[np.argmax(self.bad)].item()
         super().__init__("", quantity, value, bound, unit, advice, remedy)
-        # The text is composed when it is asked for; these make a copy of the error.
+        # `__str__` makes the text; a copy of the error is made from these arguments.
         self.args = quantity, values, bad, bound, unit, advice, remedy
 
     def message(self, entry, index, others=0):
-        """Text on one entry of the flat values, at an index by which it is known."""
+        """Return the text for one entry of the flat values; `index` is the index in the text."""
         where = f"[{', '.join(map(str, index))}]" if len(index) else ""
         more = f" (and {others} more of {self.values.size} entries)" if others else ""
         unit = f" {self.unit}" if self.unit else ""

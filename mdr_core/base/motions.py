@@ -18,7 +18,7 @@ class Hit:
     Attributes
     ----------
     start, end : float
-        Times (s) of first touch and of the loss of contact, from the first touch of the impact on.
+        Times (s) of first touch and of loss of contact, measured from the first touch of the impact.
     max_force : float
         Largest force (N).
     impulse : float
@@ -70,8 +70,8 @@ class ImpactResult(Result):
     def captured(self) -> Any:
         """Whether the body does not rebound: adhesion holds it, or it never leaves a plate.
 
-        On a plate whose waves take so much energy that the velocity of the body goes to 0 with the force:
-        then e is 0, and the contact time infinite.
+        The waves of a plate may take so much energy that the body's velocity goes to 0 with the force.
+        Then e is 0, and the contact time is infinite.
         """
         return np.zeros(np.shape(self.speed), bool)[()]
 
@@ -79,15 +79,18 @@ class ImpactResult(Result):
     def max_deflection(self) -> Array:
         """Largest deflection (m) of the structure under the contact; 0 without a structure.
 
-        On a plate m v₀ (1 + e)/Z: it is that at the end of the contact, and it stays. On a support F/K of
-        the largest force F.
+        On a plate it is m v₀ (1 + e)/Z, reached at the end of the contact; it remains. On a support it is
+        F/K with the largest force F.
         """
         momentum = self.mass * self.speed * (1 + self.restitution)
         return momentum / self.structure.impedance + self.max_force / self.structure.stiffness
 
     @property
     def hits(self) -> Any:
-        """Contacts, without modes one: a tuple of `Hit` for one impact, an array of tuples for many."""
+        """Contacts: a tuple of `Hit` for one impact, an array of tuples for many.
+
+        Without modes there is one `Hit`.
+        """
         columns = self.contact_time, self.max_force, self.mass * self.speed * (1 + self.restitution)
         columns = np.broadcast_arrays(*columns)
         found = np.empty(columns[0].shape, object)
@@ -99,22 +102,22 @@ class ImpactResult(Result):
     def contacts(self) -> Any:
         """Number of contacts, 1 without modes.
 
-        Contacts of less than 1 % of the momentum come and go with the number of modes.
+        Contacts with less than 1 % of the momentum appear or vanish with the number of modes.
         """
         return np.ones(np.shape(self.speed), int)[()]
 
     @property
     def adhesive_work(self) -> Array:
-        """Energy (J) that adhesion takes."""
+        """Energy (J) lost to adhesion."""
         return np.zeros(np.shape(self.speed))[()]
 
     @property
     def damaged_area(self) -> Array:
-        """Area π c² (m²) of the plastic zone; in the fast limit that of the contact, π a²."""
+        """Area π c² (m²) of the plastic zone; in the fast limit, the contact area π a²."""
         return np.pi * self.plastic_radius**2
 
     def speed_limit(self, density: float) -> Limit:
-        """The speed over the wave speed √(E*/ρ) of a medium of density ρ (kg/m³), as a `Limit`."""
+        """Return the speed over the wave speed √(E*/ρ) of a medium of density ρ (kg/m³), as a `Limit`."""
         return lazy.limits.speed_limit(self.speed, self.medium, density)
 
 
@@ -144,16 +147,16 @@ class MotionResult(Result):
 class Motion(MotionResult):
     """Motion of one impact from first contact to loss of contact, as arrays of equal length.
 
-    That of a body that never leaves a plate goes to where a thousandth of the largest live depth is left.
+    If the body never leaves a plate, the motion ends when a thousandth of the largest live depth is left.
 
-    The turning point is among the instants. On unloading from a viscous medium the edge of the contact is
-    where g = d_p + ℓ, which is less than the depth d; elements outside are released and relax. The sum of
-    the energies is the same at every instant.
+    The turning point is among the instants. On unloading from a viscous medium, g = d_p + ℓ at the edge of
+    the contact, which is less than the depth d. Elements outside are released and relax. The sum of the
+    energies is the same at every instant.
 
     Attributes
     ----------
     time : ndarray
-        Time (s) since first contact; since the start for a chain that has a history.
+        Time (s) since first contact; for a chain with a history, since the start.
     depth, velocity, force : ndarray
         Indentation depth d (m), its rate (m/s), force (N).
     contact_radius, plastic_radius : ndarray
@@ -164,7 +167,7 @@ class Motion(MotionResult):
     kinetic_energy, stored_energy, plastic_work, viscous_work : ndarray
         Energies (J) of the body and of the medium. The stored energy includes released springs.
     deflection : ndarray
-        Deflection w (m) of the structure under the contact, 0 without one.
+        Deflection w (m) of the structure under the contact; 0 without a structure.
     body_velocity : ndarray
         Velocity (m/s) of the body, the sum of the rates of depth and deflection.
     structure_work, support_energy : ndarray
@@ -214,9 +217,9 @@ class Motion(MotionResult):
 
 
 def instants(n, turn, end, start=0.0):
-    """n times (s): equally spaced from `start` to the turning point at `turn`, and from there to `end`.
+    """Return n times (s), equally spaced from `start` to `turn`, the turning point, and then to `end`.
 
-    A fifth of them at least are up to the turning point: a body on a plate may take long to leave.
+    At least a fifth of them are up to the turning point, because a body may take long to leave a plate.
     """
     if isinstance(n, bool) or not isinstance(n, int | np.integer) or not 2 <= n <= 10**7:
         raise MDRError(f"number of instants n = {shown(n)} must be a whole number from 2 to 10⁷")

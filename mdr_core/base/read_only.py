@@ -1,4 +1,4 @@
-"""Functions that users write get arrays that they cannot change: the caller goes on to use them."""
+"""Read-only arguments for users' functions, because the caller still needs these arrays."""
 
 import inspect
 from functools import wraps
@@ -7,11 +7,13 @@ import numpy as np
 
 from .errors import InvalidArgument
 
-_REMEDY = "return new values, as by numpy.where or numpy.maximum, or begin with a copy of the argument"
+_REMEDY = (
+    "return new values, for example by numpy.where or numpy.maximum, or begin with a copy of the argument"
+)
 
 
 def guard_methods(kind, names):
-    """Make the methods of these names that a user wrote for a class take arrays that they cannot change."""
+    """Give read-only arrays to the methods with these names that a user wrote for a class."""
     for name in names:
         method = inspect.getattr_static(kind, name, None)
         bare = method.__func__ if isinstance(method, staticmethod) else method
@@ -24,7 +26,7 @@ def guard_methods(kind, names):
 
 
 def read_only(function, name):
-    """A user's function with arrays that it cannot change, refused in words if it tries."""
+    """Wrap a user's function: its arrays are read-only, and a clear error is raised if it changes them."""
 
     @wraps(function)
     def guarded(*given, **named):
@@ -32,7 +34,7 @@ def read_only(function, name):
             result = function(*map(_view, given), **named)
         except ValueError as error:
             if "buffer source" in str(error):
-                # Compiled code of SciPy before 1.13 wants an array that it may write to, and does not.
+                # Compiled code of SciPy before 1.13 needs a writable array, but does not write to it.
                 return function(*map(_copy, given), **named)
             if "read-only" not in str(error) or isinstance(error, InvalidArgument):
                 raise
@@ -40,14 +42,14 @@ def read_only(function, name):
             raise InvalidArgument(
                 f"{name} {what}: {_REMEDY}", name, given[-1], what, "", _REMEDY
             ) from error
-        # The argument itself, or a part of it: what is returned may be changed.
+        # This may be the argument or a part of it. The caller may change the returned array.
         return result.copy() if isinstance(result, np.ndarray) and not result.flags.writeable else result
 
     return guarded
 
 
 def _view(value):
-    """An array without the right to change it; other values as they are."""
+    """Return a read-only view of an array, and any other value unchanged."""
     if not isinstance(value, np.ndarray):
         return value
     value = value.view()

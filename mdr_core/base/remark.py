@@ -1,22 +1,22 @@
-"""A doubt about a number as a value: its kind, what is said, and what one can do about it."""
+"""Remarks: doubts about a number as values, with a kind, a text and remedies."""
 
 from dataclasses import dataclass
 from typing import Any, Self
 
 from .errors import MDRError
 
-#: Kinds of a `Remark`, the most important first, and what each says.
+#: Kinds of a `Remark` and their meanings, the most important kind first.
 KINDS = {
-    "invalid": "what is given cannot be read, fitted or evaluated",
+    "invalid": "the input cannot be read, fitted or evaluated",
     "deflection": "the depth includes the deflection of the cantilever, whose stiffness is not known",
-    "units": "numbers that no material or tip has: a unit, a sign, or columns that are exchanged",
+    "units": "numbers that no material or tip can have: wrong unit, wrong sign, or exchanged columns",
     "order": "samples are not in the order in which they were measured",
     "no contact": "the record shows no contact",
     "no unloading": "there is no unloading that can be evaluated",
-    "adhesion": "an adhesion that is left out, is hardly determined, or ends at another depth",
+    "adhesion": "adhesion is left out, hardly determined, or ends at another depth",
     "undetermined": "the data do not determine a parameter: it is at a bound, or others fit as well",
-    "tilt": "a slope of the baseline that is left out",
-    "drag": "a drag of a liquid that is left out",
+    "tilt": "a slope of the baseline is left out",
+    "drag": "the drag of a liquid is left out",
     "drift": "a drift of the depth, or a relaxation of the medium",
     "misfit": "the model does not fit: another class of hardness, medium or tip",
     "noise": "noise of the depth that counts as loading, or residuals above the given noise",
@@ -25,19 +25,18 @@ KINDS = {
     "vague": "the modulus has a large error",
     "constant": "a constant of the medium may as well be 0: no yield, no viscosity, one class of hardness",
     "creep": "the depth creeps while the force is held, or at the start of the unloading",
-    "errors": "standard errors are uncertain: few samples, or residuals that are correlated",
+    "errors": "standard errors are uncertain: few samples, or correlated residuals",
     "zero": "the depth is 0 where the force is not",
-    "tip": "an ideal tip at depths at which real ones are blunt",
-    "changed": "what was changed: a reversed sign, a corrected depth, a tip",
-    "taken": "what was taken: one of several curves or unloadings, first contact, a hold, a constant",
-    "left out": "samples, columns, tables, unloadings or quantities that are left out",
+    "tip": "an ideal tip at depths at which real tips are blunt",
+    "changed": "the input was changed: a reversed sign, a corrected depth, a tip",
+    "taken": "a choice was made: one of several curves or unloadings, first contact, a hold, a constant",
+    "left out": "samples, columns, tables, unloadings or quantities are left out",
 }
-#: What a `Remedy` does: fit a parameter, hold one, give what is missing, look at a unit, take a part of the
-#: curve, choose another class of hardness, subtract a drift from the depth.
+#: Actions of a `Remedy`, as in its docstring.
 ACTIONS = "free", "hold", "give", "unit", "part", "class", "subtract"
 
 
-#: What a user of the library does, where names are not enough: classes of hardness, parts, and units.
+#: Python for remedies that their names do not determine: classes of hardness, parts and units.
 _IN_PYTHON = {
     ("class", "a"): "give hardness=None",
     ("class", "b"): "give q_c=None",
@@ -57,16 +56,16 @@ _IN_PYTHON = {
 
 @dataclass(frozen=True)
 class Remedy:
-    """What one can do about a `Remark`.
+    """A remedy for a `Remark`.
 
     Attributes
     ----------
     action : str
-        "free" or "hold" a parameter, "give" what is missing, look at a "unit", evaluate a "part" of the
+        "free" or "hold" a parameter, "give" missing input, check a "unit", evaluate a "part" of the
         curve, choose another "class" of hardness, or "subtract" a drift (m/s).
     what : str
-        A name of the public interface: a parameter or argument, as "drag" or "spring_constant", a column,
-        as "depth", a part of the curve, as "loading", or a class, as "a".
+        A name of the public interface: a parameter or argument such as "drag" or "spring_constant", a
+        column such as "depth", a part of the curve such as "loading", or a class such as "a".
     value : optional
         The value to hold or to give.
 
@@ -83,11 +82,11 @@ class Remedy:
 
     def __post_init__(self):
         if self.action not in ACTIONS:
-            raise MDRError(f"action is {self.action!r}, but a remedy is one of {', '.join(ACTIONS)}")
+            raise MDRError(f"action = {self.action!r} must be one of {', '.join(ACTIONS)}")
 
     @property
     def in_python(self) -> str:
-        """What a user of the library does, as "hold eta = 0"."""
+        """The remedy in Python, for example "hold eta = 0"."""
         if known := _IN_PYTHON.get((self.action, self.what)):
             return known
         if self.action == "free":
@@ -102,23 +101,23 @@ class Remedy:
 
 
 class Remark(str):
-    """A doubt about a number of a fit, an unloading or a file: a text, and what one can do in Python.
+    """A doubt about a number of a fit, an unloading or a file, with remedies in Python.
 
     Parameters
     ----------
     text : str
-        The doubt, without names of Python.
+        The doubt, without Python names.
     kind : str
-        What is doubted, one of `KINDS`.
+        Kind of the doubt, one of `KINDS`.
     *remedy : Remedy
-        What one can do: one of them, or all `together`.
+        Remedies: one of them is enough, or all are needed `together`.
 
     Attributes
     ----------
     text, kind : str
         As given.
     remedy : tuple of Remedy
-        What one can do; empty for nothing.
+        Remedies; empty if there is none.
 
     Examples
     --------
@@ -137,7 +136,7 @@ class Remark(str):
 
     def __new__(cls, text: str, kind: str, *remedy: Remedy, together: bool = False) -> Self:
         if kind not in KINDS:
-            raise MDRError(f"kind is {kind!r}, but a remark is one of {', '.join(KINDS)}")
+            raise MDRError(f"kind = {kind!r} must be one of {', '.join(KINDS)}")
         cures = (" and " if together else " or ").join(each.in_python for each in remedy)
         if cures:
             ended = text.endswith((".", "?"))
@@ -151,23 +150,23 @@ class Remark(str):
 
     @classmethod
     def of(cls, error: ValueError, kind: str, prefix: str = "") -> Self:
-        """An error as a remark, with its text and remedies if it has them."""
+        """Return an error as a remark, with its text and its remedies if it has any."""
         return cls(f"{prefix}{getattr(error, 'text', error)}", kind, *getattr(error, "remedy", ()))
 
     def after(self, prefix: str) -> Self:
-        """The same behind a prefix."""
+        """Return the remark with a prefix before its text."""
         return type(self)(f"{prefix}{self.text}", self.kind, *self.remedy, together=self.together)
 
     def to_dict(self) -> dict[str, Any]:
-        """Kind, text and remedies, as in files of JSON."""
+        """Return kind, text and remedies as in JSON files."""
         remedy = [{"action": each.action, "what": each.what, "value": each.value} for each in self.remedy]
         return {"kind": self.kind, "text": self.text, "remedy": remedy}
 
 
 class MeasurementError(MDRError):
-    """The error of a measurement that cannot be read, fitted or evaluated.
+    """Error for a measurement that cannot be read, fitted or evaluated.
 
-    The message is a `Remark`, which is given, or made of a text and remedies.
+    The message is the given `Remark`, or a `Remark` made of a text and remedies.
     """
 
     def __init__(self, text: str, *remedy: Remedy):

@@ -1,7 +1,7 @@
 """Base classes of results: quantities by name, entries, iteration; limits as data; names of the models.
 
-How a result is shown (text, tables, limits in words, plots) stands above the physics, and is imported
-when it is asked for.
+The modules that show a result (text, tables, limits in words, plots) are above the physics; they are
+imported at their first use.
 """
 
 from collections.abc import Iterator
@@ -54,22 +54,22 @@ SCALAR_ODE = Model(
 CREEP_LAW = Model(
     "scalar ODE",
     "while an indenter goes deeper, and while it recedes afterwards, its depth under a force obeys one "
-    "scalar equation, because no element that was released comes into contact again",
+    "scalar equation, because released elements do not come into contact again",
 )
 MODES = Model(
     "modes",
-    "on a structure with modes waves come back, and the body may hit several times: body and modes are "
+    "on a structure with modes, waves come back and the body may hit several times: body and modes are "
     "linear oscillators under the contact force",
 )
 CHAIN = Model(
     "chain",
-    "on a viscous path released elements may come into contact again while they relax, so that each "
-    "element has a memory of its own",
+    "on a viscous path, released elements may come into contact again while they relax, so that each "
+    "element needs its own memory",
 )
 
 
 class Entries:
-    """Base class of dataclasses whose fields all have one entry, or one row, for each impact."""
+    """Base class of dataclasses; each of their fields has one entry, or one row, per impact."""
 
     def __getitem__(self, index: Any) -> Self:
         return type(self)(**{field.name: getattr(self, field.name)[index] for field in fields(self)})
@@ -77,32 +77,53 @@ class Entries:
 
 @dataclass(frozen=True)
 class Limit:
-    """An assumption of the model, and how near a result is to its end; an entry of `result.limits`.
+    """An assumption of the model, and how near a result is to its bound; an entry of `result.limits`.
 
     Attributes
     ----------
     what : str
-        Quantity that is bounded: "slope", "contact radius", "modulus" below 1 kPa or above 10 TPa,
-        "critical depth" below 0.1 nm, "Poisson ratio", "viscosity", "speed", "fast limit", "Tabor's
-        parameter", which must be larger than its bound, "facets" of samples with adhesion, for friction
-        "coupling" and "slip direction", and where elements stick "tolerance", "depth" over the elastic
-        compression at the turning point (d_c of a hardness q_c/a) and "mass" over the tangential one; with
-        a constant hardness "flow", the area of a contact that flows over that of the model; the length (m)
-        of a "jump" of a path given by force; and on a structure "edges", the contact time over that in
-        which waves are back from the nearest edge, "second contact", its bound on the restitution over that
-        of the impact, "support", the force that the mass of a support adds, "thin", the contact radius over
-        half of the thickness, or 6 thicknesses over the speed of shear waves and the contact time,
-        "deflection" and "dent" over half of the thickness, and "weight", the speed that gravity adds.
+        Bounded quantity. Any result may have "slope", "contact radius", "modulus" below 1 kPa or above
+        10 TPa, "critical depth" below 0.1 nm, "Poisson ratio", "viscosity", "speed" and "fast limit".
+
+        With adhesion:
+
+        - "Tabor's parameter", which must exceed its bound
+        - "facets" of samples
+
+        With friction:
+
+        - "coupling" and "slip direction"
+        - "tolerance", if elements stick, like the next two
+        - "depth" over the elastic compression at the turning point (d_c of a hardness q_c/a)
+        - "mass" over the tangential mass
+
+        With a constant hardness:
+
+        - "flow": the area of a flowing contact over its area in the model
+
+        On a path given by force:
+
+        - the length (m) of a "jump"
+
+        On a structure:
+
+        - "edges": the contact time over the time in which waves return from the nearest edge
+        - "second contact": its bound on the restitution over the restitution of the impact
+        - "support": the force that the mass of a support adds
+        - "thin": the contact radius over half of the thickness, or 6 thicknesses over the speed of shear
+          waves and the contact time
+        - "deflection" and "dent" over half of the thickness
+        - "weight": the speed that gravity adds
     value, bound : float
-        Its largest value over all states, and the largest one for which the assumption is good.
+        Largest value of the quantity over all states, and the largest value at which the assumption holds.
     exceeded : bool
         Whether the value is larger than the bound.
     sentence : str
-        The same in words, and a remedy.
+        The limit in words, with a remedy.
     concerns : str
-        "result", or the formula of the paper that is concerned while the result itself is exact.
+        "result", or the concerned formula of the paper if the result itself is exact.
     severe : bool
-        Whether the result is only an estimate where the bound is exceeded.
+        Whether the result is only an estimate if the bound is exceeded.
 
     Examples
     --------
@@ -127,14 +148,14 @@ class Limit:
 
     @property
     def level(self) -> str:
-        """One word: "good", "note" where the result hardly changes, else "beyond"."""
+        """One word: "good", "note" if the result hardly changes, else "beyond"."""
         if self.holds:
             return "good"
         return "beyond" if self.severe and self.concerns == "result" else "note"
 
 
 class Limits(tuple[Limit, ...]):
-    """Limits of a result: a tuple that is printed with a line for each."""
+    """Limits of a result: a tuple that prints one line per limit."""
 
     __slots__ = ()
 
@@ -146,25 +167,25 @@ class Limits(tuple[Limit, ...]):
 
 
 class Record:
-    """Base class of results with quantities by name, which are arrays of one shape.
+    """Base class of results with named quantities, which are arrays of one shape.
 
-    A class of results gives the names below, and what a table says of its origin and limits. Others read
-    them by `Presentation` and `quantities_of`.
+    A derived class gives the names below, and the origin and the limits for tables. Other modules read
+    them through `Presentation` and `quantities_of`.
     """
 
-    #: Names of all quantities, of those in its `repr`, and of the dimensions.
+    #: Names of all quantities, of the quantities in its `repr`, and of the dimensions.
     _quantities: ClassVar[tuple[str, ...]] = ()
     _shown: ClassVar[tuple[str, ...]] = ()
     _dimensions: ClassVar[tuple[str, ...]] = ("state",)
 
     @property
     def _name(self) -> str:
-        """The name under which it is shown."""
+        """Displayed name."""
         return type(self).__name__
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape that all quantities have: () for one state or impact."""
+        """Shape of all quantities: () for one state or impact."""
         return np.shape(getattr(self, self._quantities[0]))
 
     def __len__(self) -> int:
@@ -195,7 +216,7 @@ class Record:
         )
 
     def to_dict(self) -> "dict[str, float | NDArray[np.float64]]":
-        """All quantities by name, in SI units: floats, or arrays of one shape. Those that are None are not.
+        """Return all quantities except None by name, in SI units: floats, or arrays of one shape.
 
         Examples
         --------
@@ -208,26 +229,26 @@ class Record:
         return {name: value if value.ndim else float(value) for name, value in values.items()}
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """A table of all quantities in SI units, one row for each state or impact.
+        """Return a table of all quantities in SI units, one row for each state or impact.
 
-        `attrs` has the model, the indenter and the medium, and "units" and "long_names" by the names of the
-        columns. Array-valued parameters of indenter and medium have columns of their own.
+        `attrs` has the model, the indenter and the medium, and the "units" and "long_names" of the
+        columns. Array-valued parameters of indenter and medium are additional columns.
         """
         return lazy.report.table(self)
 
     def to_xarray(self) -> "xarray.Dataset":
-        """A dataset of all quantities, each with its `units`, `long_name` and symbol as attributes.
+        """Return a dataset of all quantities, each with its `units`, `long_name` and symbol as attributes.
 
         Prescribed quantities (depth, time, mass, speed, array-valued parameters) are coordinates.
         """
         return lazy.report.dataset(self)
 
     def _source(self) -> Any:
-        """The result with the profile, the medium and the model; None where there is none."""
+        """Return the result with the profile, the medium and the model, or None."""
         return None
 
     def _limits(self) -> tuple[Limit, ...]:
-        """Limits of the model for this result."""
+        """Return the limits of the model for this result."""
         return ()
 
     def __getitem__(self, index: Any) -> Self:
@@ -241,12 +262,12 @@ class Record:
 
 
 def quantities_of(kind: type[Record] | Record) -> tuple[str, ...]:
-    """Names of all quantities of a class of results, or of a result."""
+    """Return the names of all quantities of a class of results, or of a result."""
     return kind._quantities
 
 
 def check_single(result: Record, what: str) -> None:
-    """Refuses a result of several entries for something, `what`, that needs a single one."""
+    """Raise an error if a result has several entries, for `what`, which needs a single one."""
     if result.shape:
         raise MDRError(
             f"{what} needs a single {Presentation(result).noun}, but this result has shape {result.shape}; "
@@ -256,18 +277,18 @@ def check_single(result: Record, what: str) -> None:
 
 @dataclass(frozen=True)
 class Presentation:
-    """What texts, tables and plots are told about a result beside its quantities."""
+    """Facts about a result, other than its quantities, for texts, tables and plots."""
 
     result: Record
 
     @property
     def name(self) -> str:
-        """The name under which it is shown, as "Impact"."""
+        """Displayed name, such as "Impact"."""
         return self.result._name
 
     @property
     def noun(self) -> str:
-        """Noun for one entry, as "state" or "instant"."""
+        """Noun for one entry, such as "state" or "instant"."""
         last = self.dimensions[-1]
         return "instant" if last == "time" else last
 
@@ -278,28 +299,28 @@ class Presentation:
 
     @property
     def dimensions(self) -> tuple[str, ...]:
-        """Names of the dimensions that its class may have; the last one counts the states of a path."""
+        """Names of the dimensions that its class may have; the last counts the states of a path."""
         return self.result._dimensions
 
     @property
     def source(self) -> Any:
-        """The result with the profile, the medium and the model; None where there is none."""
+        """The result with the profile, the medium and the model, or None."""
         return self.result._source()
 
     @property
     def limits(self) -> tuple[Limit, ...]:
-        """Limits of the model; found when they are asked for."""
+        """Limits of the model, found at each access."""
         return self.result._limits()
 
 
 class Result(Record):
-    """Base class of results of one profile on one medium, along a path, over time or of impacts."""
+    """Base class of results of one profile on one medium: states of a path or over time, or impacts."""
 
     def plot(self, quantity: str = "force", over: str = "depth") -> Any:
-        """One quantity over another as HoloViews elements, by default the force–depth curve.
+        """Plot one quantity over another as HoloViews elements, by default the force–depth curve.
 
         A path is shown in parts: loaded elastically, yielding, unloaded. Axes have names and units. Areas
-        of a force–depth curve are the plastic work of the path and what its last state stores.
+        of a force–depth curve are the plastic work of the path and the energy stored in its last state.
 
         Parameters
         ----------
@@ -309,7 +330,7 @@ class Result(Record):
         Raises
         ------
         ValueError
-            If a name is unknown, or the result has other than one dimension.
+            If a name is unknown, or the result does not have exactly one dimension.
         """
         return lazy.plots.plot_curve(self, quantity, over)
 

@@ -1,1 +1,1 @@
-"""The solver: profiles, media, the contact with its yield, the foundation of springs, impacts."""
+"""The solver: profiles, media, the contact with yield, the foundation of springs, impacts."""

@@ -1,17 +1,17 @@
 """Ensembles of impacts and indentations over named dimensions of xarray, in memory or with dask.
 
 Parameters are numbers or DataArrays, which broadcast by the names of their dimensions. Results of dask
-arrays are lazy: `compute` solves them chunk by chunk, on the cores of a machine or, with a
-``dask.distributed.Client``, on a cluster. The sum over a stream that does not fit in memory::
+arrays are lazy: `compute` solves them chunk by chunk, on the cores of a machine, or on a cluster with a
+``dask.distributed.Client``. This example sums a stream that does not fit in memory::
 
     speed = xr.DataArray(0.1 * dask.array.random.weibull(2.0, 10**9, chunks=10**6), dims="particle")
     stream = sweep.impacts(Sphere, radius=1e-5, E_star=1e9, q_c=10.0, mass=1e-12, speed=speed,
                            quantities=("restitution", "damaged_area"))
     total = stream.damaged_area.sum().compute()
 
-A long run to disk: the same script continues it, wherever it was killed. A store gets its name when it is
-complete. Chunks of a region are written in any order, so that a region in which any number is missing has
-not been computed to the end. One without missing numbers is left out::
+This example writes a long run to disk. The same script continues the run after it was killed. A store gets
+its name when it is complete. Chunks of a region are written in any order, so that a region with a missing
+number is not complete. Complete regions are skipped::
 
     store = Path("stream.zarr")
     if not store.exists():
@@ -24,11 +24,11 @@ not been computed to the end. One without missing numbers is left out::
         if done.isnull().any().to_array().any():
             stream.isel(region).to_zarr(store, region=region)
 
-While a sweep of arrays in memory runs, tqdm shows its progress where it is installed and the output is a
-terminal; of dask arrays ``dask.diagnostics.ProgressBar()`` does.
+During a sweep of arrays in memory, tqdm shows the progress if it is installed and the output is a terminal.
+For dask arrays, ``dask.diagnostics.ProgressBar()`` shows it.
 
-Ctrl-C stops a run in this process, ``client.cancel`` one on a cluster; the regions on disk remain.
-Particles of ``invalid="nan"`` have NaN for results: their regions are computed again.
+Ctrl-C stops a run in this process, ``client.cancel`` a run on a cluster; the regions on disk remain. With
+``invalid="nan"`` the results of invalid particles are NaN, so that their regions are computed again.
 
 An example:
 
@@ -82,7 +82,7 @@ if TYPE_CHECKING:
 
 __all__ = ["impacts", "indentations", "oblique_impacts"]
 
-#: Entries that are solved at a time, with some MB; viscous and oblique impacts take seconds.
+#: Number of entries solved at a time, with some MB; viscous and oblique impacts take seconds.
 _BLOCK = 2**14
 
 
@@ -109,14 +109,14 @@ def impacts(
     invalid: str = "raise",
     **shape_parameters: "Given",
 ) -> "xarray.Dataset":
-    """Impacts of free bodies (`mdr_core.impact`) over named dimensions.
+    """Solve impacts of free bodies (`mdr_core.impact`) over named dimensions.
 
     Parameters
     ----------
     shape : type or Profile
-        Class of the indenters, whose parameters follow by name, or a single indenter.
+        Class of the indenters, with its parameters given by name, or a single indenter.
     E_star, q_c, hardness, f_c, eta, work_of_adhesion : float or DataArray
-        Effective modulus (Pa), the constants of the hardness (N/m, Pa, N), viscosity (Pa·s) and work of
+        Effective modulus (Pa), constants of the hardness (N/m, Pa, N), viscosity (Pa·s) and work of
         adhesion (J/m²) of the `Medium`, with its defaults. `hardness` may be one `HardnessLaw` for all.
     mass, speed : float or DataArray
         Mass (kg) and speed (m/s) at first contact.
@@ -126,15 +126,15 @@ def impacts(
         Impedance (N·s/m) of the plate or rod, or stiffness (N/m) of the support, that carries the medium,
         as in `Structure`; infinite, the default, is rigid.
     structure : Structure, optional
-        One structure for all impacts, in the place of both: one with modes, which are solved one by one.
+        One structure for all impacts, instead of both. With modes, impacts are solved one by one.
     quantities : sequence of str
         Names of quantities of `Impact`: "restitution", "max_depth", "damaged_area", "contact_time", …
     invalid : {"raise", "nan"}
-        Particles with parameters outside the range of `impact` raise an error with their index, or have
-        NaN for results. The attributes then have the number of these particles,
-        ``invalid_count``, and the first ones with index, value and reason, ``invalid``. Results of dask
-        arrays have no such attributes: count the NaN. A number that is out of range, and a solver that
-        does not converge, raise an error in any case.
+        Particles with parameters outside the range of `impact` raise an error with their index ("raise"),
+        or have NaN for results ("nan"). In the second case, the attribute ``invalid_count`` is the number
+        of these particles, and ``invalid`` has the index, value and reason of the first ones. Results of
+        dask arrays have no such attributes: count the NaN. A single number out of range, and a solver that
+        does not converge, always raise an error.
     **shape_parameters : float or DataArray
         Parameters of the class, such as ``radius=`` of a `Sphere`.
 
@@ -193,11 +193,11 @@ def oblique_impacts(
     tolerance: float = 5e-4,
     **shape_parameters: "Given",
 ) -> "xarray.Dataset":
-    """Oblique impacts (`mdr_core.oblique_impact`) over named dimensions.
+    """Solve oblique impacts (`mdr_core.oblique_impact`) over named dimensions.
 
-    Parameters, result and errors are those of `impacts`. In addition there are Poisson's ratio of the
-    `Medium`, and of `oblique_impact` the tangential speed (m/s), the coefficient of friction, the
-    tangential mass (kg), `tolerance`, and the quantities of `ObliqueImpact`. Viscous impacts are solved one
+    Parameters, result and errors are as in `impacts`. Additional parameters are Poisson's ratio of the
+    `Medium`, and the tangential speed (m/s), the coefficient of friction, the tangential mass (kg) and the
+    `tolerance` of `oblique_impact`. Quantities are those of `ObliqueImpact`. Viscous impacts are solved one
     by one.
 
     Examples
@@ -234,11 +234,10 @@ def indentations(
     invalid: str = "raise",
     **shape_parameters: "Given",
 ) -> "xarray.Dataset":
-    """First loadings (`mdr_core.indent`) over named dimensions: each depth on a virgin medium.
+    """Solve first loadings (`mdr_core.indent`) over named dimensions: each depth on a virgin medium.
 
-    Parameters, result and errors are those of `impacts`, with depths (m), negative above the surface,
-    instead of mass and speed, and with quantities of `Indentation`: "force", "contact_radius",
-    "mean_pressure", …
+    Parameters, result and errors are as in `impacts`. Depths (m), negative above the surface, replace mass
+    and speed. Quantities are those of `Indentation`: "force", "contact_radius", "mean_pressure", …
 
     Examples
     --------
@@ -256,13 +255,13 @@ def indentations(
 
 
 def _sweep(kind, solve, law, shape, parameters, shape_parameters, quantities, invalid):
-    """Dataset of quantities of a class of results, which `solve` returns for arrays of parameters.
+    """Return the dataset of quantities of a class of results, from `solve` for arrays of parameters.
 
-    `law` is {"hardness": law}, which is the same for all, or empty.
+    `law` is {"hardness": law}, common to all entries, or empty.
     """
     xarray = imported("xarray", "mdr_core.sweep")
     names = [quantities] if isinstance(quantities, str) else list(quantities)
-    # The plastic depth is one before the impact as a parameter, one after it as a quantity.
+    # The parameter is the plastic depth before the impact, the quantity the plastic depth after it.
     known = [name for name in quantities_of(kind) if name not in parameters or name == "plastic_depth"]
     for name in names or [""]:
         check.one_of("quantity", name, known)
@@ -293,9 +292,10 @@ def _sweep(kind, solve, law, shape, parameters, shape_parameters, quantities, in
 
 
 def _in_blocks(solve, shape, values, own, names, refused):
-    """Arrays of the named quantities for arrays of parameters, `own` ones of the shape, in blocks.
+    """Return arrays of the named quantities for arrays of parameters, in blocks.
 
-    Entries that a check refuses are given to `refused`, and are NaN if that returns.
+    `own` are the parameters of the shape. Invalid entries are given to `refused`, and are NaN if it
+    returns.
     """
     size = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
     # Scalars are not repeated.
@@ -305,7 +305,7 @@ def _in_blocks(solve, shape, values, own, names, refused):
     for rows in tracked_chunks(flat.shape[1], _BLOCK, "entries"):
         entries = np.arange(flat.shape[1])[rows]
         block = {k: varied[k][rows] if k in varied else np.ravel(v)[0] for k, v in values.items()}
-        # Adhesion has a way of its own to be solved.
+        # Adhesion needs a separate solver.
         sticks = np.broadcast_to(np.asarray(block.get("work_of_adhesion", 0.0)) > 0, entries.shape)
         for chosen in (sticks, ~sticks):
             valid, part = entries[chosen], _some(block, chosen)
@@ -320,14 +320,14 @@ def _in_blocks(solve, shape, values, own, names, refused):
                 except check.InvalidEntries as error:
                     bad = np.broadcast_to(error.bad, valid.shape)
                     refused(error, np.unravel_index(valid[bad], size))
-                # Some of the quantities may have been written.
+                # Some of the quantities may already be stored.
                 flat[:, valid[bad]] = np.nan
                 valid, part = valid[~bad], _some(part, ~bad)
     return tuple(results) if len(names) > 1 else results[0]
 
 
 def _some(block, chosen):
-    """Some entries of the arrays among the parameters of a block."""
+    """Return the chosen entries of the arrays among the parameters of a block."""
     return {name: value[chosen] if np.ndim(value) else value for name, value in block.items()}
 
 
@@ -358,11 +358,11 @@ def _press(profile, E_star, work_of_adhesion, depth, **hardness):
 
 
 def _attributes(kind, shape, given):
-    """Attributes of the dataset: the parameters, for arrays their dimensions."""
+    """Return the attributes of the dataset: the parameters, or the dimensions of arrays."""
     profile = shape.__name__ if isclass(shape) else described(shape)
     varied = {name: "over " + " × ".join(value.dims) for name, value in given.items() if np.ndim(value)}
     fixed = {name: float(value) for name, value in given.items() if name not in varied}
     about = {"result": kind.__name__, "model": "MDR, V. L. Popov 2015", "indenter": profile}
-    # The package stands above its modules, so that none of these imports it.
+    # The package is above its modules, so that none of them imports it.
     about["version"] = f"mdr_core {import_module('mdr_core').__version__}"
     return about | fixed | varied

@@ -1,4 +1,4 @@
-"""Arguments of sweeps: parameters as labelled arrays, shapes, hardness; and particles that are invalid."""
+"""Arguments of sweeps: parameters as labelled arrays, shapes, hardness, and invalid particles."""
 
 import re
 from dataclasses import MISSING, fields
@@ -14,12 +14,12 @@ from ..solver.profiles.profile import Profile
 from ..solver.profiles.sampled import Sampled
 from ..solver.profiles.smooth import Smooth
 
-#: Invalid particles that are listed.
+#: Number of listed invalid particles.
 _LISTED = 5
 
 
 def labelled(xarray, name, value):
-    """A parameter as a DataArray of numbers in the SI unit."""
+    """Return a parameter as a DataArray of numbers in the SI unit."""
     unit = QUANTITIES[name].unit if name in QUANTITIES else ""
     if not isinstance(value, xarray.DataArray):
         value = check.in_unit(name, value, unit)
@@ -28,7 +28,7 @@ def labelled(xarray, name, value):
                 f"{name} is an array without names of dimensions: give an xarray.DataArray"
             )
         return xarray.DataArray(check.number(name, value))
-    # The attribute may be inherited from another array in a computation: only prefixed units are refused.
+    # The attribute may come from another array in a computation: only prefixed units raise an error.
     stated = getattr(value.data, "units", value.attrs.get("units", unit))
     factors, own = (re.split("[/·* ]", text.replace("kg", "g")) for text in (str(stated), unit))
     multiple = str(stated) != unit and len(factors) == len(own) and all(map(str.endswith, factors, own))
@@ -40,7 +40,7 @@ def labelled(xarray, name, value):
 
 
 def check_alignment(xarray, given):
-    """Refuse arrays whose sizes or coordinates differ along a dimension, by the names of two of them."""
+    """Raise an error with two names if sizes or coordinates of arrays differ along a dimension."""
     try:
         xarray.align(*given.values(), join="exact")
     except ValueError:
@@ -53,13 +53,13 @@ def check_alignment(xarray, given):
 
 
 def indices(xarray, given):
-    """Indices along each dimension as DataArrays; lazily where a parameter is a dask array."""
+    """Return indices along each dimension as DataArrays; lazy if a parameter is a dask array."""
     places = {}
     for value in given.values():
         for dim, size in value.sizes.items():
             places.setdefault(dim, np.arange(size))
             if value.chunks and isinstance(places[dim], np.ndarray):
-                # Without dask there are no chunks.
+                # Only dask arrays have chunks.
                 import dask.array
 
                 places[dim] = dask.array.arange(size, chunks=value.chunksizes[dim])
@@ -67,7 +67,7 @@ def indices(xarray, given):
 
 
 def check_shape_parameters(shape, given):
-    """Refuse other types than profiles, and missing or unknown parameters of the class."""
+    """Raise an error unless this is a profile or its class, with exactly the parameters of the class."""
     if not (isinstance(shape, Profile) or (isclass(shape) and issubclass(shape, Profile))):
         raise TypeError(f"shape must be a class of indenters or an indenter, got {check.shown(shape)}")
     if not isclass(shape) and shape.shape:
@@ -89,7 +89,7 @@ def check_shape_parameters(shape, given):
 
 
 def hardness_parameters(q_c, hardness, f_c):
-    """The constants of the hardness that are given, q_c = ∞ without any; and a law, which does not vary."""
+    """Return the given constants of the hardness, q_c = ∞ without any; and a law, which does not vary."""
     if isinstance(hardness, HardnessLaw):
         if hardness.shape:
             name, size = check.shown(hardness), hardness.shape
@@ -105,14 +105,14 @@ def hardness_parameters(q_c, hardness, f_c):
 
 
 class InvalidParticles:
-    """What happens to invalid particles: the first one raises an error, or they are counted and listed."""
+    """Handler of invalid particles: the first raises an error, or they are counted and listed."""
 
     def __init__(self, given, invalid):
         self.dims = {name: value.dims for name, value in given.items()}
         self.invalid, self.count, self.listed = invalid, 0, []
 
     def add(self, places, error, index):
-        """Notes the entries of an error at indices of a block, which is at `places` of the ensemble."""
+        """Record the entries of an error at indices of a block, which is at `places` of the ensemble."""
         name = error.argument
         number = error.values.ndim == 0
         if number and not self.dims.get(name):

@@ -93,9 +93,12 @@ def test_what_could_be_taken_for_something_else_is_given_by_name(make):
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        ({"eta": [0.0, 1.0]}, r"viscosity eta\[1\] = 1 Pa·s is not solved together"),
-        ({"hardness": [0.0, 1e8], "q_c": [10.0, 0.0]}, r"hardness\[1\] = 1e\+08 Pa is not solved together"),
-        ({"f_c": 1e-6}, r"yield constant f_c\[0\] = 1e-06 N is not modelled with adhesion"),
+        ({"eta": [0.0, 1.0]}, r"viscosity eta\[1\] = 1 Pa·s .*; solve these separately"),
+        (
+            {"hardness": [0.0, 1e8], "q_c": [10.0, 0.0]},
+            r"hardness\[1\] = 1e\+08 Pa .*; solve these separately",
+        ),
+        ({"f_c": 1e-6}, r"yield constant f_c\[0\] = 1e-06 N .* set it or work_of_adhesion to 0"),
     ],
 )
 def test_what_adhesion_excludes_it_excludes_in_all_entries(given, says):
@@ -171,9 +174,9 @@ class TestHardness:
 
     def test_what_determines_class_b_goes_with_no_other_class(self):
         for given in ({"hardness": 1e9}, {"f_c": 1.0}):
-            with pytest.raises(ValueError, match="both determine where yield starts; give one"):
+            with pytest.raises(ValueError, match=r"and critical_depth .*; give one"):
                 mdr.Medium.from_critical_depth(1e9, 1e-9, **given)
-        with pytest.raises(ValueError, match="both determine where yield starts; give one"):
+        with pytest.raises(ValueError, match=r"q_c or f_c and hardness .*; give one"):
             mdr.Medium.from_hardness(1e9, 1e6, 1e-6, f_c=1.0)
 
     def test_a_hardness_for_an_elastic_medium_is_refused(self):

@@ -1,13 +1,13 @@
 """Adhesion by Hess's rule (Popov and Heß, Method of Dimensionality Reduction, 2015, ch. 4).
 
-With the work of adhesion w the springs at the rim of a contact of radius a are stretched by
-Δl(a) = √(2π a w/E*). An adhesive state is the state without adhesion on the live interval [d_p, D] with a
-flat punch of radius a(D) and line load −E*Δl laid over it:
+With the work of adhesion w, the springs at the rim of a contact of radius a are stretched by
+Δl(a) = √(2π a w/E*). An adhesive state is the sum of the state without adhesion on the live interval
+[d_p, D] and of a flat punch of radius a(D) with the line load −E*Δl:
 
     d = D − Δl(a(D))          F = 2E* [∫ a(s) ds over [d_p, D] − a Δl]          E = U − π w a²
 
 It is stable at given depth while a g′(a) ≥ Δl/2, and at given force while a g′(a) ≥ 3Δl/2. The contact
-begins where the surfaces touch, d ≥ d_p, and is lost at the end of the stable range or at the rim of the
+begins when the surfaces touch, d ≥ d_p. It is lost at the end of the stable range or at the rim of the
 imprint, D = d_p, whichever comes first.
 """
 
@@ -26,31 +26,31 @@ AT_DEPTH, AT_FORCE = 0.5, 1.5
 
 
 def stretch(medium, radius):
-    """Δl = √(2π a w/E*) (m) of the springs at the rim of a contact of radius a (m)."""
+    """Return the stretch Δl = √(2π a w/E*) (m) of the springs at the rim of a contact of radius a (m)."""
     return np.sqrt(2 * np.pi * radius * (medium.work_of_adhesion / medium.E_star))
 
 
 def stretch_rate(profile, radius, length):
-    """Δl/g′(a) (m) for the stretch `length` (m) at a radius a (m); 0 where a wall holds the rim."""
+    """Return Δl/g′(a) (m) for the stretch `length` (m) at a radius a (m); 0 if a wall holds the rim."""
     slope = np.where(radius >= profile.wall, np.inf, profile.reduced_slope_at(radius))
     with np.errstate(divide="ignore", invalid="ignore"):
         return length / slope
 
 
 def _half_rate(profile, radius, length):
-    """Δl/(2a g′(a)) for the stretch `length` (m) at a radius a (m)."""
+    """Return Δl/(2a g′(a)) for the stretch `length` (m) at a radius a (m)."""
     rate = stretch_rate(profile, radius, length)
     with np.errstate(divide="ignore", invalid="ignore"):
         return rate / (2 * radius)
 
 
 def tension_integral(profile, interval, radius, length):
-    """Force over 2E* (m²): ∫ a ds − a Δl for the stretch `length` (m) at the rim, of `radius` (m)."""
+    """Return the force over 2E* (m²), ∫ a ds − a Δl, for the stretch `length` (m) at a rim `radius` (m)."""
     return integrals(profile).radius_integral(interval) - radius * length
 
 
 def tension_and_energy(profile, interval, radius, length):
-    """`tension_integral`, and the energy U − π w a² of springs and surfaces over 2E* (m³).
+    """Return `tension_integral`, and the energy U − π w a² of springs and surfaces over 2E* (m³).
 
     π w a² is E* a Δl²/2.
     """
@@ -59,9 +59,11 @@ def tension_and_energy(profile, interval, radius, length):
 
 
 def stable_ranges(profile, medium, share):
-    """Lower and upper ends (m) of the ranges of D in which a g′(a) ≥ share·Δl(a), along a first axis.
+    """Return the lower and upper ends (m) of the ranges of D with a g′(a) ≥ share·Δl(a).
 
-    Arrays of media or profiles have one range each; the upper end of the last range is infinite.
+    The ranges are along a first axis.
+
+    Arrays of media or profiles have one range per entry. The upper end of the last range is infinite.
     """
     threshold = share * np.sqrt(2 * np.pi * (medium.work_of_adhesion / medium.E_star))
     exponent = integrals(profile).elastic_exponent
@@ -75,42 +77,42 @@ def stable_ranges(profile, medium, share):
         return depth * ranges[0]
     if any(len(low) > 1 for low, _ in ranges):
         raise check.MDRError(
-            "with adhesion, the rim of the contact jumps between several ranges of radii, which is "
-            "computed for one medium at a time: take medium.entries(i)"
+            "with adhesion, the rim of the contact jumps between several ranges of radii: take one medium "
+            "at a time by medium.entries(i)"
         )
     ends = np.reshape([(low[0], high[0]) for low, high in ranges], (*threshold.shape, 2))
     return np.moveaxis(ends, -1, 0)[:, None] * depth
 
 
 def single_range(profile, medium, share):
-    """Start D (m) of the stable range, if there is only one."""
+    """Return the start D (m) of the stable range; raise an error if there are several."""
     low, _ = stable_ranges(profile, medium, share)
     if len(low) > 1:
         raise check.MDRError(
-            "with adhesion, the rim of this contact jumps between several ranges of radii, which only "
-            "indent computes, along one path of depths; under a Sampled profile it jumps from facet to "
-            "facet: take Smooth with the slope of a smooth curve through the samples"
+            "with adhesion, the rim of this contact jumps between several ranges of radii, for a Sampled "
+            "profile from facet to facet: use indent along one path of depths, or Smooth with the slope of "
+            "a smooth curve through the samples"
         )
     return low[0]
 
 
 def _power_range(profile, threshold, exponent):
-    """Start D (m) of the stable range of g ∝ xⁿ, in which √a g′(a) grows as a^(n − 1/2)."""
+    """Return the start D (m) of the stable range of g ∝ xⁿ; √a g′(a) grows as a^(n − 1/2)."""
     bound = "is 1/2 or less: with adhesion the contact spreads without limit"
     advice = "set work_of_adhesion = 0, or take an exponent above 1/2"
     check.raise_if("exponent", np.asarray(exponent), exponent <= 0.5, bound, advice=advice)
     if np.any(profile.wall < np.inf):
         return np.zeros(np.broadcast_shapes(np.shape(threshold), profile.shape))
-    # Of a weak power the radius may leave double precision.
+    # For a small exponent the radius may overflow.
     with np.errstate(over="ignore"):
         radius = (threshold / profile.reduced_slope_at(np.ones(()))) ** (1 / (exponent - 0.5))
         return np.asarray(profile.reduced_at(radius))
 
 
-# For single states of a sampled tip 1.8 times as fast as without the cache.
+# The cache makes single states of a sampled tip 1.8 times as fast.
 @lru_cache(maxsize=2**14)
 def _ranges(profile, threshold):
-    """`stable_ranges` of one profile without closed forms, where √a g′(a) ≥ `threshold` (√m)."""
+    """Return the `stable_ranges`, √a g′(a) ≥ `threshold` (√m), of one profile without closed forms."""
     x, rate = _rates(profile)
     stable = rate >= threshold
     change = np.flatnonzero(stable[1:] != stable[:-1])
@@ -125,14 +127,14 @@ def _ranges(profile, threshold):
         low = np.append(0.0, low)
     if not low.size:
         raise check.MDRError(
-            "work_of_adhesion is too large for this profile: the rim of the contact would be outside the "
-            f"radius up to which the profile is known, {x[-1]:g} m; give the profile to a larger radius"
+            "work_of_adhesion is too large for this profile: the rim of the contact would be outside its "
+            f"known radius, {x[-1]:g} m; give the profile to a larger radius"
         )
     return np.array([low, np.append(high, np.inf)[: low.size]])
 
 
 def _rates(profile):
-    """Radii x (m), ascending, and √x g′(x) there, infinite where a wall or a face holds the rim."""
+    """Return radii x (m), ascending, and √x g′(x) there, infinite if a wall or a face holds the rim."""
     face, end = profile.face_radius, min(profile.wall, profile.known_radius)
     spaced = np.geomspace(1e-30, 1e30, 1801)
     x = [face * (1 + spaced[300:]) if face else spaced, spaced]
@@ -140,7 +142,7 @@ def _rates(profile):
     near = np.geomspace(1e-12, 0.3, 24 if edges.size < 50 else 6)
     x = np.unique(np.concatenate([*x, *np.multiply.outer([*(1 - near), *(1 + near)], edges)]))
     x = x[(x > face) & (x < end)]
-    # The slope is looked at: radii are far beyond those of any contact.
+    # Radii may be far beyond any contact; the slope is checked below.
     with np.errstate(all="ignore"):
         rate = np.sqrt(x) * profile.reduced_slope_at(x)
     if profile.wall < np.inf:
@@ -149,7 +151,10 @@ def _rates(profile):
 
 
 def contact_interval(profile, medium, lower, live_depth, low, high):
-    """Live interval [d_p, D] at the depth d_p + `live_depth` (m), D from `low` to `high`, and Δl (m)."""
+    """Return the live interval [d_p, D] at the depth d_p + `live_depth`, and Δl; D is in [`low`, `high`].
+
+    All are in m.
+    """
 
     def depth(length):
         radius = profile.radius_at(lower + length)
@@ -160,13 +165,13 @@ def contact_interval(profile, medium, lower, live_depth, low, high):
     start = live_depth + stretch(medium, profile.radius_at(lower + np.maximum(live_depth, low)))
     length = crossing(depth, np.clip(start, low, high - lower), low, high - lower)
     stretched = stretch(medium, profile.radius_at(lower + length))
-    # With the live depth, so that the state of loading is known as such.
+    # Computed from the live depth, so that a state of loading is recognized.
     length = live_depth + stretched
     return LiveInterval.above(lower, length), stretched
 
 
 def depth_path(profile, medium, depth):
-    """Live intervals and line loads −E*Δl (N/m) along paths of depths (m), 0 out of contact."""
+    """Return live intervals and line loads −E*Δl (N/m) along paths of depths (m), 0 out of contact."""
     paths = np.atleast_1d(depth)
     results = np.zeros((4, *paths.shape))
     for row in np.ndindex(paths.shape[:-1]):
@@ -177,7 +182,7 @@ def depth_path(profile, medium, depth):
 
 
 def first_contacts(profile, medium, depth):
-    """Live intervals and line loads (N/m) of first loadings to depths (m), elementwise."""
+    """Return live intervals and line loads (N/m) of first loadings to depths (m), elementwise."""
     low = single_range(profile, medium, AT_DEPTH)
     loaded, _ = yield_rule(profile, medium).loading(np.maximum(depth, 0.0))
     lower, known = loaded.lower, profile.known_depth
@@ -189,11 +194,11 @@ def first_contacts(profile, medium, depth):
 
 
 def _one_path(profile, medium, depth):
-    """Lower and upper end and length (m) of the live interval, and line load (N/m), along one path."""
+    """Return lower end, upper end and length (m) of the live interval, and line load (N/m), on one path."""
     d_c, largest = medium.critical_depth, np.maximum.accumulate(depth)
     lower = yield_rule(profile, medium).plastic_depth(largest)
     live_depth = np.where(lower > 0, d_c - (largest - depth), depth)
-    # The bottom of the imprint is known to the rounding of the largest depth.
+    # The bottom of the imprint has the rounding of the largest depth.
     live_depth = np.where(np.abs(live_depth) <= 4e-16 * largest, 0.0, live_depth)
     low, high = stable_ranges(profile, medium, AT_DEPTH)
     ends = np.maximum(low[:, None], lower), np.minimum(high, profile.known_depth)[:, None]
@@ -216,10 +221,10 @@ def _one_path(profile, medium, depth):
 
 
 def _ranges_along(live_depth, first, last):
-    """Number of the stable range that holds the rim at each live depth (m) of a path, −1 out of contact.
+    """Return the number of the stable range with the rim at each live depth (m) of a path.
 
-    `first` and `last` are the live depths at the ends of the ranges, a row for each state; the rim jumps
-    to the next range when the depth leaves one.
+    It is −1 out of contact. `first` and `last` are the live depths at the ends of the ranges, one row per
+    state. The rim jumps to the next range when the depth leaves its range.
     """
     numbers, number = [], -1
     for depth, begin, end in zip(live_depth.tolist(), first, last, strict=True):
@@ -234,10 +239,10 @@ def _ranges_along(live_depth, first, last):
 
 
 def force_path(profile, medium, force):
-    """Depths (m), live intervals and line loads (N/m) along paths of forces (N).
+    """Return depths (m), live intervals and line loads (N/m) along paths of forces (N).
 
-    Under tension that is larger than the pull-off force the contact is lost: the depth is then that of
-    the bottom of the imprint. A force that is not negative closes the contact again.
+    Under a tension larger than the pull-off force the contact is lost. The depth is then the depth of the
+    imprint. A force that is not negative closes the contact again.
     """
     low, path = single_range(profile, medium, AT_FORCE), np.atleast_1d(force)
     target, closes = path / (2 * medium.E_star), path >= 0
@@ -257,7 +262,7 @@ def force_path(profile, medium, force):
     contact = _contact_along(closes, lost=unloading(least)[0] > 0)
     on_loading = target == largest
     length = np.where(on_loading, loaded.length, crossing(unloading, loaded.length, least, loaded.length))
-    # Without contact the depth is that of the bottom.
+    # Without contact the indenter is at the bottom of the imprint.
     length = np.where(contact, length, 0.0)
     stretched = np.where(contact, stretch(medium, profile.radius_at(lower + length)), 0.0)
     yielding = contact & on_loading & (lower > 0)
@@ -269,9 +274,9 @@ def force_path(profile, medium, force):
 
 
 def _pressed(profile, medium, target, low):
-    """Live intervals under the largest forces so far, `target` over 2E* (m²), and which these carry.
+    """Return live intervals under the largest forces so far, and whether they carry these forces.
 
-    D is at least `low` (m).
+    `target` is these forces over 2E* (m²). D is at least `low` (m).
     """
     d_c, known = medium.critical_depth, profile.known_depth
 
@@ -289,7 +294,7 @@ def _pressed(profile, medium, target, low):
 def _contact_along(closes, lost):
     """Whether there is contact at the end of each load of paths along the last axis.
 
-    From one that closes it, up to one by which it is lost.
+    Contact lasts from a load that closes it to a load that loses it.
     """
     contact, along = np.zeros(closes.shape[:-1], bool), np.empty(closes.shape, bool)
     for i in range(closes.shape[-1]):
@@ -299,7 +304,7 @@ def _contact_along(closes, lost):
 
 
 def loaded_interval(profile, medium, upper, before=0.0):
-    """Live interval [d_p, D] on loading up to D (m), over an imprint of depth `before` (m); and Δl (m)."""
+    """Return [d_p, D] on loading up to D (m), over an imprint of depth `before` (m), and Δl (m)."""
     stretched = stretch(medium, profile.radius_at(upper))
     depth = upper - stretched
     lower = np.maximum(before, yield_rule(profile, medium).plastic_depth(depth))
@@ -308,7 +313,7 @@ def loaded_interval(profile, medium, upper, before=0.0):
 
 
 def _tension(profile, interval, stretched, target, yielding):
-    """Force over 2E* less a target (m²), and its derivative with respect to D (m)."""
+    """Return the force over 2E* minus a target (m²), and its derivative with respect to D (m)."""
     radius = profile.radius_at(interval.upper)
     rate = stretch_rate(profile, radius, stretched)
     lower = profile.radius_at(interval.lower) * (1 - _half_rate(profile, radius, stretched))
@@ -318,7 +323,7 @@ def _tension(profile, interval, stretched, target, yielding):
 
 
 def stiffness(state):
-    """`Indentation.stiffness` (N/m) with adhesion: dF/dd at the contact radius that follows the depth."""
+    """Return `Indentation.stiffness` (N/m) with adhesion; the contact radius follows the depth."""
     profile, medium, interval = state.profile, state.medium, state.live_interval
     radius, stretched = state.contact_radius, -state.uniform_load / medium.E_star
     loaded = np.isclose(interval.length, medium.critical_depth + stretched, rtol=1e-14, atol=0.0)
@@ -333,7 +338,7 @@ def stiffness(state):
 
 
 def pull_off_integral(profile, medium, interval):
-    """Pull-off force over 2E* (m²): the largest tension on unloading a state with the live interval."""
+    """Return the pull-off force over 2E* (m²): the largest tension on unloading from a live interval."""
 
     def tension(interval):
         radius = profile.radius_at(interval.upper)
@@ -342,11 +347,11 @@ def pull_off_integral(profile, medium, interval):
     result = tension(interval)
     for number, low in enumerate(stable_ranges(profile, medium, AT_FORCE)[0]):
         largest = np.maximum(tension(last_interval(interval.lower, low)), result)
-        # The rim has been in a further range only if it is now; held by the depth, it pulls most at once.
+        # A further range counts only if the rim is in it now. A rim held by the depth pulls most now.
         result = np.where((number == 0) | (low <= interval.upper), largest, result)
     return result
 
 
 def last_interval(lower, low):
-    """Live interval at the end of the stable range from `low` (m), or at the rim of the imprint."""
+    """Return the live interval at the end of the stable range from `low` (m), or at the imprint's rim."""
     return LiveInterval.above(lower, np.maximum(low - lower, 0.0))

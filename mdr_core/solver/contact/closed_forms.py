@@ -1,16 +1,16 @@
-"""Closed forms of profiles, a class for each family: powers of the radius.
+"""Closed forms of profiles, one class per family, such as powers of the radius.
 
-A profile with an entry here is solved by its formulas, every other one by quadrature or from a table. To
-add a family, write a subclass of `Integrals` and register it for the class of its profiles:
+Profiles with a class here are solved by its formulas, all others by quadrature or from a table. To add a
+family, write a subclass of `Integrals` and register it for the class of its profiles:
 
     @integrals.register(Wedge)
     class WedgeForms(Integrals): ...
 
-Rules of yield for a constant hardness alone are registered likewise, with `constant_hardness`.
+Register rules of yield for a constant hardness alone in the same way, with `constant_hardness`.
 
-The live interval is [d_p, d], and a(s) the contact radius at the depth s. No formula is a difference of
-two elastic curves, which loses its digits where the interval is short: each is its length times a positive
-mean.
+The live interval is [d_p, d], and a(s) is the contact radius at the depth s. A difference of two elastic
+curves would lose its digits in a short interval. Each formula is therefore the length of the interval
+times a positive mean.
 """
 
 import numpy as np
@@ -71,7 +71,7 @@ class ConeIntegrals(Integrals):
             # Nothing has yielded: arccosh(a/r).
             logarithm = log1p_ratio((a - r) + root_a, r)
         else:
-            # arccosh(a/r) − arccosh(c/r), with the difference of the logarithms' arguments written out.
+            # arccosh(a/r) − arccosh(c/r), with an explicit difference of the arguments of the logarithms.
             low = np.maximum(c, r)
             drop = np.where(r < c, self.radius_difference(interval), a - r)
             root_low = root(low, r)
@@ -151,7 +151,7 @@ class PowerLawIntegrals(Integrals):
 
     def radius_difference(self, interval):
         fraction = _fraction(interval)
-        # ln(d_p/d) without cancellation: from the length where that is short, else from the ends.
+        # ln(d_p/d) without cancellation: from the length if it is short, else from the ends.
         with np.errstate(divide="ignore", invalid="ignore"):
             logarithm = np.where(
                 fraction < 0.5, np.log1p(-fraction), np.log(interval.lower / interval.upper)
@@ -160,15 +160,15 @@ class PowerLawIntegrals(Integrals):
 
 
 def _fraction(interval):
-    """Length of the live interval as a fraction of the depth, 0 where both vanish."""
+    """Return the length of the live interval as a fraction of the depth; 0 if both vanish."""
     return np.divide(
         interval.length, interval.upper, out=np.zeros_like(interval.upper), where=interval.upper > 0
     )
 
 
 def _plastic_ratio(work):
-    """X with (X + 1)^(5/2) − X^(5/2) = `work` ≥ 1."""
-    # With A² = X + 1 and C² = X it is (5h³ + 10/h + 1/h⁵)/16 in h = A + C, nearly a cube.
+    """Return X with (X + 1)^(5/2) − X^(5/2) = `work` ≥ 1."""
+    # With A² = X + 1, C² = X and h = A + C it is (5h³ + 10/h + 1/h⁵)/16, nearly a cube.
     h = np.cbrt(3.2 * work - 2.2)
     X = ((h - 1 / h) / 2) ** 2
     for _ in range(4):
@@ -180,7 +180,7 @@ def _plastic_ratio(work):
 
 
 def _turning_interval(elastic, plastic_ratio, d_c):
-    """Live interval from the depth (m) without yield, and from d_p/d_c where the medium yields."""
+    """Return the live interval from the depth (m) without yield, and d_p/d_c if the medium yields."""
     with np.errstate(invalid="ignore"):
         lower = np.where(elastic > d_c, plastic_ratio * d_c, 0.0)
     length = np.minimum(elastic, d_c)
@@ -191,9 +191,9 @@ def _turning_interval(elastic, plastic_ratio, d_c):
 class SampledIntegrals(QuadratureIntegrals):
     """A polygon, g = Σ β x arccos(r/x) over its vertices r with the changes β of the slope there.
 
-    From the tip on ∫ a ds = a d − ∫ g dx, of which under a convex shape at least half is left, and an error
-    of a is of second order; ∫ x arccos(r/x) dx = (x² arccos(r/x) − r √(x² − r²))/2. The first force of 3000
-    samples comes 50 times as fast as by quadrature.
+    From the tip, ∫ a ds = a d − ∫ g dx. Under a convex shape this difference is at least half of a d, and
+    an error of a has an effect of second order. ∫ x arccos(r/x) dx = (x² arccos(r/x) − r √(x² − r²))/2. The
+    first force of 3000 samples is computed 50 times as fast as by quadrature.
     """
 
     def radius_integral(self, interval):
@@ -207,7 +207,7 @@ class SampledIntegrals(QuadratureIntegrals):
         return result
 
     def _from_the_tip(self, depth):
-        """∫ a ds (m²) from the tip to depths (m), shape (N,)."""
+        """Return ∫ a ds (m²) from the tip to depths (m), shape (N,)."""
         a = self.profile.radius_at(depth)
         # The radius is infinite below the known depth.
         with np.errstate(invalid="ignore"):
@@ -227,8 +227,8 @@ def _(profile):
 class ConeOfHardness(RadiusCap):
     """Constant hardness under a cone: u_c = κ s with κ = H/(E* slope), the same at all depths.
 
-    It yields from first touch on, or for κ ≥ 1 never. Over 2E*, U = κ²(3 − 2κ) d³/(3π slope) and
-    W_p = 2κ(1 − κ)² d³/(3π slope): the coefficient of restitution is √(κ(3 − 2κ)/(2 − κ)) at every speed.
+    The cone yields from first touch, or for κ ≥ 1 never. In units of 2E*, U = κ²(3 − 2κ) d³/(3π slope) and
+    W_p = 2κ(1 − κ)² d³/(3π slope). The coefficient of restitution is √(κ(3 − 2κ)/(2 − κ)) at every speed.
     """
 
     similar = Cone(1.0)
@@ -262,7 +262,7 @@ class ConeOfHardness(RadiusCap):
 
 
 class ParaboloidOfHardness(RadiusCap):
-    """Constant hardness under a paraboloid: u_c = √(d_y s), with d_y = R (π H/(2E*))² the depth of onset.
+    """Constant hardness under a paraboloid: u_c = √(d_y s), with the onset depth d_y = R (π H/(2E*))².
 
     With r = √(s/d_y) the plastic depth is d_y (r² − r), and r = (1 + cosh t)/2 past the onset.
     """
@@ -291,7 +291,7 @@ class ParaboloidOfHardness(RadiusCap):
         onset = self._onset
         sinh = 2 * np.sqrt(increase / onset)
         t = np.arcsinh(sinh)
-        # (sinh 4t − 4t)/32, as a series where it cancels.
+        # (sinh 4t − 4t)/32, as a series if it would cancel.
         square = t * t
         series = t * square * (1 / 3 + square * (4 / 15 + square * (32 / 315 + square * (64 / 2835))))
         cosh = np.sqrt(1 + sinh * sinh)
@@ -310,7 +310,7 @@ class ParaboloidOfHardness(RadiusCap):
 
 
 def _root_of_depth(work):
-    """r = √(d/d_y) at which the work of loading over √R d_y^(5/2) has a value."""
+    """Return r = √(d/d_y) for a work of loading in units of √R d_y^(5/2)."""
     elastic = (3.75 * work) ** 0.2
     r = np.maximum(np.maximum(elastic, (2 * work) ** 0.25), 1.0)
     for _ in range(6):

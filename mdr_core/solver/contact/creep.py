@@ -1,9 +1,8 @@
 """Viscous indentation under a prescribed force in time: creep.
 
-There are three solvers. Without viscosity the path is that of `indent_to_force`. With viscosity the scalar
-laws hold: that of `creep_loading` while the indenter goes deeper, and that of `creep_retreat` while it
-recedes afterwards. At the first time at which the force rises again `chain_creep` takes over, and follows
-every element from the state that the scalar laws have reached.
+There are three solvers. Without viscosity, `indent_to_force` gives the path. With viscosity, the scalar
+laws hold: `creep_loading` while the indenter goes deeper, and `creep_retreat` while it recedes afterwards.
+When the force rises again, `chain_creep` follows every element from the last state of the scalar laws.
 """
 
 from dataclasses import replace
@@ -25,11 +24,11 @@ from .integrals import integrals, tabulated
 from .loading import indent_to_force
 from .yielding import yield_rule
 
-#: Largest number of runs of the scalar laws, each a hundred times as precise as the one before.
+#: Largest number of runs of the scalar laws, each a hundred times as precise as the previous run.
 _RUNS = 4
 #: Precision of the integrator in the first run, over the tolerance.
 _PRECISION = 0.1
-#: Smallest error that is said: that of the rounding of radii and integrals.
+#: Smallest reported error, the rounding of radii and integrals.
 _ROUNDING = 1e-12
 
 
@@ -37,20 +36,20 @@ _ROUNDING = 1e-12
 def creep(
     profile: Profile, medium: Medium, force: ArrayLike, time: ArrayLike, *, tolerance: float = 1e-4
 ) -> TimedIndentation:
-    """Press an indenter into a viscous medium under a force that is prescribed in time.
+    """Press an indenter into a viscous medium under a prescribed force in time.
 
-    While the indenter goes deeper, and while it recedes afterwards, its depth obeys a scalar law: closed
-    as long as nothing yields, else solved by an integrator of SciPy. This covers a force that is ramped,
-    held and taken away, in milliseconds. Where the force rises again before, released elements may come
-    into contact while they relax: from there on the chain goes on, in seconds. `result.model` is "scalar
-    ODE", or "chain" where the chain was needed, and without viscosity "closed form".
+    While the indenter goes deeper, and while it recedes afterwards, its depth obeys a scalar law. The law
+    has a closed form as long as nothing yields, else SciPy integrates it. This solves a force that is
+    ramped, held and removed, in milliseconds. If the force rises again earlier, released elements may come
+    into contact while they relax; then the chain continues, in seconds. `result.model` is "scalar ODE",
+    "chain" if the chain was needed, or "closed form" without viscosity.
 
     Parameters
     ----------
     profile, medium
         The indenter and the medium, of hardness H + q_c/a.
     force : array_like, shape (N,)
-        Forces (N), not negative, linear in between; the first force is applied quasi-statically.
+        Forces (N), not negative, linear between times. The first force is applied quasi-statically.
     time : array_like, shape (N,)
         Increasing times (s).
     tolerance : float, optional
@@ -65,14 +64,14 @@ def creep(
     Raises
     ------
     ValueError
-        If a force is negative or not finite, or needs more than the known depth of the profile; if the
-        first one, or without viscosity any, is as large as the π b² σ_c(b) at which a whole flat face
-        yields (Popov 2015, Eq. (11)); if times do not increase; with adhesion, or with f_c above 0, with
-        which the force may fall by itself.
+        If a force is negative or not finite, or needs more than the known depth of the profile. If times do
+        not increase. If the first force reaches π b² σ_c(b), at which a whole flat face yields (Popov 2015,
+        Eq. (11)); without viscosity, this holds for any force. With adhesion, or with f_c above 0, which
+        may make the force fall on loading.
 
     Examples
     --------
-    A flat punch under a force that increases for a time τ and is then constant for as long,
+    A flat punch under a force that increases for a time τ and is then constant for another τ,
     d = F/(2E*b) (1 − (e − 1)/e²):
 
     >>> from mdr_core import Cone, FlatPunch, Medium, creep
@@ -82,7 +81,7 @@ def creep(
     0.767455842
 
     A cone of slope s on a medium of constant hardness H: d² relaxes with the time τ/(κ(2 − κ)), where
-    κ = H/(E* s); here to 1/(κ(2 − κ)) = 4/3 of that without yield:
+    κ = H/(E* s); here to 1/(κ(2 − κ)) = 4/3 of its value without yield:
 
     >>> state = creep(Cone(1.0), Medium(1.0, hardness=0.5, eta=0.25), [0.0, 1.0, 1.0], [0.0, 1e-6, 1e3])
     >>> print(round(float(state.depth[-1] ** 2 * 2 / 3.141592653589793), 6))
@@ -103,7 +102,7 @@ def creep(
 
 
 def _without_viscosity(profile, medium, force, time):
-    """`TimedIndentation` of a path on a medium without dashpots, on which times do not matter."""
+    """Return the `TimedIndentation` of a path on a medium without dashpots; times do not matter there."""
     slow = indent_to_force(profile, medium, force)
     none = np.zeros_like(force)
     energies = slow.stored_energy, slow.plastic_work, none
@@ -112,12 +111,12 @@ def _without_viscosity(profile, medium, force, time):
 
 
 def _by_scalar_laws(profile, medium, force, time, tolerance):
-    """The `ScalarPath` of the times that the scalar laws cover, their number, the error of the depth."""
+    """Return the `ScalarPath` of the times covered by the scalar laws, their number, the depth error."""
     rule, area = yield_rule(profile, medium), force / (2 * medium.E_star)
     onset, ds = float(rule.onset()), np.diff(time) / medium.relaxation_time
     first, bound = _first_and_bound(profile, medium, rule, force, ds)
     rule = replace(rule, profile=tabulated(profile, bound))
-    # The error is what a run changes that is a hundred times as precise as the one before.
+    # The error is the change of the depth by a run that is a hundred times as precise.
     depth, error = None, np.inf
     for level in range(_RUNS):
         precision = max(_PRECISION * min(tolerance, 1e-2) / 100**level, _ROUNDING)
@@ -141,9 +140,9 @@ def _by_scalar_laws(profile, medium, force, time, tolerance):
 
 
 def _first_and_bound(profile, medium, rule, force, ds):
-    """First depth (m), and one (m) that is not exceeded.
+    """Return the first depth (m), and an upper bound of all depths (m).
 
-    By the springs alone, as of an infinitely slow path, and by the dashpots alone.
+    The bound follows from the springs alone, as on an infinitely slow path, or from the dashpots alone.
     """
     slow = replace(medium, eta=0.0)
     first = float(indent_to_force(profile, slow, force[0]).depth)
@@ -160,7 +159,7 @@ def _first_and_bound(profile, medium, rule, force, ds):
 
 
 def _force_at(profile, rule):
-    """F/(2E*) (m²) on a first loading to the known depth."""
+    """Return F/(2E*) (m²) on a first loading to the known depth."""
     if profile.known_depth == np.inf:
         return np.inf
     interval, _ = rule.loading(np.asarray(profile.known_depth))
@@ -168,7 +167,7 @@ def _force_at(profile, rule):
 
 
 def _refuse_unknown(profile, pressed, force):
-    """Refuses forces that press deeper than the profile is known."""
+    """Raise an error for forces that press deeper than the known depth of the profile."""
     known = pressed.depth <= min(profile.known_depth, check.LONGEST)
     known[-1] &= not pressed.turned or pressed.turning_depth <= profile.known_depth
     bound = f"presses {profile.too_deep()}"
@@ -177,10 +176,10 @@ def _refuse_unknown(profile, pressed, force):
 
 
 def _retreat(law, pressed, count):
-    """The `Retreat` from a turning point up to the time from which on the force rises."""
+    """Return the `Retreat` from a turning point up to the time at which the force begins to rise."""
     interval, _ = law.rule.loading(np.asarray(pressed.turning_depth))
     largest = integrals(law.rule.profile).radius_integral(interval)
-    # The first time after the turning point; the force falls up to there.
+    # The first time after the turning point; up to this time the force falls.
     first = len(pressed.depth)
     rises = np.flatnonzero(np.diff(law.area[first:]) > 0)
     stop = first + 1 + int(rises[0]) if rises.size else len(law.area)

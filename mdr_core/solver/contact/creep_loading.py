@@ -1,12 +1,12 @@
-"""The scalar law of creep of an indenter that goes deeper.
+"""The scalar law of creep for an indenter that goes deeper.
 
 With the contact radius a(s), f = F/(2E*), and A = ∫ a ds over the live interval [d_p, d], on a virgin
 medium,
 
     A + τ a ḋ = f     until f has fallen to A.
 
-In y = ∫ a ds from the tip to d this is τ ẏ = f − A, which is linear as long as nothing yields. Times are in
-units of τ, and f is linear between the given times.
+With y = ∫ a ds from the tip to d, this is τ ẏ = f − A, which is linear as long as nothing yields. Times are
+in units of τ, and f is linear between the given times.
 """
 
 import warnings
@@ -24,11 +24,11 @@ from .integrals import integrals
 from .live_interval import LiveInterval
 from .yielding import YieldRule
 
-#: Share of the largest depth up to which the law of a sharp tip that yields from first touch is linear: the
-#: tip is a cone there, for which, under a constant hardness, A/y is the same at every depth.
+#: Share of the largest depth up to which the law of a sharp tip that yields from first touch is linear.
+#: There the tip is a cone, and for a cone with a constant hardness A/y is the same at every depth.
 _TIP = 1e-6
-#: Nodes of ∫ d df between two times while nothing yields. The work of the dashpots then has errors of
-#: 4·10⁻¹² at most, with 8 nodes 4·10⁻⁹: measured by `python -m tests.benchmarks.constants`.
+#: Nodes of ∫ d df between two times while nothing yields. The work of the dashpots then has errors of at
+#: most 4·10⁻¹², with 8 nodes 4·10⁻⁹ (`python -m tests.benchmarks.constants`).
 _NODES = 12
 
 
@@ -36,8 +36,8 @@ _NODES = 12
 class Loading:
     """The law of a growing depth under f (m²), linear over intervals `ds` (τ) of time.
 
-    `bound` is a depth (m) that is not exceeded, `onset` (m) that of yield, `precision` the relative one of
-    the integrator.
+    `bound` is an upper bound of the depth (m), `onset` (m) the onset of yield, and `precision` the relative
+    precision of the integrator.
     """
 
     rule: YieldRule
@@ -48,17 +48,17 @@ class Loading:
     precision: float
 
     def pressed(self, depth):
-        """A (m²) and a (m) on a first loading to depths (m)."""
+        """Return A (m²) and a (m) on a first loading to depths (m)."""
         interval, _ = self.rule.loading(depth)
         return integrals(self.rule.profile).radius_integral(interval), self.rule.profile.radius_at(depth)
 
     def elastic(self, depth):
-        """∫ a ds (m²) from the tip to depths (m), and a (m)."""
+        """Return ∫ a ds (m²) from the tip to depths (m), and a (m)."""
         interval = LiveInterval.elastic(np.asarray(depth, dtype=float))
         return integrals(self.rule.profile).radius_integral(interval), self.rule.profile.radius_at(depth)
 
     def depth_of(self, y):
-        """Depths (m) at which ∫ a ds from the tip has values y (m²); infinite below the known depth."""
+        """Return the depths (m) at which ∫ a ds from the tip is y (m²); infinite below the known depth."""
         return increasing_root(self.elastic, y, self.bound, self.rule.profile.known_depth)
 
     @property
@@ -74,7 +74,7 @@ class Loading:
         return depth, y, float(self.pressed(depth)[0]) / y
 
     def solve(self, first):
-        """The `Pressed` depths that follow on a first depth (m)."""
+        """Return the `Pressed` depths after a first depth (m)."""
         depth = np.full(len(self.area), np.inf)
         moment = np.zeros(len(self.area))
         depth[0] = first
@@ -95,16 +95,16 @@ class Loading:
                 )
             if depth[stop] == np.inf:
                 break
-        # An integrator's depths may fall by rounding.
+        # Integrated depths may decrease by rounding.
         return Pressed(np.maximum.accumulate(depth), moment)
 
 
 @dataclass(frozen=True, eq=False)
 class Pressed:
-    """Depths (m) at the times up to the turning point, and ∫ d df (m³) from the first time on.
+    """Depths (m) at the times up to the turning point, and ∫ d df (m³) since the first time.
 
-    The turning point has the depth `turning_depth`, infinite if the indenter goes deeper to the end, and
-    the time `age` (τ) after the last of these times. Depths are infinite below the known depth.
+    The turning point is at the depth `turning_depth` and the time `age` (τ) after the last of these times.
+    Both are infinite if the indenter goes deeper until the end. Depths are infinite below the known depth.
     """
 
     depth: np.ndarray
@@ -120,7 +120,7 @@ class Pressed:
 
 
 def _stretches(area, ds):
-    """First and last numbers of the times between which f is one straight line."""
+    """Return the first and last indices of the times between which f is one straight line."""
     slope = np.diff(area) / ds
     bend = np.abs(np.diff(slope)) * np.minimum(ds[1:], ds[:-1])
     ends = [0, *(1 + np.flatnonzero(bend > 1e-13 * np.max(area))).tolist(), len(ds)]
@@ -136,7 +136,7 @@ class _Point(NamedTuple):
 
 
 class _Reached(NamedTuple):
-    """Depths (m) and ∫ d df (m³) from the start of a stretch, at the first M of its places.
+    """Depths (m) and ∫ d df (m³) from the start of a stretch, at its first M places.
 
     If there is a turning point, the places end at it.
     """
@@ -150,7 +150,7 @@ class _Reached(NamedTuple):
 class _Stretch:
     """The law of a growing depth while f (m²) goes linearly from `first` at 0 to `last` at the last place.
 
-    `places` are the times (τ), from the start of the stretch, at which depths are asked for.
+    `places` are the times (τ) of the depths, from the start of the stretch.
     """
 
     law: Loading
@@ -164,7 +164,7 @@ class _Stretch:
         return (self.last - self.first) / self.places[-1]
 
     def solve(self, depth):
-        """What is `_Reached` from a first depth (m)."""
+        """Return the `_Reached` depths after a first depth (m)."""
         limit, *_ = self.law.linear_part
         if depth >= limit:
             return self._integrated(_Point(0.0, depth, 0.0), self.places)
@@ -177,9 +177,9 @@ class _Stretch:
         return _Reached(depths, moments, later.turn)
 
     def _linear(self, depth):
-        """What is `_Reached` while the law is linear, from a first depth (m), and the point where it ends.
+        """Return the `_Reached` depths while the law is linear, from a first depth (m), and its end point.
 
-        That is where yield begins, the turning point, or the last place.
+        The end point is the onset of yield, the turning point, or the last place.
         """
         _, limit, rate = self.law.linear_part
         start = float(self.law.elastic(depth)[0])
@@ -202,34 +202,34 @@ class _Stretch:
         return _Reached(depths[:-1], moments[:-1], point if turns and not yields else None), point
 
     def _y(self, s, start, rate):
-        """y (m²) at times s (τ) from its value at the start, with dy/ds = f − rate y."""
+        """Return y (m²) at times s (τ) from its value at the start, with dy/ds = f − rate y."""
         x = rate * s
         return start * np.exp(-x) + s * (self.first * _relaxed(x) + self.slope * s * _ramped(x))
 
     def _moments(self, places, start, rate):
-        """∫ d df (m³) from the start of the stretch to places (τ), from y at the start and its rate."""
+        """Return ∫ d df (m³) from the start of the stretch to places (τ), with y at the start and rate."""
         if self.slope == 0:
             return np.zeros(len(places))
-        # From the start on d goes as a fractional power.
+        # d begins as a fractional power of the time.
         node, weight = gauss_legendre(_NODES)
         before = np.append(0.0, places[:-1])[:, None]
         s = before + (places[:, None] - before) * node**4
         weight = 4 * node**3 * weight * (places[:, None] - before)
         depth = self.law.depth_of(self._y(s, start, rate))
-        # Below the known depth an infinite depth may have no weight.
+        # Below the known depth, an infinite depth may have the weight 0.
         with np.errstate(invalid="ignore"):
             return self.slope * np.cumsum(np.sum(weight * depth, axis=1))
 
     def _integrated(self, begin, places):
-        """What is `_Reached` at places (τ) behind a `_Point`, by an integrator of SciPy.
+        """Return the `_Reached` depths at places (τ) after a `_Point`, by an integrator of SciPy.
 
-        Its state is the depth in units of the `bound`, and ∫ d df in units of bound · slope.
+        The integrated state is the depth in units of `bound`, and ∫ d df in units of bound · slope.
         """
         law, unit = self.law, self.law.bound
         known = law.rule.profile.known_depth
 
         def excess(s, state):
-            """f − A (m²), zero at a turning point."""
+            """Return f − A (m²), zero at a turning point."""
             return self.first + self.slope * s - law.pressed(min(state[0] * unit, known))[0]
 
         def rates(s, state):
@@ -256,10 +256,10 @@ class _Stretch:
 
 
 def _integrate(rates, span, start, places, event, precision):
-    """SciPy's solution of the rates over a span of times, at places in it, up to the zero of an event."""
+    """Integrate rates by SciPy over a span of times, at places in it, up to the zero of an event."""
     for method in ("LSODA", "Radau"):
         with warnings.catch_warnings():
-            # LSODA gives up in a warning where f and A agree to rounding, and Radau goes on.
+            # LSODA stops with a warning when f and A agree to rounding; then Radau continues.
             warnings.simplefilter("ignore", UserWarning)
             solution = scipy.integrate.solve_ivp(
                 rates, span, start, method, t_eval=places, events=event, rtol=precision,
@@ -273,12 +273,12 @@ def _integrate(rates, span, start, places, event, precision):
 
 
 def _relaxed(x):
-    """(1 − e⁻ˣ)/x."""
+    """Return (1 − e⁻ˣ)/x."""
     return np.where(x > 0, -np.expm1(-x) / np.where(x > 0, x, 1.0), 1.0)
 
 
 def _ramped(x):
-    """(x − 1 + e⁻ˣ)/x², by its series where the difference would cancel."""
+    """Return (x − 1 + e⁻ˣ)/x², by its series if the difference would cancel."""
     small, series = np.minimum(x, 1.0), np.zeros_like(x)
     for k in range(20, 1, -1):
         series = (1 - small * series) / k

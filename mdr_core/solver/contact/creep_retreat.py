@@ -1,11 +1,11 @@
-"""The scalar law of creep of an indenter that recedes.
+"""The scalar law of creep for a receding indenter.
 
-With the contact radius a(s), f = F/(2E*), and A = ∫ a ds over the live interval [d_p, D], D = d + τḋ is the
-height g at which elements are released, from the rim inward, and
+a(s) is the contact radius, f = F/(2E*), and A = ∫ a ds over the live interval [d_p, D]. Elements are
+released from the rim inward, at the height g = D = d + τḋ, and
 
     A = f     as long as the force does not rise.
 
-The edge of the contact follows the force at once, and the lead e = d − D of the indenter over it obeys
+The edge of the contact follows the force at once. The depth excess e = d − D of the indenter obeys
 τ ė = −e − τ Ḋ. A released element relaxes from the e at its release, and does not touch the indenter again.
 Times are in units of τ, and f is linear between the given times.
 """
@@ -22,16 +22,16 @@ from .loading import live_length
 from .quadrature import nodes
 from .yielding import YieldRule
 
-#: Ages (τ) between which the memory of a retreating edge is integrated; what is older counts e⁻⁶⁴.
+#: Ages (τ) between which the memory of a retreating edge is integrated; older ages contribute e⁻⁶⁴.
 _AGES = np.array([0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0])
 
 
 @dataclass(frozen=True, eq=False)
 class Retreat:
-    """The law of a falling depth from a turning point on, with states at times of `area` f (m²).
+    """The law of a falling depth after a turning point, with states at the times of `area`, f (m²).
 
-    The first state is the turning point. `interval` is its live interval, `ds` (τ) the times between the
-    states; `count` is the number of Gauss nodes in each piece.
+    The first state is the turning point, with the live interval `interval`. `ds` (τ) are the times between
+    states, and `count` is the number of Gauss nodes in each piece.
     """
 
     rule: YieldRule
@@ -40,7 +40,7 @@ class Retreat:
     ds: np.ndarray
     count: int
 
-    # Kept, `length` makes creep 2.5 times as fast, `_edges` 3.7 times, and `states` its elements 2.5 times.
+    # Cached, `length` makes creep 2.5 times as fast, `_edges` 3.7 times, and `states` elements 2.5 times.
     @cached_property
     def length(self):
         """D − d_p (m) of the states."""
@@ -52,7 +52,7 @@ class Retreat:
         return self.interval.lower + (self.length + self.states[0])
 
     def _lengths(self, area):
-        """D − d_p (m) at which A has values (m²)."""
+        """Return D − d_p (m) at which A has values (m²)."""
         return live_length(self.rule.profile, self.interval, area)
 
     @property
@@ -62,9 +62,9 @@ class Retreat:
 
     @cached_property
     def _edges(self):
-        """D − d_p (m) at the `_AGES` before each state but the first: a row for each, ascending.
+        """D − d_p (m) at the `_AGES` before each state except the first: one ascending row per state.
 
-        Ages end at the state before it.
+        Ages end at the preceding state.
         """
         ages = np.minimum(_AGES, self.ds[:, None])
         area = np.minimum(self.area[1:, None] + self.fall[:, None] * ages, self.area[:-1, None])
@@ -73,16 +73,17 @@ class Retreat:
         return np.maximum.accumulate(edges, axis=1)
 
     def _memory(self, k, low):
-        """∫ e⁻ᵛ dD, ∫ e⁻ᵛ (1 − e⁻ᵛ) dD and ∫ (1 − e⁻ᵛ) dD (m), shape (3, M), between states k and k + 1.
+        """Return ∫ e⁻ᵛ dD, ∫ e⁻ᵛ (1 − e⁻ᵛ) dD and ∫ (1 − e⁻ᵛ) dD (m) between states k and k + 1.
 
-        The edge of the contact went from the D of state k down to D − d_p = `low` (m), shape (M,); v (τ) is
-        how long before state k + 1 it was at D: v = (A(D) − f)/(−df/ds), with the f of that state.
+        The shape is (3, M). The edge of the contact went from the D of state k down to D − d_p = `low` (m),
+        shape (M,). The age v (τ) is the time from the edge at D to state k + 1: v = (A(D) − f)/(−df/ds),
+        with the f of state k + 1.
         """
         start = np.maximum(self._edges[k, :-1], low[:, None])
         stop = np.broadcast_to(self._edges[k, 1:], start.shape)
         row, piece = np.nonzero(stop > start)
         result = np.zeros((3, low.size))
-        # Older than the last of the ages.
+        # Edges older than the largest age.
         result[2] = self.length[k] - np.maximum(self._edges[k, -1], low)
         if not row.size:
             return result
@@ -99,8 +100,8 @@ class Retreat:
     def states(self):
         """e (m), R (m³) and work of the dashpots over 2E* (m³) of the states, shape (3, N).
 
-        E* R is the energy e² a E* of the contact that e adds beside 2E* (∫ (D − s) a ds + e A), and that of
-        the elements that were released: dR/ds = −2R + 2e(−df/ds), and the dashpots take 2 · E* R ds.
+        E* R is the energy e² a E* that e adds to 2E* (∫ (D − s) a ds + e A) of the contact, plus the energy
+        of the released elements. dR/ds = −2R + 2e(−df/ds), and the dashpots take 2 · E* R ds.
         """
         states = np.zeros((3, len(self.area)))
         for k, (ds, fall) in enumerate(zip(self.ds, self.fall, strict=True)):
@@ -108,20 +109,20 @@ class Retreat:
             decay, passed = np.exp(-ds), -np.expm1(-ds)
             memory, released, followed = self._memory(k, self.length[k + 1 : k + 2])[:, 0]
             later = remainder * decay**2 + 2 * fall * (depth_excess * decay * passed + released)
-            # ∫ e ds, by which the indenter goes back.
+            # ∫ e ds, the distance by which the indenter recedes.
             travel = depth_excess * passed + followed
             taken = np.maximum((remainder - later) / 2 + fall * travel, 0.0)
             states[:, k + 1] = depth_excess * decay + memory, later, work + taken
         return states
 
     def released(self, height):
-        """Compressions (m) of released elements of reduced heights g (m) in all states, shape (N, M)."""
+        """Return compressions (m) of released elements of heights g (m) in all states, shape (N, M)."""
         place, result = height - self.interval.lower, np.zeros((len(self.area), height.size))
         for k, ds in enumerate(self.ds):
             decay, depth_excess = np.exp(-ds), self.states[0, k]
             free = place >= self.length[k]
             result[k + 1, free] = result[k, free] * decay
-            # Less those that had never been in contact.
+            # Without the elements that were never in contact.
             now = np.flatnonzero(~free & (place >= self.length[k + 1]))
             if now.size:
                 result[k + 1, now] = depth_excess * decay + self._memory(k, place[now])[0]

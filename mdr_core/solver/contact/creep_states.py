@@ -1,4 +1,4 @@
-"""States of creep by the scalar laws: live intervals, leads, energies, and what elements do."""
+"""States of creep by the scalar laws: live intervals, depth excesses, energies, element states."""
 
 from dataclasses import dataclass, replace
 
@@ -16,10 +16,10 @@ from .live_interval import LiveInterval
 
 @dataclass(frozen=True, eq=False)
 class ScalarPath:
-    """States by the scalar laws, arrays of one entry each; the `History` of a `TimedIndentation`.
+    """States by the scalar laws, as arrays with one entry per state; the `History` of a `TimedIndentation`.
 
-    Live intervals, the lead e = d − D (m) over the edge of the contact, τḋ (m), energies (J), and the
-    `Retreat`, if there is one, whose last states are the last ones of the path.
+    `depth_excess` is e = d − D (m), the depth minus the depth of the contact edge, and `lag` is τḋ (m).
+    Energies are in J. The last states of the `Retreat`, if there is one, are the last states of the path.
     """
 
     profile: Profile
@@ -43,7 +43,7 @@ class ScalarPath:
         return self.interval.upper + self.depth_excess
 
     def elements(self, x, count):
-        """Line load (N/m) and elastic compression (m) at x (m) in the first states, shape (count, M)."""
+        """Return line load (N/m) and elastic compression (m) at x (m) in the first states, (count, M)."""
         columns = np.array([
             self.interval.upper, self.interval.length, self.depth_excess, self.lag,
         ])[:, :count, None]  # fmt: skip
@@ -52,21 +52,21 @@ class ScalarPath:
         springs = np.clip(edge - height, 0.0, length)
         contact = height < edge
         elastic = np.where(contact, springs + depth_excess, self._released(height)[:count])
-        # The dashpots of a retreating contact take the lead off.
+        # In a retreating contact, dashpots balance the depth excess.
         load = np.where(contact, springs + np.maximum(lag, 0.0), 0.0)
         return self.medium.E_star * load, elastic
 
     def _released(self, height):
-        """Compressions (m) of released elements of reduced heights (m) in all states."""
+        """Return compressions (m) of released elements of reduced heights (m) in all states."""
         result = np.zeros((len(self.depth_excess), height.size))
         if self.retreat is not None:
             later = self.retreat.released(height)
-            # The turning point need not be at one of the times.
+            # The turning point may be between two times.
             result[len(result) - len(later) + 1 :] = later[1:]
         return result
 
     def states(self, time, force, error):
-        """The `TimedIndentation` of this path."""
+        """Return the `TimedIndentation` of this path."""
         edge = np.asarray(self.interval.upper)
         radius = np.where(force > 0, self.profile.radius_at(edge), 0.0)
         return states_along(
@@ -78,7 +78,7 @@ class ScalarPath:
 
     @property
     def last(self):
-        """The last state, for the chain to go on from."""
+        """The last state, from which the chain continues."""
         return Start(
             depth=float(self.depth[-1]),
             largest=float(self.retreat.interval.upper),
@@ -91,7 +91,7 @@ class ScalarPath:
 
 
 def pressed_states(profile, medium, law, pressed):
-    """`ScalarPath` of a growing depth, from its law and the `Pressed` depths."""
+    """Return the `ScalarPath` of a growing depth, from its law and the `Pressed` depths."""
     rule, modulus = law.rule, 2 * medium.E_star
     f = law.area[: pressed.depth.size]
     interval, _ = rule.loading(pressed.depth)
@@ -114,9 +114,9 @@ def pressed_states(profile, medium, law, pressed):
 
 
 def retreating_states(before, law, pressed, retreat):
-    """`ScalarPath` that goes on from the states `before` a turning point, with those of its `Retreat`."""
+    """Return the `ScalarPath` of the states `before` a turning point and of its `Retreat`."""
     rule, modulus, turning = law.rule, 2 * before.medium.E_star, retreat.interval
-    # The first state of the retreat is the turning point, which is none of the path.
+    # The first state of the retreat is the turning point, which is not a state of the path.
     depth_excess, remainder, work = retreat.states[:, 1:]
     f = retreat.area[1:]
     interval = LiveInterval.above(turning.lower, retreat.length[1:])
@@ -143,17 +143,17 @@ def retreating_states(before, law, pressed, retreat):
 
 
 def _lost(depth, area, moment, energy):
-    """Work of the dashpots over 2E* (m³): that of the force less the `energy` stored and taken by yielding.
+    """Return the dashpots' work over 2E* (m³): the work of the force minus stored and plastic `energy`.
 
-    From depths d (m), f (m²), ∫ d df (m³) and energies over 2E* (m³) at all times, the first of which is
-    reached infinitely slowly: the work of the force, ∫ f dd, is f d − ∫ d df.
+    The arguments are depths d (m), f (m²), ∫ d df (m³) and energies over 2E* (m³) at all times. The first
+    state is reached infinitely slowly. The work of the force, ∫ f dd, is f d − ∫ d df.
     """
     work = area * depth - area[0] * depth[0] - moment
     return np.maximum.accumulate(np.maximum(work - (energy - energy[0]), 0.0))
 
 
 def _appended(first, later):
-    """`LiveInterval` of the states of one, and then those of another."""
+    """Return the `LiveInterval` of the states of one interval, followed by the states of another."""
     return LiveInterval(
         np.append(first.lower, later.lower),
         np.append(first.upper, later.upper),

@@ -19,8 +19,8 @@ from .pressure import displacement_integral, largest_pressure, pressure_integral
 from .stress import Stress, StressPeak
 from .yielding import yield_rule
 
-#: Number of states from which on a table pays. Making one takes as long as the integrals of 5,000 states on
-#: 200 samples, of 11,000 on 30 and of 14,000 on 1,000; then a state is 100 times quicker.
+#: Least number of states for a table. Making one takes as long as the integrals of 5,000 states on 200
+#: samples, of 11,000 on 30 and of 14,000 on 1,000. With the table a state is 100 times as fast.
 _MANY = 15_000
 
 
@@ -29,12 +29,14 @@ class Indentation(Result):
     """States of an indentation at the points of its path, returned by `indent` or `indent_to_force`.
 
     Every quantity has the shape of `depth` (m); `result[i]` is one state. Pressure, line load, surface,
-    imprint and stress are fields of one state. `live_interval` is [d_p, d_p + ℓ]; its end is d, except on
-    unloading from a viscous medium, where elements are released before their springs are relaxed.
-    `uniform_load` is a line load (N/m) over the contact besides that of the live interval: 4ηḋ of the
-    dashpots on loading, and with adhesion −E*Δl, where [d_p, D] with D = d + Δl is the live interval;
-    `in_time` says whether the states belong to a motion, and `jumps` are depths (m) between which a path of
-    prescribed force jumps, because the force decreases with depth there.
+    imprint and stress are fields of one state.
+
+    `live_interval` is [d_p, d_p + ℓ]. Its end is d, except on unloading from a viscous medium, which
+    releases elements before their springs are relaxed. `uniform_load` is a line load (N/m) over the contact
+    in addition to the live interval. On loading it is 4ηḋ of the dashpots. With adhesion it is −E*Δl, and
+    the live interval is [d_p, D] with D = d + Δl. `in_time` is whether the states belong to a motion.
+    `jumps` are depths (m) between which a path of prescribed force jumps, because the force decreases with
+    depth there.
 
     Examples
     --------
@@ -83,7 +85,7 @@ class Indentation(Result):
 
     @property
     def _quick(self):
-        """The profile, with a table of its contact radius if there are very many states."""
+        """The profile, with a table of its contact radius if there are many states."""
         if np.size(self.depth) < _MANY or self.profile.shape or not 0 < np.max(self.depth) < np.inf:
             return self.profile
         return tabulated(self.profile, np.max(self.depth))
@@ -94,9 +96,9 @@ class Indentation(Result):
 
     @property
     def _ahead(self):
-        """Elastic compression (m) of all elements in contact besides that of the live interval.
+        """Elastic compression (m) of all elements in contact, in addition to the live interval.
 
-        −τḋ on unloading, which the dashpots balance, and −Δl with adhesion.
+        It is −τḋ on unloading, balanced by the dashpots, and −Δl with adhesion.
         """
         if self._adhesive:
             return self.uniform_load / self.medium.E_star
@@ -104,7 +106,7 @@ class Indentation(Result):
 
     @check.frozen_property
     def force(self):
-        """Normal force F = 2E* ∫ a(s) ds (N) and of the uniform load; Popov (2015), Eqs. (20), (22)."""
+        """Normal force F = 2E* ∫ a(s) ds (N), plus the uniform load; Popov (2015), Eqs. (20), (22)."""
         force = 2 * self.medium.E_star * integrals(self._quick).radius_integral(self.live_interval)
         return force + 2 * self.uniform_load * self.contact_radius if np.any(self.uniform_load) else force
 
@@ -129,7 +131,7 @@ class Indentation(Result):
     def mean_pressure(self):
         """Mean contact pressure F/(π a²) (Pa); 0 without contact.
 
-        Less than the hardness at this radius, because the outer ring of the contact is elastic.
+        It is less than the hardness at this radius, because the outer ring of the contact is elastic.
         """
         a = np.asarray(self.contact_radius)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -153,7 +155,7 @@ class Indentation(Result):
     def plastic_work(self):
         """Work W_p = 2E* ∫ u_c a(p) dp (J) dissipated by yielding so far.
 
-        p is the plastic depth on loading and u_c the cap of the elements. For the hardness q_c/a it is
+        p is the plastic depth on loading and u_c the cap of the elements. For the hardness q_c/a, W_p is
         d_c φ(d_p) with the elastic force φ(d).
         """
         depth = np.asarray(self.plastic_depth)
@@ -168,8 +170,9 @@ class Indentation(Result):
     def pull_off_force(self):
         """Pull-off force (N), positive: the largest tension that the contact carries on unloading.
 
-        3/2 π w R for a paraboloid and √(8π w E* b³) for a flat punch (Popov and Heß 2015, ch. 4); from the
-        imprint of a deep indentation that of a punch of its radius, √(8π w E* c³). 0 without adhesion.
+        It is 3/2 π w R for a paraboloid and √(8π w E* b³) for a flat punch (Popov and Heß 2015, ch. 4).
+        From the imprint of a deep indentation it is √(8π w E* c³), the pull-off force of a punch with the
+        radius of the imprint. It is 0 without adhesion.
 
         Examples
         --------
@@ -188,7 +191,7 @@ class Indentation(Result):
     def stiffness(self):
         """Stiffness dF/dd (N/m): 2E* a, and 2E* (a − c dp/ds) for loading beyond the largest depth so far.
 
-        The plastic depth p grows as the depth s for the hardness q_c/a.
+        For the hardness q_c/a the plastic depth p grows at the rate of the depth s, dp/ds = 1.
         """
         if self._adhesive:
             return adhesion.stiffness(self)
@@ -205,9 +208,9 @@ class Indentation(Result):
         It is usually at the radius c of the plastic zone. If nothing has yielded, it is on the axis, at the
         edge of a flat face, or farther out under shapes that rise faster than a parabola. It is infinite
         under a sharp tip that has not yielded, at sharp edges and walls, and while dashpots carry load.
-        Vertices of a `Sampled` tip do not count, though the pressure is infinite there: it is the largest
-        value at c, in the middle of each facet, and on the axis of a flat face. Kinks of your own shapes
-        are not resolved. States are solved one by one, in up to 0.1 s each.
+        Vertices of a `Sampled` tip are left out, although the pressure is infinite there. The result is the
+        largest value at c, in the middle of each facet, and on the axis of a flat face. Kinks of custom
+        shapes are not resolved. States are solved one by one, in up to 0.1 s each.
 
         Examples
         --------
@@ -222,11 +225,12 @@ class Indentation(Result):
         return np.reshape(result, shape)
 
     def pressure(self, r: ArrayLike) -> Array:
-        """Contact pressure p = −σ_zz (Pa) at radii r (m), of the shape of `r`.
+        """Return the contact pressure p = −σ_zz (Pa) at radii r (m), of the shape of `r`.
 
-        p(r) = (E*/π) ∫ ds/√(a(s)² − r²), from Popov (2015), Eq. (10), with that of a flat punch for the
-        uniform load. Zero outside the contact. Infinite at the rim of a flat face, at any rim while
-        dashpots carry load, −∞ there with adhesion, and infinite under a sharp tip that has not yielded.
+        p(r) = (E*/π) ∫ ds/√(a(s)² − r²), from Popov (2015), Eq. (10), plus the pressure of a flat punch for
+        the uniform load. It is zero outside the contact. It is infinite at the rim of a flat face, at any
+        rim while dashpots carry load, and under a sharp tip that has not yielded. With adhesion it is −∞ at
+        the rim.
 
         Examples
         --------
@@ -243,23 +247,26 @@ class Indentation(Result):
             with np.errstate(divide="ignore", invalid="ignore"):
                 punch = self.uniform_load / np.pi / root(a, flat)
                 pressure += np.where(flat <= a, punch, 0.0)
-                # At the rim of a wall both are infinite: the sign is that of the load inside.
+                # At the rim of a wall both are infinite; the load just inside determines the sign.
                 rim = self.line_load(np.nextafter(a, 0.0)) / 0.0
             pressure = np.where(flat == a, rim, pressure)
         return pressure.reshape(r.shape)[()]
 
     def line_load(self, x: ArrayLike) -> Array:
-        """Line load q(x) (N/m) of the 1D foundation at x (m); Popov (2015), Eqs. (1), (17), (18)."""
+        """Return the line load q(x) (N/m) of the 1D foundation at x (m).
+
+        Popov (2015), Eqs. (1), (17), (18).
+        """
         check_single(self, "line_load")
         interval, x = self.live_interval, self._radii(x, "coordinate x")
         ring = interval.upper - self.profile.reduced_at(np.minimum(x, self.contact_radius))
-        # For x < c the compression is the length of the interval, which has no rounding of a difference.
+        # For x < c the compression is the length of the interval, without the rounding of a difference.
         inside = np.where(x < self.plastic_radius, interval.length, np.clip(ring, 0.0, interval.length))
         load = self.medium.E_star * inside + self.uniform_load
         return np.where(x < self.contact_radius, load, 0.0)[()]
 
     def surface(self, r: ArrayLike) -> Array:
-        """Elastic displacement u(r) (m) of the surface at radii r (m), positive downward.
+        """Return the elastic displacement u(r) (m) of the surface at radii r (m), positive downward.
 
         Its sum with `imprint` is d − z(r) under the indenter. Displacements of released elements that relax
         in a viscous medium are not included.
@@ -273,7 +280,7 @@ class Indentation(Result):
         return surface
 
     def imprint(self, r: ArrayLike) -> Array:
-        """Depth (m) of the residual imprint at radii r (m), after the load is removed."""
+        """Return the depth (m) of the residual imprint at radii r (m), after the load is removed."""
         check_single(self, "imprint")
         return self._displacement(LiveInterval.elastic(self.live_interval.lower), r)
 
@@ -282,12 +289,12 @@ class Indentation(Result):
         return displacement_integral(self.profile, interval, r.ravel()).reshape(r.shape)[()]
 
     def stress(self, r: ArrayLike, z: ArrayLike) -> Stress:
-        """Stress tensor (Pa) at radii r and depths z ≥ 0 below the surface (m), which broadcast.
+        """Return the stress tensor (Pa) at radii r and depths z ≥ 0 below the surface (m), which broadcast.
 
-        The integral over the live interval of the stress of a flat punch, with one more for the uniform
-        load; residual stresses of the imprint are not included. Even in r; σ_zz = −p at z = 0. Accurate to
-        10⁻⁸ of the largest stress, to 10⁻⁶ for z < 10⁻³ a, and to 10⁻⁴ next to the axis of a profile of
-        exponent n < 1/2 that has not yielded.
+        It integrates the stress of a flat punch over the live interval, and adds one more punch for the
+        uniform load. Residual stresses of the imprint are not included. The stress is even in r, with
+        σ_zz = −p at z = 0. It is accurate to 10⁻⁸ of the largest stress, and to 10⁻⁶ for z < 10⁻³ a. Next
+        to the axis of a profile of exponent n < 1/2 that has not yielded, it is accurate to 10⁻⁴.
 
         Examples
         --------
@@ -302,11 +309,11 @@ class Indentation(Result):
         return stress.stress(self, *np.broadcast_arrays(r, z))
 
     def stress_peak(self, quantity: str = "max_shear") -> StressPeak:
-        """Largest shear stress of one state, or of `quantity="von_mises"`, and its position.
+        """Find the largest shear stress of one state, or `quantity="von_mises"`, and its position.
 
-        A `StressPeak` with `value` (Pa), accurate to 10⁻⁸, and position `r`, `z` (m), accurate to 10⁻⁴ a.
-        Infinite at the rim of a flat face and at any rim while dashpots or adhesion carry load; for
-        ν < 1/2 also at an edge and at a sharp tip that have not yielded.
+        The `StressPeak` has the `value` (Pa), accurate to 10⁻⁸, and the position `r`, `z` (m), accurate to
+        10⁻⁴ a. The value is infinite at the rim of a flat face, and at any rim while dashpots or adhesion
+        carry load. For ν < 1/2 it is also infinite at an edge or a sharp tip that has not yielded.
 
         Examples
         --------
@@ -320,9 +327,10 @@ class Indentation(Result):
         return stress.stress_peak(self, check.one_of("quantity", quantity, stress.SIZES))
 
     def largest_stress(self, z: ArrayLike, quantity: str = "max_shear") -> Array:
-        """Largest shear stress (Pa), or `quantity="von_mises"`, at each depth z ≥ 0 (m) below the surface.
+        """Return the largest shear stress (Pa), or `quantity="von_mises"`, at each depth z ≥ 0 (m).
 
-        Over all radii and all states of a path; for an impact take `motion.states`.
+        Depths are measured below the surface. It is the largest over all radii and all states of a path;
+        for an impact take `motion.states`.
 
         Examples
         --------
@@ -337,11 +345,11 @@ class Indentation(Result):
         return stress.largest_stress(self, stress.depths(z), quantity)
 
     def plot_pressure(self) -> Any:
-        """Contact pressure p(r) of one state with a, c and the mean pressure, as HoloViews elements."""
+        """Plot the pressure p(r) of one state with a, c and the mean pressure, as HoloViews elements."""
         return lazy.plots.plot_pressure(self)
 
     def plot_springs(self) -> Any:
-        """The 1D foundation in one state, springs below the profile g(x), as HoloViews elements."""
+        """Plot the 1D foundation in one state, springs below the profile g(x), as HoloViews elements."""
         return lazy.plots.plot_springs(self)
 
     @staticmethod

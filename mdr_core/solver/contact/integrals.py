@@ -4,9 +4,9 @@
     energy_integral   ∫ (d − s) a(s) ds                          stored energy
     radius_difference a(d) − a(d_p)                              stiffness while yielding
 
-for arrays of states. They are geometry only: the caller multiplies by the modulus. `pressure` has
-the integrals that depend on the radius r. They come from closed forms, from
-a table of a(s), or by quadrature: `integrals` chooses one of these for a profile.
+for arrays of states. They are geometry only: the caller multiplies by the modulus. `pressure` has the
+integrals that depend on the radius r. `integrals` chooses closed forms, a table of a(s), or quadrature for
+a profile.
 """
 
 from abc import ABC, abstractmethod
@@ -24,16 +24,16 @@ from .live_interval import LiveInterval
 from .quadrature import integrate, kink_above, radius, radius_rate
 
 #: Live intervals longer than this share of the depth are integrated as a difference of two integrals from
-#: the tip; the energy loses up to two digits by it. 2000 elastic states of a rounded cone are 10 times as
-#: fast, the depths of 10⁵ impacts 17 times.
+#: the tip. The energy loses up to two digits. 2000 elastic states of a rounded cone are 10 times as fast,
+#: and the depths of 10⁵ impacts 17 times.
 _LONG = 0.15
-#: Number of depths up to which no table is made, and how many more there may be for a kink above its end.
-#: It is made in the time of 2 to 8 depths a kink: for one call it should wait so long, for many calls it
-#: should come at once. From so many depths a kink of the profile on it goes to the known depth: that the
-#: largest depth is not sought makes the impacts of later calls 1.6 times as fast.
+#: Largest number of depths without a table; additional depths for each kink above the end of the table; and
+#: depths per kink of the profile from which the table goes to the known depth. Making a table takes as long
+#: as 2 to 8 depths per kink: a single call should avoid it, many calls should make it at once. A table to
+#: the known depth needs no search for the largest depth, which makes later impacts 1.6 times as fast.
 _FEW, _FEW_A_KINK, _MANY_A_KINK = 16, 0.5, 2
-#: Numbers of Gauss nodes for shorter ones, by their length over the distance from the last kink. Forces of
-#: 2000 states of a rounded cone are 7 times as fast as by `integrate`.
+#: Numbers of Gauss nodes for shorter intervals, by their length over the distance from the last kink.
+#: Forces of 2000 states of a rounded cone are 7 times as fast as by `integrate`.
 _SHORT = ((0.03, 4), (0.15, 6), (0.5, 10))
 
 
@@ -41,17 +41,16 @@ _SHORT = ((0.03, 4), (0.15, 6), (0.5, 10))
 class Integrals(ABC):
     """Integrals over the live interval under one profile or an ensemble, elementwise.
 
-    A subclass gives the first three functions. The others return here that there is no closed form and no
-    table.
+    A subclass defines the first three functions. The defaults of the others mean: no closed form, no table.
     """
 
     profile: Any
 
-    #: Whether a(s) is a polynomial of √s from the tip on, for which quadrature needs no cuts.
+    #: Whether a(s) is a polynomial of √s from the tip, so that quadrature needs no cuts.
     polynomial = False
 
-    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/d_c for all,
-    #: under the hardness q_c/a.
+    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/d_c for all of
+    #: them, under the hardness q_c/a.
     similar = None
 
     #: Exponent p of the elastic force F ∝ dᵖ.
@@ -62,26 +61,26 @@ class Integrals(ABC):
 
     @abstractmethod
     def radius_integral(self, interval):
-        """∫ a(s) ds (m²)."""
+        """Return ∫ a(s) ds (m²)."""
 
     @abstractmethod
     def energy_integral(self, interval):
-        """∫ (d − s) a(s) ds (m³)."""
+        """Return ∫ (d − s) a(s) ds (m³)."""
 
     @abstractmethod
     def radius_difference(self, interval):
-        """a(d) − a(d_p) (m): where the medium has yielded, the width of the elastic ring."""
+        """Return a(d) − a(d_p) (m), the width of the elastic ring if the medium has yielded."""
 
     def radius_and_energy(self, interval):
-        """`radius_integral` and `energy_integral`; from a table both cost as much as one."""
+        """Return `radius_integral` and `energy_integral`; from a table both cost as much as one."""
         return self.radius_integral(interval), self.energy_integral(interval)
 
     def pressure_integral(self, interval, r):
-        """∫ ds/√(a(s)² − r²) over a(s) > r, for one state and radii r ≥ 0 (m)."""
+        """Return ∫ ds/√(a(s)² − r²) over a(s) > r, for one state and radii r ≥ 0 (m)."""
         return None
 
     def turning_interval(self, target, d_c):
-        """Live interval at the turning point of an impact on a virgin medium of critical depth d_c (m).
+        """Return the live interval at the turning point of an impact, on a virgin medium with d_c (m).
 
         `target` is the kinetic energy over 2E* (m³).
         """
@@ -94,26 +93,26 @@ class Integrals(ABC):
 
     @property
     def convex(self):
-        """Whether g(x)/x nowhere falls, as under every convex shape."""
+        """Whether g(x)/x never falls; this holds for every convex shape."""
         if self.elastic_exponent is not None:
             # g ∝ xⁿ, with F ∝ d^(1 + 1/n).
             return bool(np.all(self.elastic_exponent <= 2))
         unit = self.unit[0]
-        # An ensemble of a user's dataclass has no hash.
+        # An ensemble of a user's dataclass is not hashable.
         return (_growing_mean_slope.__wrapped__ if unit.shape else _growing_mean_slope)(unit)
 
 
-# Kept, single states of a sampled tip on a medium with a hardness H are 19 times as fast.
+# The cache makes single states of a sampled tip on a medium with a hardness H 19 times as fast.
 @lru_cache(maxsize=64)
 def _growing_mean_slope(profile):
-    """Whether g(x)/x nowhere falls between 10⁻¹² and 10³ m, as far as the profile is known."""
+    """Whether g(x)/x never falls between 10⁻¹² and 10³ m, within the known radius of the profile."""
     last = profile.known_radius
     if np.all(np.isfinite(profile.known_depth)):
         # Beyond this radius g may have no value at all.
         last = np.minimum(last, profile.radius_at(np.asarray(profile.known_depth)))
     for place in np.geomspace(1e-12, 1e3, 256):
         x = np.minimum(np.full(profile.shape, place), last)
-        # Radii may be far beyond those of any contact: what is asked there is no number, or true.
+        # Radii may be far beyond any contact; there the comparison is false, or has a NaN.
         with np.errstate(all="ignore"):
             falls = np.any(x * profile.reduced_slope_at(x) < profile.reduced_at(x) * (1 - 1e-9))
         if falls:
@@ -123,7 +122,7 @@ def _growing_mean_slope(profile):
 
 @singledispatch
 def integrals(profile: Profile) -> Integrals:
-    """The `Integrals` of a profile: closed forms or a table if they are registered for its class."""
+    """Return the `Integrals` of a profile: closed forms or a table if registered for its class."""
     return QuadratureIntegrals(profile)
 
 
@@ -142,8 +141,8 @@ class QuadratureIntegrals(Integrals):
         narrow = interval.length < 1e-2 * interval.upper
         if not np.any(narrow):
             return a - c
-        # ∫ da: the difference of the radii has few digits in a short interval. At the very tip, where it
-        # has all of them, the rate may be infinite.
+        # ∫ da, because the difference of the radii has few digits in a short interval. At the very tip it
+        # has all digits, and the rate may be infinite.
         with np.errstate(invalid="ignore"):
             return np.where(narrow, integrate(self.profile, interval, radius_rate, moment=0), a - c)
 
@@ -176,7 +175,7 @@ class TableIntegrals(Integrals):
         return length * QuadratureIntegrals(unit).radius_difference(interval.in_units_of(depth))
 
     def _from_table(self, interval, moments):
-        """∫ (d − s)^k a(s) ds for k below `moments` (1 or 2), from the table of the unit profile."""
+        """Return ∫ (d − s)^k a(s) ds for k below `moments` (1 or 2), from the table of the unit profile."""
         unit, *scales = self.unit
         shape = np.shape(interval.length)
         ends = [np.ravel(end) for end in (interval.lower, interval.upper, interval.length)]
@@ -186,7 +185,7 @@ class TableIntegrals(Integrals):
         for rows in chunks(result.shape[1], LONG):
             length, depth = (scale[rows] for scale in scales) if self.profile.shape else scales
             lower, upper, live_depth = (end[rows] / depth for end in ends)
-            # In ascending order: a search in the table is several times as fast next to the last one.
+            # Ascending order: a search in the table is several times as fast next to the previous one.
             order, block = np.argsort(upper), result[:, rows]
             block[:, order] = _table_integrals(unit, lower[order], upper[order], live_depth[order], moments)
             block *= length * depth ** np.arange(1, moments + 1)[:, None]
@@ -194,9 +193,9 @@ class TableIntegrals(Integrals):
 
 
 def _table_integrals(profile, lower, upper, length, moments):
-    """∫ (d − s)^k a(s) ds of one profile for k below `moments`, from its table and flat arrays.
+    """Return ∫ (d − s)^k a(s) ds of one profile for k below `moments`, from its table and flat arrays.
 
-    Long intervals as differences, short ones with a few nodes if no kink is near, others by `_integrate`.
+    Long intervals are differences. Short intervals use a few nodes if no kink is near, else `integrate`.
     """
     covered = profile.table.covers(lower) & profile.table.covers(upper)
     far = covered & (length >= _LONG * upper)
@@ -225,9 +224,9 @@ def _table_integrals(profile, lower, upper, length, moments):
 
 
 def _differences(table, lower, upper, length, moments):
-    """`_table_integrals` over long intervals."""
+    """Return `_table_integrals` over long intervals."""
     result = np.array([integral(upper) for integral in (table.area, table.volume)[:moments]])
-    # Both are 0 at the tip, where elastic intervals start.
+    # Both integrals are 0 at the tip, where elastic intervals start.
     if lower.any():
         area = table.area(lower)
         result[0] -= area
@@ -238,16 +237,16 @@ def _differences(table, lower, upper, length, moments):
 
 
 def tabulated_for(profile, count, largest_depth):
-    """The profile for searches of `count` depths, if they are many with a table.
+    """Return the profile for searches of `count` depths, with a table if there are many.
 
-    `largest_depth()` is about the largest of the depths (m), where the table ends, if it does not go to the
-    known depth: the more kinks are above its end, the longer it takes to make one.
+    The table ends at the known depth, or at `largest_depth()`, about the largest of the depths (m). Making
+    it takes longer if more kinks are above its end.
     """
     slow = not profile.shape and isinstance(integrals(profile), QuadratureIntegrals)
     if count <= _FEW or not slow or profile.known_depth == np.inf:
         return profile
     kinks = len(profile.kinks)
-    # Without kinks the known depth may be many powers of ten away, and a table to it is long.
+    # Without kinks the known depth may be many powers of ten away, and a table to it would be long.
     if kinks and profile.known_radius < np.inf and count > _MANY_A_KINK * kinks:
         return tabulated(profile, profile.known_depth)
     end = _end_of_table(profile, largest_depth())
@@ -257,10 +256,10 @@ def tabulated_for(profile, count, largest_depth):
 
 
 def tabulated(profile, known_depth):
-    """A profile that gives its contact radius and integrals quickly, down to a depth (m) or to its own end.
+    """Return a profile with a fast contact radius and fast integrals, down to a depth (m) or to its end.
 
-    Ensembles, and profiles that have closed forms or a table, are returned as they are, and so is any for
-    no depths.
+    Ensembles and profiles with closed forms or a table are returned unchanged. Without depths, any profile
+    is returned unchanged.
     """
     if profile.shape or not np.size(known_depth) or not isinstance(integrals(profile), QuadratureIntegrals):
         return profile
@@ -268,10 +267,10 @@ def tabulated(profile, known_depth):
 
 
 def _end_of_table(profile, depth):
-    """Depth (m) of the end of a table for depths (m): a power of 2, so that few tables are made."""
+    """Return the end (m) of a table for depths (m): a power of 2, so that few tables are made."""
     return float(min(2.0 ** np.ceil(np.log2(np.max(depth))), np.min(profile.known_depth)))
 
 
 # A table makes the times of 300 impacts of a sampled tip some 300 times as fast, one time and 20 viscous
-# impacts 5 times, those of a `Smooth` tip 20 times. Without the cache every call would make it again.
+# impacts 5 times, and impacts of a `Smooth` tip 20 times. Without the cache every call would make it again.
 _tabulated = lru_cache(maxsize=16)(Tabulated)

@@ -1,4 +1,4 @@
-"""The live interval: the depths between which an indentation is elastic."""
+"""The live interval: the elastic depths of an indentation."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -8,10 +8,10 @@ import numpy as np
 
 @dataclass(frozen=True)
 class LiveInterval:
-    """Interval [d_p, d] of depths (m) that are elastic: floats, or arrays of one shape.
+    """Interval [d_p, d] of elastic depths (m): floats, or arrays of one shape.
 
-    `length` is stored because the difference `upper − lower` cancels where d is much larger than the
-    elastic compression. Without contact the length is 0 and both ends are d_p.
+    `length` is stored because the difference `upper − lower` cancels if d is much larger than the elastic
+    compression. Without contact the length is 0 and both ends are d_p.
     """
 
     lower: np.ndarray
@@ -20,17 +20,17 @@ class LiveInterval:
 
     @classmethod
     def above(cls, lower: np.ndarray, length: np.ndarray) -> Self:
-        """The interval of a length (m) that begins at a plastic depth (m); both broadcast."""
+        """Return the interval of a length (m) that begins at a plastic depth (m); both broadcast."""
         return cls(*np.broadcast_arrays(lower, lower + length, length))
 
     @classmethod
     def elastic(cls, depth: np.ndarray) -> Self:
-        """The interval of an elastic indentation to a depth (m)."""
+        """Return the interval of an elastic indentation to a depth (m)."""
         return cls(np.zeros_like(depth), depth, depth)
 
     def __getitem__(self, index):
         return LiveInterval(self.lower[index], self.upper[index], self.length[index])
 
     def in_units_of(self, unit):
-        """The interval in units of a depth (m)."""
+        """Return the interval in units of a depth (m)."""
         return LiveInterval(*np.broadcast_arrays(self.lower / unit, self.upper / unit, self.length / unit))

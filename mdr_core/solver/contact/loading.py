@@ -21,8 +21,8 @@ from .yielding import ConstantCap, yield_rule
 def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     """Press an indenter along a path of depths: loading, unloading and reloading in any order.
 
-    The path is quasi-static, so that the dashpots of a viscous medium carry no load; for a path in time see
-    `indent_in_time`.
+    The path is quasi-static, so that the dashpots of a viscous medium carry no load. For a path in time,
+    see `indent_in_time`.
 
     Parameters
     ----------
@@ -32,9 +32,10 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
         The medium.
     depth : float or array_like
         Indentation depth d (m): one number, or a path along the last axis. It is negative out of contact,
-        and where adhesion holds the contact. Contact begins at the bottom of the imprint, d_p, also on
-        reloading; with adhesion it is lost at the pull-off. Each row of a larger array is a path of its own
-        on a virgin medium. Parameters of medium and profile may have the shape (…, 1), for one path each.
+        and may be negative while adhesion holds the contact. Contact begins at the bottom of the imprint,
+        d_p, also on reloading; with adhesion it is lost at the pull-off. Each row of a larger array is a
+        separate path on a virgin medium. Parameters of medium and profile may have the shape (…, 1), for
+        one path each.
 
     Returns
     -------
@@ -44,8 +45,8 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
     Raises
     ------
     ValueError
-        If a depth is not finite or exceeds the known depth of the profile; if a `HardnessLaw` is invalid
-        (negative, jumps) below the contact radius reached.
+        If a depth is not finite or exceeds the known depth of the profile, or if a `HardnessLaw` is invalid
+        (negative, jumps) below the reached contact radius.
 
     Examples
     --------
@@ -70,7 +71,7 @@ def indent(profile: Profile, medium: Medium, depth: ArrayLike) -> Indentation:
 def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Indentation:
     """Press an indenter quasi-statically along a path of forces: the inverse of `indent`.
 
-    For a viscous medium under a force in time see `creep`.
+    For a viscous medium under a force in time, see `creep`.
 
     Parameters
     ----------
@@ -80,9 +81,8 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
         Normal force (N); one number or a path along the last axis. At 0 the indenter rests on the bottom of
         the imprint. With f_c above 0, or a law of hardness, the force on loading may decrease after the
         onset of yield. The path then jumps to the smallest depth that carries the force, and `limits`
-        report the jump. Negative forces need adhesion: beyond the pull-off force the contact is lost; the
-        force is then 0 and the depth is the depth of the imprint, until a force ≥ 0 closes the contact
-        again.
+        report the jump. Negative forces need adhesion. Beyond the pull-off force the contact is lost. Then
+        the force is 0 and the depth is the depth of the imprint, until a force ≥ 0 closes the contact.
 
     Returns
     -------
@@ -92,10 +92,10 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
     Raises
     ------
     ValueError
-        If a force is not finite, negative without adhesion, larger than a flat face carries before all of
-        it yields (π b² σ_c(b), Popov 2015, Eq. (11)) or than f_c carries alone (π f_c), or presses deeper
-        than the known depth of the profile; or if a `HardnessLaw` is invalid (negative, jumps) below the
-        contact radius reached.
+        If a force is not finite, is negative without adhesion, or presses deeper than the known depth of
+        the profile. If a force is larger than a flat face carries before all of it yields (π b² σ_c(b),
+        Popov 2015, Eq. (11)), or larger than f_c alone carries (π f_c). If a `HardnessLaw` is invalid
+        (negative, jumps) below the reached contact radius.
 
     Examples
     --------
@@ -119,7 +119,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
         states = adhesion.force_path(profile, medium, force)
         check_shape(profile, states[1].upper)
         return Indentation(profile, medium, *states)
-    # A = ∫ a ds over the live interval stands for the force, here and below.
+    # Here and below, A = ∫ a ds over the live interval represents the force.
     area = force / (2 * medium.E_star)
     largest_area = np.maximum.accumulate(area, axis=-1) if area.ndim else area
     elastic_depth = _elastic_depth(profile, largest_area) if medium.has_own_law else None
@@ -137,7 +137,7 @@ def indent_to_force(profile: Profile, medium: Medium, force: ArrayLike) -> Inden
 
 
 def _refuse_not_carried(profile, medium, rule, branches, force, depth):
-    """Refuses forces (N) that press to `depth` (m) below the known depth, or that no depth carries."""
+    """Raise an error if a force (N) has a `depth` (m) below the known depth, or if no depth carries it."""
     carried = depth <= min(profile.known_depth, check.LONGEST)
     bound = f"presses {profile.too_deep()}"
     if medium.has_own_law and profile.known_depth == np.inf and not np.all(carried):
@@ -147,10 +147,10 @@ def _refuse_not_carried(profile, medium, rule, branches, force, depth):
 
 
 class _Branches(NamedTuple):
-    """Branches of a first loading on which its force grows: arrays with an entry for each, ascending.
+    """Branches of a first loading with growing force: arrays with one entry per branch, ascending.
 
-    Depths (m) are counted from the undeformed surface, and A = ∫ a ds = F/(2E*) (m²) stands for the force.
-    Between `high` of one branch and `low` of the next one the force falls.
+    Depths (m) are counted from the undeformed surface, and A = ∫ a ds = F/(2E*) (m²) represents the force.
+    Between `high` of one branch and `low` of the next branch the force falls.
     """
 
     #: Depths (m) at which branches begin and end; the first begins at 0, the last may be infinite.
@@ -161,36 +161,36 @@ class _Branches(NamedTuple):
     most: np.ndarray
 
     def first_with(self, area):
-        """Number of the first branch that reaches A (m²), elementwise; the last one if none does."""
+        """Return the number of the first branch that reaches A (m²), elementwise, or the last branch."""
         reached_so_far = np.maximum.accumulate(self.most)
         return np.minimum(np.searchsorted(reached_so_far, area), self.most.size - 1)
 
     def jumps(self, depth):
-        """Pairs of depths (m), end and next beginning, between which loadings to depths (m) have jumped."""
+        """Return the jumps of loadings to depths (m): pairs of the end and the next beginning (m)."""
         end = np.max(depth, initial=0.0)
         pairs = zip(self.high[:-1].tolist(), self.low[1:].tolist(), strict=True)
         return tuple((before, after) for before, after in pairs if after < end)
 
 
 def _one_branch(end):
-    """The `_Branches` of a force that grows up to the depth (m) at which the profile ends."""
+    """Return the `_Branches` of a force that grows up to the depth (m) at which the profile ends."""
     return _Branches(np.array([0.0]), np.array([end]), np.array([0.0]), np.array([np.inf]))
 
 
 def _loading_depth(rule, branches, area):
-    """The first depth (m) at which a first loading has A = ∫ a ds = `area` (m²), elementwise.
+    """Find the first depth (m) at which a first loading has A = ∫ a ds = `area` (m²), elementwise.
 
-    It is the root on the first branch that reaches so far. Newton's method may try shallower depths than
-    those of the branch, where A is taken as the straight line from 0 to the beginning of the branch; this
-    stays below an area that no branch before has reached. dA/ds is a − c dp/ds past the onset of yield, and
-    a before it.
+    It is the root on the first branch that reaches `area`. Newton's method may try depths shallower than
+    this branch. There A is replaced by the straight line from 0 to the beginning of the branch. This line
+    stays below `area`, because no earlier branch has reached it. dA/ds is a − c dp/ds past the onset of
+    yield, and a before it.
     """
     branch = branches.first_with(area)
     low, high, least = branches.low[branch], branches.high[branch], branches.least[branch]
     line_slope = least / np.maximum(low, 1e-300)
 
     def loading(depth):
-        """A (m²) and dA/ds (m)."""
+        """Return A (m²) and dA/ds (m)."""
         interval, increase = rule.loading(depth)
         value = integrals(rule.profile).radius_integral(interval)
         slope = rule.loading_stiffness_radius(interval, increase)
@@ -203,21 +203,21 @@ def _loading_depth(rule, branches, area):
 
 
 def _elastic_depth(profile, area):
-    """Depth (m) at which an elastic loading has ∫ a ds = `area` (m²): no more than that of any loading."""
+    """Return the depth (m) of an elastic loading with ∫ a ds = `area` (m²), the least of any loading."""
     return _loading_depth(ConstantCap(profile, np.inf), _one_branch(profile.known_depth), area)
 
 
 def _carried(rule, depth):
-    """∫ a ds (m²) of first loadings to depths (m)."""
+    """Return ∫ a ds (m²) of first loadings to depths (m)."""
     return integrals(rule.profile).radius_integral(rule.loading(np.asarray(depth))[0])
 
 
 def _growing_branches(rule, elastic_depth=None):
-    """The `_Branches` of a first loading.
+    """Return the `_Branches` of a first loading.
 
-    With f_c above 0, or a law of hardness, the force may fall after the onset of yield. Whether it grows is
-    asked at a grid of depths, and each change between neighbours is found by halving. For a law of
-    hardness, `elastic_depth` are the depths (m) that elastic loadings reach.
+    With f_c above 0, or a law of hardness, the force may fall after the onset of yield. The sign of its
+    slope is computed on a grid of depths, and each change between neighbours is found by bisection. For a
+    law of hardness, `elastic_depth` are the depths (m) that elastic loadings reach.
     """
     end, onset = rule.profile.known_depth, float(rule.onset())
     if not onset < end or not rule.may_fall(end):
@@ -226,7 +226,7 @@ def _growing_branches(rule, elastic_depth=None):
     def grows_at(depth):
         """Whether the force grows with depth at depths (m)."""
         interval, _ = rule.loading(depth)
-        # Where the force goes to π f_c only the rounding of the radii is left of its slope.
+        # As the force approaches π f_c, its slope is only the rounding of the radii.
         return rule.yielding_stiffness_radius(interval) >= -1e-14 * rule.profile.radius_at(interval.upper)
 
     depth = _depths_to_ask(onset, end, elastic_depth)
@@ -246,10 +246,10 @@ def _growing_branches(rule, elastic_depth=None):
 
 
 def _depths_to_ask(onset, end, elastic_depth):
-    """Depths (m), ascending, from the onset of yield to the end of the profile, if that is finite.
+    """Return depths (m), ascending, from the onset of yield to the end of the profile, if it is finite.
 
-    Denser about depths that elastic loadings reach: a law of hardness may change anywhere, also under a
-    sharp tip that yields from first touch on, where the onset is 0.
+    They are denser around the depths that elastic loadings reach, because a law of hardness may change
+    anywhere. This also holds under a sharp tip that yields from first touch, with the onset 0.
     """
     depth = onset * (1 + np.geomspace(1e-9, 1e9, 721))
     if elastic_depth is not None:
@@ -261,10 +261,10 @@ def _depths_to_ask(onset, end, elastic_depth):
 
 
 def live_length(profile, largest, area):
-    """Live depth (m) at which unloading from the live interval `largest` has ∫ a ds = `area` (m²)."""
+    """Return the live depth (m) at which unloading from the interval `largest` has ∫ a ds = `area` (m²)."""
 
     def unloading(length):
-        """A (m²) and dA/dℓ (m)."""
+        """Return A (m²) and dA/dℓ (m)."""
         interval = LiveInterval.above(largest.lower, np.minimum(length, largest.length))
         return integrals(profile).radius_integral(interval), profile.radius_at(interval.upper)
 

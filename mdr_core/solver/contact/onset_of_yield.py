@@ -27,14 +27,14 @@ def yield_depth(profile: Profile, medium: Medium) -> Array:
     Returns
     -------
     float or ndarray
-        Depth (m), of the shape to which the parameters of both broadcast; infinite where nothing yields,
-        and 0 where a sharp tip yields from first touch on.
+        Depth (m), of the shape to which the parameters of both broadcast; infinite if nothing yields, and
+        0 if a sharp tip yields from first touch.
 
     Raises
     ------
     ValueError
-        If yield starts deeper than the profile is known, or if a law of hardness is not valid up to the
-        contact radius there.
+        If yield starts deeper than the known depth of the profile, or if a law of hardness is not valid up
+        to the contact radius there.
 
     Examples
     --------
@@ -54,8 +54,8 @@ def yield_depth(profile: Profile, medium: Medium) -> Array:
 def yield_force(profile: Profile, medium: Medium) -> Array:
     """Compute the normal force F_c (N) at which yield starts.
 
-    F_c = 2E* ∫ a(s) ds over 0 < s < d_y, the `yield_depth`; for a cone of hardness q_c/a Popov (2015),
-    Eq. (20).
+    F_c = 2E* ∫ a(s) ds over 0 < s < d_y, the `yield_depth`. For a cone and the hardness q_c/a this is
+    Popov (2015), Eq. (20).
 
     Parameters
     ----------
@@ -67,12 +67,12 @@ def yield_force(profile: Profile, medium: Medium) -> Array:
     Returns
     -------
     float or ndarray
-        Force (N), of the shape to which the parameters of both broadcast; infinite where nothing yields.
+        Force (N), of the shape to which the parameters of both broadcast; infinite if nothing yields.
 
     Raises
     ------
     ValueError
-        If yield starts deeper than the profile is known.
+        If yield starts deeper than the known depth of the profile.
 
     Examples
     --------
@@ -103,12 +103,12 @@ def yield_speed(profile: Profile, medium: Medium, mass: ArrayLike) -> Array:
     Returns
     -------
     float or ndarray
-        Speed (m/s), of the shape to which mass and parameters broadcast; infinite where nothing yields.
+        Speed (m/s), of the shape to which mass and parameters broadcast; infinite if nothing yields.
 
     Raises
     ------
     ValueError
-        If a mass is not positive, or yield starts deeper than the profile is known.
+        If a mass is not positive, or yield starts deeper than the known depth of the profile.
 
     Examples
     --------
@@ -128,23 +128,23 @@ def yield_speed(profile: Profile, medium: Medium, mass: ArrayLike) -> Array:
 
 
 def _at_onset(what, profile, medium, **values):
-    """Where the medium yields at all, and the live interval of an elastic indentation to the onset."""
+    """Return whether the medium yields, and the live interval of an elastic indentation to the onset."""
     onset = _onset(what, profile, medium, **values)
     yields = onset < np.inf
     return yields, LiveInterval.elastic(np.where(yields, onset, 0.0))
 
 
 def _onset(what, profile, medium, **values):
-    """Depth (m) of the onset, infinite where nothing yields; refused if it is not known."""
+    """Return the depth (m) of the onset, infinite if nothing yields; raise an error if it is not known."""
     check_pair(profile, medium)
     shape = shape_with(what, profile, medium, **values)
     rule = yield_rule(profile, medium)
     onset = np.broadcast_to(rule.onset(), shape)
-    # Deeper than the profile is known an onset may be infinite, but the cap there is not.
+    # Below the known depth of the profile an onset may be infinite, although the cap is finite.
     unknown = (onset > profile.known_depth) & (rule.cap(profile.known_depth) < np.inf)
     bound = f"is {profile.too_deep()}"
     check.raise_if("yield depth", onset, unknown, bound, unit="m")
     check_shape(profile, onset)
-    # A law under which a sharp tip yields from first touch on is looked at next to its tip.
+    # If a sharp tip yields from first touch, the law is checked next to the tip.
     check_hardness(profile, medium, np.where(onset > 0, onset, 1e-20))
     return onset

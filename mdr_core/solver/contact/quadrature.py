@@ -1,7 +1,7 @@
 """Quadrature over the live interval, for any profile.
 
-Of a profile the contact radius a(s), the slope g′(x) and the kinks are used. At depths much larger than the
-critical depth the interval is much shorter than the depths at its ends. Nodes are therefore depths above
+It uses the contact radius a(s), the slope g′(x) and the kinks of a profile. At depths much larger than the
+critical depth, the interval is much shorter than the depths at its ends. Nodes are therefore depths above
 d_p: no integral over a short interval is a difference of two elastic curves.
 """
 
@@ -14,29 +14,29 @@ from ..numerics.gauss import gauss_legendre
 
 
 def radius(profile, depth):
-    """Contact radius a(s) (m)."""
+    """Return the contact radius a(s) (m)."""
     return profile.radius_at(depth)
 
 
 def radius_rate(profile, depth):
-    """da/ds (dimensionless); 0 at a wall."""
+    """Return da/ds (dimensionless); 0 at a wall."""
     return growth_at(profile, profile.radius_at(depth))
 
 
 def growth_at(profile, a):
-    """da/ds (dimensionless) at contact radii (m); 0 at a wall."""
+    """Return da/ds (dimensionless) at contact radii (m); 0 at a wall."""
     with np.errstate(divide="ignore"):
         rate = 1 / profile.reduced_slope_at(a)
-    # The slope at the wall itself may be that of the tip before it.
+    # The slope at the wall itself may be the slope of the tip inside it.
     return np.where(a < profile.wall, rate, 0.0)
 
 
 def integrate(profile, interval, function, moment):
-    """∫ (d − s)^moment function(s) ds over the live interval by quadrature, elementwise."""
+    """Integrate (d − s)^moment function(s) over the live interval by quadrature, elementwise."""
     shape = np.shape(interval.length)
     lower, upper, length = (np.ravel(end) for end in (interval.lower, interval.upper, interval.length))
     result = np.zeros_like(length)
-    # In an ensemble of profiles with kinks every one has cuts of its own.
+    # In an ensemble of profiles with kinks, each profile has other cuts.
     single = profile.shape and _has_cuts(profile)
     for rows in chunks(length.size, 1 if single else max(16, 2**16 // (1 + len(profile.kinks)))):
         entries = profile.flat_entries(rows.start if single else rows, shape)
@@ -45,10 +45,10 @@ def integrate(profile, interval, function, moment):
 
 
 def _sums(profile, lower, upper, length, function, moment):
-    """`integrate` over flat arrays, piece by piece."""
+    """Integrate for flat arrays, piece by piece; the arguments are as in `integrate`."""
     row, zone, start, stop, offset = pieces(profile, lower, upper, length)
     remainder = length[row] - stop
-    # A piece between two cuts of one state is the same for all states.
+    # A piece between two cuts is the same for all states.
     inner, total = np.zeros(row.size, bool), np.empty(row.size)
     inner[1:-1] = (row[2:] == row[:-2]) & _has_cuts(profile)
     if inner.any():
@@ -66,13 +66,13 @@ def _sums(profile, lower, upper, length, function, moment):
     return np.bincount(row, total, minlength=length.size)
 
 
-# Kept, states of a sampled tip are some 16 times as fast one by one, and 2000 at once 1.5 times.
+# The cache makes states of a sampled tip some 16 times as fast one by one, and 1.5 times for 2000 at once.
 @lru_cache(maxsize=64)
 class _Zones:
-    """∫ function(s) ds and ∫ (s₁ − s) function(s) ds over zones between two cuts, s₁ its upper cut.
+    """∫ function(s) ds and ∫ (s₁ − s) function(s) ds over zones between two cuts, s₁ the deeper cut.
 
-    Each zone is integrated when it is first asked for: those outside the deepest contact never are, and a
-    radius of a polygon takes the longer the farther out it is.
+    Each zone is integrated at its first use. Zones outside the deepest contact are never used; they would
+    be slow, because a radius of a polygon takes longer the farther out it is.
     """
 
     def __init__(self, profile, function):
@@ -81,7 +81,7 @@ class _Zones:
         self._integrals = np.full((2, len(self._origins)), np.nan)
 
     def __call__(self, zone):
-        """Both integrals over zones, shape (2, N); a zone lies above the cut of its number."""
+        """Return both integrals over zones, shape (2, N); zone i ends at cut i."""
         new = np.unique(zone[np.isnan(self._integrals[0, zone])])
         if new.size:
             lower = self._cuts[new - 1]
@@ -96,7 +96,7 @@ class _Zones:
 
 
 def kink_above(profile, depth):
-    """Depth (m) of the last kink above each depth (m), 0 for the tip."""
+    """Return the depth (m) of the last kink above each depth (m), 0 for the tip."""
     if profile.shape:
         above = np.zeros_like(depth)
         for kink in profile.kinks:
@@ -112,9 +112,9 @@ def pieces(profile, lower, upper, length):
     Returns
     -------
     row, zone : ndarray, shape (P,)
-        Number of the state that each piece belongs to, and number of the zone between cuts that it lies in.
+        Number of the state of each piece, and number of its zone between cuts.
     start, stop : ndarray, shape (P,)
-        Ends of the piece as depths above d_p (m), which are free of the rounding of the depths.
+        Ends of the piece as depths above d_p (m), free of the rounding of the depths.
     offset : ndarray, shape (P,)
         Depth (m) of its start, counted from the kink above it or from the tip.
     """
@@ -134,10 +134,10 @@ def pieces(profile, lower, upper, length):
 
 
 def nodes(start, stop, offset, rule):
-    """Nodes of a rule on [0, 1] in pieces, as depths above d_p (m), and their weights (m).
+    """Return the nodes of a rule on [0, 1] in pieces, as depths above d_p (m), and their weights (m).
 
-    From a kink at the depth f on, the contact radius is smooth in σ = (s − f)^(1/4), whether it grows as a
-    root, as a power with thirds, or linearly: the nodes are even in σ.
+    Below a kink at the depth f, the contact radius may grow as a root, as a power with thirds, or linearly.
+    In each case it is smooth in σ = (s − f)^(1/4), so that the nodes are even in σ.
     """
     low, high = (np.sqrt(np.sqrt(depth)) for depth in (offset, offset + (stop - start)))
     # high − low without cancellation.
@@ -154,15 +154,15 @@ def _has_cuts(profile):
 
 
 def _cuts(profile):
-    """Depths (m) at which live intervals are cut, and that of the kink or tip above each zone between them.
+    """Return the depths (m) of the cuts, and for each zone the depth (m) of the kink or tip above it.
 
-    Where the depths at which the profile changes are not known, both are shares of the largest depth.
+    If the depths at which the profile changes are not known, both are shares of the largest depth.
     """
     if not _has_cuts(profile):
         return 1e-2 ** np.arange(4, 0, -1.0), np.zeros(5)
     kinks = np.array(profile.kinks, dtype=float)
     origins = np.append(0.0, kinks)
-    # As far below a kink as the kink is deep, a(s) goes over to another power.
+    # At twice the depth of a kink, a(s) changes to another power.
     transitions = origins + np.maximum(origins, profile.transition_depth or 0.0)
     transitions = transitions[(transitions > 0) & (transitions < np.append(kinks, np.inf))]
     cuts = np.unique(np.concatenate([kinks, transitions]))

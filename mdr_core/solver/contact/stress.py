@@ -1,14 +1,14 @@
 """The stress tensor below the surface: each increment of depth is a flat punch, in closed form.
 
 With w = z − i x and S = √(r² + w²), on the branch S → w for r → 0, an increment ds of a flat punch of
-radius x has at the depth z below the surface, in units of E* ds/π,
+radius x has, at the depth z below the surface and in units of E* ds/π,
 
     J = Im 1/S      K = z Im(w/S³)      L = Im 1/(S + w)      M = Im 1/(S (S + w))
     σ_zz = −(J + K)                               σ_rz = −r z Im(1/S³)
     σ_θθ = −(2ν J + (1 − 2ν) L − z M)             σ_rr = −((1 + 2ν) J − K) − σ_θθ
 
-and the stress of a state is the integral over the live interval. The branch points x = ±r − i z are close
-to the radii x ≥ 0 only for small z, at x = r: the integral is split there.
+The stress of a state is the integral over the live interval. The branch points x = ±r − i z are close to
+the radii x ≥ 0 only for small z, at x = r, where the integral is split.
 """
 
 from dataclasses import dataclass
@@ -24,15 +24,15 @@ from ..numerics.roots import largest_value
 from .integrals import integrals
 from .quadrature import nodes, pieces
 
-#: Quantities of which the largest value can be found.
+#: Quantities for `stress_peak` and `largest_stress`.
 SIZES = "max_shear", "von_mises"
-#: A piece of radii is split for points that are closer to it than this share of its width.
+#: A piece of radii is split for points closer to it than this share of its width.
 _NEAR = 0.5
 #: Nodes of a piece that is not split.
 _WHOLE = gauss_legendre(24)
-#: Number of points times nodes whose arrays fit into the cache.
+#: Number of points times nodes for arrays that fit into the cache.
 _MOST = 2**12
-#: In units of the contact radius: depths taken as 0, and distances from which the load is a point force.
+#: Depth taken as 0, and distance beyond which the load is a point force, in units of the contact radius.
 _SURFACE, _FAR = 1e-100, 1e30
 #: Least depth, as a share of the width of a piece, that nodes resolve.
 _LEAST = 1e-13
@@ -40,10 +40,11 @@ _LEAST = 1e-13
 
 @dataclass(frozen=True, eq=False)
 class Stress:
-    """Stress tensor (Pa) below the surface, positive in tension; made by `Indentation.stress`.
+    """Stress tensor (Pa) below the surface, positive in tension; returned by `Indentation.stress`.
 
-    Radial, circumferential and axial normal stress and the shear stress in the r–z plane, as arrays of one
-    shape; the others vanish by symmetry. Normal stresses are infinite where the pressure is.
+    `rr`, `tt` and `zz` are the radial, circumferential and axial normal stresses, `rz` is the shear stress
+    in the r–z plane, all of one shape. The other components vanish by symmetry. Normal stresses are
+    infinite at points of infinite pressure.
 
     Examples
     --------
@@ -94,14 +95,14 @@ class StressPeak:
 
 
 def depths(z):
-    """Depths below the surface (m) as an array, if none is negative."""
+    """Return depths below the surface (m) as an array; raise an error if one is negative."""
     z = check.finite_array("depth z", z, unit="m")
     bound = "is above the surface"
     return check.raise_if("depth z", z, z < 0, bound, unit="m", advice="z counts downward from it")
 
 
 def stress(state, r, z):
-    """`Indentation.stress` of one state, at r ≥ 0 and z ≥ 0 of one shape."""
+    """Return `Indentation.stress` of one state, at r ≥ 0 and z ≥ 0 of one shape."""
     refuse_transversely_isotropic(state.medium, "the stress below the surface")
     nu, unit = state.medium.poisson, state.contact_radius or 1.0
     at_r, at_z = r.ravel() / unit, z.ravel() / unit
@@ -116,14 +117,14 @@ def stress(state, r, z):
     size, J[sharp] = J[sharp], 0.0
     tt = M - 2 * nu * J - (1 - 2 * nu) * L
     parts = K - (1 + 2 * nu) * J - tt, tt, -J - K, -T
-    # Where the pressure is infinite the limits of the other stresses depend on the direction.
+    # At points of infinite pressure, the limits of the other stresses depend on the direction.
     for part in parts[:3]:
         part[sharp] = -size
     return Stress(*(part.reshape(r.shape)[()] for part in parts))
 
 
 def stress_peak(state, quantity):
-    """`Indentation.stress_peak` of one state: the maximum on a grid, then on finer ones around it."""
+    """Return `Indentation.stress_peak` of one state: the maximum on a grid, then on finer grids."""
     a = state.contact_radius
     if not a:
         return StressPeak(0.0, 0.0, 0.0)
@@ -146,7 +147,7 @@ def stress_peak(state, quantity):
 
 
 def largest_stress(states, z, quantity):
-    """`Indentation.largest_stress`, state by state: the maximum over a grid of radii, refined beside it."""
+    """Return `Indentation.largest_stress`, state by state: the refined maximum over a grid of radii."""
     result, flat = np.zeros(z.size), z.ravel()[:, None]
     for index in np.ndindex(np.shape(states.depth)):
         state = states[index] if index else states
@@ -168,13 +169,13 @@ def largest_stress(states, z, quantity):
 
 
 def _finite(state, quantity, r, z):
-    """A quantity of the stress at points, 0 where it is infinite."""
+    """Return a quantity of the stress at points; infinite values are replaced by 0."""
     values = getattr(stress(state, *np.broadcast_arrays(r, z)), quantity)
     return np.where(np.isfinite(values), values, 0.0)
 
 
 def _grid(state):
-    """Radii and depths (m) at which to look for the largest stress, and radii with an infinite pressure."""
+    """Return radii and depths (m) for the search of the largest stress, and radii of infinite pressure."""
     profile, a, c = state.profile, state.contact_radius, state.plastic_radius
     inner = max(c, profile.face_radius)
     # The load varies between the inner radius and a.
@@ -186,7 +187,7 @@ def _grid(state):
     z = np.concatenate([[0.0], width * np.geomspace(1e-3, 3, 36), np.geomspace(3 * width, 3 * a, 20)[1:]])
     kinks = np.array(profile.kinks)
     edges = profile.radius_at(kinks) if kinks.size else kinks
-    # The radius of a kink is known to rounding: both sides are tried.
+    # The radius of a kink has a rounding error, so that both sides are tried.
     edges = np.concatenate(
         [[0.0, profile.face_radius, a], np.nextafter(edges, 0), edges, np.nextafter(edges, a)]
     )
@@ -195,7 +196,7 @@ def _grid(state):
 
 
 def _integrals(state, unit, r, z):
-    """∫ of J, K, r z Im(1/S³), L and z M over the load of a state, at points in units of a length (m)."""
+    """Integrate J, K, r z Im(1/S³), L and z M over the load, at points in units of a length (m)."""
     profile, interval = state.profile, state.live_interval
     total, order = np.zeros((5, r.size)), np.argsort(r, kind="stable")
     if state.uniform_load != 0:
@@ -225,7 +226,7 @@ def _integrals(state, unit, r, z):
 
 
 def _pieces(profile, interval):
-    """Start and end (m) of each piece of the load above d_p, and its start above the kink below it."""
+    """Return start and end (m) of each piece of the load above d_p, and the `offset` of its start."""
     if integrals(profile).polynomial:
         # One piece, since a(s) is a power from the tip.
         return np.array([[0.0, interval.length, interval.lower]])
@@ -234,10 +235,10 @@ def _pieces(profile, interval):
 
 
 def _cut(profile, lower, piece, low, high, cut):
-    """Radii and increments (m) of the flat punches of one piece, split at radii `cut`, one row for each.
+    """Return radii and increments (m) of the punches of one piece, split at radii `cut`, one row per cut.
 
-    The outer part is integrated over the radius, so that the nodes are evenly close to the cut also behind
-    a kink; the inner part over the depth, which is accurate at the kink itself.
+    The outer part is integrated over the radius, so that the nodes are equally close to the cut, also
+    after a kink. The inner part is integrated over the depth, which is accurate at the kink itself.
     """
     begin, end, start = piece
     node, gap, share = crowded()
@@ -248,13 +249,13 @@ def _cut(profile, lower, piece, low, high, cut):
     cut = cut[:, None]
     x = np.clip(cut + (high - cut) * node, np.nextafter(cut, high), np.nextafter(high, low))
     outer = share * profile.reduced_slope_at(x)
-    # The width of a short live interval is known better from depths than from radii.
+    # The width of a short live interval is more accurate from depths than from radii.
     outer *= np.where(end > middle, (end - middle) / outer.sum(axis=1), 0.0)[:, None]
     return np.append(profile.radius_at(lower + above), x, axis=1), np.append(inner, outer, axis=1)
 
 
 def _add(total, rows, x, weight, unit, r, z):
-    """Adds flat punches of radii x (m) and increments `weight` (m), the same or one row for each point."""
+    """Add flat punches of radii x (m) and increments `weight` (m), the same or one row per point."""
     # A radius 0 on the axis of the surface would divide by 0.
     x, weight = np.maximum(x / unit, _SURFACE), weight / unit
     for part in chunks(rows.size, max(1, _MOST // x.shape[-1])):
@@ -263,7 +264,7 @@ def _add(total, rows, x, weight, unit, r, z):
 
 
 def _punches(x, weight, r, z):
-    """`_integrals` over flat punches of radii x, one row for each point or one for all."""
+    """Return `_integrals` over flat punches of radii x, one row per point or one row for all."""
     square = np.empty(np.broadcast_shapes(x.shape, (len(r), 1)), complex)
     # The sign of the imaginary part, also that of −0, selects the branch of S.
     square.real = (r[:, None] - x) * (r[:, None] + x) + (z * z)[:, None]

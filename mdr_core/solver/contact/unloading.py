@@ -15,18 +15,18 @@ _STATES, _LOOP = 25, 80
 
 
 def unloading(path: Indentation, share: np.ndarray, under_force: bool = False) -> Indentation:
-    """States on elastic unloading from those of a path, which broadcast with `share`.
+    """Return states of elastic unloading from the states of a path, which broadcast with `share`.
 
-    `share` falls from 1 at the start to 0 where the contact is lost: at d = d_p, with adhesion at the
+    `share` falls from 1 at the start to 0 at the loss of contact. This is d = d_p, or with adhesion the
     pull-off, which under a given force (`under_force`) is earlier than at a given depth. Below 0 the
-    indenter is lifted out of contact, at −1 to the undeformed surface, or from a pull-off above that
-    surface to twice its height. States without contact stay without.
+    indenter is out of contact. At −1 it is at the undeformed surface, or, after a pull-off above that
+    surface, at twice the height of the pull-off. States without contact remain without contact.
     """
     profile, medium, start = path.profile, path.medium, path.live_interval
     touching, held, lifted = path.contact_radius > 0, np.maximum(share, 0.0), np.minimum(share, 0.0)
     end = 0.0
     if medium.work_of_adhesion > 0:
-        # Weak adhesion changes the curve just before the pull-off only.
+        # Weak adhesion changes the curve only just before the pull-off.
         held = held**3
         least = adhesion.AT_FORCE if under_force else adhesion.AT_DEPTH
         low = adhesion.stable_ranges(profile, medium, least)[0][0]
@@ -42,11 +42,11 @@ def unloading(path: Indentation, share: np.ndarray, under_force: bool = False) -
 
 
 def unloading_curve(state: Indentation, under_force: bool = False) -> tuple[np.ndarray, np.ndarray]:
-    """Depths (m) and forces (N) of the elastic unloading of one state; the area below is what it stores.
+    """Return depths (m) and forces (N) of the elastic unloading of one state.
 
-    With adhesion it is less by what separates the surfaces up to the pull-off. Elements that dashpots hold
-    back are compressed further than their load: the curve begins at the depth of the state, with the
-    stiffness 2E* a.
+    The area below this curve is the stored energy. With adhesion it is smaller by the work that separates
+    the surfaces up to the pull-off. Elements held back by dashpots are compressed more than their load
+    requires. The curve then begins at the depth of the state, with the stiffness 2E* a.
     """
     interval, depth = state.live_interval, float(state.depth)
     back = unloading(state, np.linspace(1, 0, _STATES), under_force)
@@ -61,9 +61,9 @@ def unloading_curve(state: Indentation, under_force: bool = False) -> tuple[np.n
 class AdhesiveLoop:
     """Forces (N) of loading and of unloading at the same depths (m), ascending, with adhesion.
 
-    They differ only where the curves do, so that the arrays end there. Work is lost where the force of
-    loading is above that of unloading, and gained where it is below, in reach of adhesion that an imprint
-    no longer has.
+    Both curves agree at larger depths than those of the arrays. Work is lost at depths where loading has
+    the larger force, and gained where unloading has the larger force. There loading is in reach of an
+    adhesion that the imprint no longer has.
     """
 
     depth: np.ndarray
@@ -72,25 +72,25 @@ class AdhesiveLoop:
 
     @property
     def lost(self) -> float:
-        """Work (J) that is lost, that of the jumps at first contact and at the pull-off included."""
+        """Lost work (J), with the work of the jumps at first contact and at the pull-off."""
         return float(trapezoid(np.maximum(self.loading - self.unloading, 0.0), self.depth))
 
     @property
     def gained(self) -> float:
-        """Work (J) that is gained."""
+        """Gained work (J)."""
         return float(trapezoid(np.maximum(self.unloading - self.loading, 0.0), self.depth))
 
 
 def adhesive_loop(path: Indentation, under_force: bool = False) -> AdhesiveLoop:
-    """The loop of a loading with adhesion, to its last state, and of its unloading to the pull-off.
+    """Return the loop of a loading with adhesion to its last state and of its unloading to the pull-off.
 
-    Areas are good to three digits. Where the contact is lost above the depth of first contact before
-    anything has yielded, as may be under a given force, no loop is closed and more is gained than lost.
+    Areas are accurate to three digits. Under a given force, the contact may be lost above the depth of
+    first contact before anything has yielded. Then the loop is not closed, and more is gained than lost.
     """
     profile, medium, share = path.profile, path.medium, np.linspace(1, 0, _LOOP)
     back, first = (unloading(path[i], share, under_force) for i in (-1, 0))
     largest, end = path.depth[-1], back.depth[-1]
-    # The force jumps at first contact and at the pull-off; what is below first contact is a small part.
+    # The force jumps at first contact and at the pull-off; the part below first contact is small.
     step = 1e-9 * max(largest, -end)
     even = largest * np.linspace(0, 1, _LOOP)
     d = np.concatenate([path.depth, even, back.depth, first.depth])
@@ -99,7 +99,7 @@ def adhesive_loop(path: Indentation, under_force: bool = False) -> AdhesiveLoop:
     loading = indent(profile, medium, d).force
     returning = indent(profile, medium, np.append(largest, d[::-1])).force[:0:-1]
     returning = np.where(d > end, returning, np.where(d == end, back.force[-1], 0.0))
-    # Both are found to about 10⁻¹².
+    # Both forces are accurate to about 10⁻¹².
     returning = np.where(np.isclose(loading, returning, rtol=1e-9, atol=0), loading, returning)
     apart = slice(np.max(np.flatnonzero(loading != returning), initial=0) + 2)
     return AdhesiveLoop(d[apart], loading[apart], returning[apart])

@@ -1,18 +1,18 @@
-"""The rule of yield: the plastic depth that a loading leaves behind, and the work that it takes.
+"""The rule of yield: the plastic depth and the plastic work of a loading.
 
 On loading to a depth s every 1D element is compressed elastically by at most u_c(s), the *cap*, which is
 the same for all elements. An element at x keeps the plastic part max(0, p(s) − g(x)) with p = s − u_c(s).
-One number therefore stands for the whole history: the plastic depth d_p = max(0, largest p). The state at
+One number therefore represents the whole history: the plastic depth d_p = max(0, largest p). The state at
 depth d is the live interval [d_p, d].
 
 For the hardness q_c/a the cap is the critical depth d_c = π q_c/(2E*) at every depth (Popov 2015,
-Eqs. (11), (12), (19)): `ConstantCap`. For the hardness σ_c(a) = H + q_c/a + f_c/a² a contact of radius a
-that has yielded throughout carries π a² σ_c(a), so that its elements are compressed by
+Eqs. (11), (12), (19)): `ConstantCap`. For the hardness σ_c(a) = H + q_c/a + f_c/a², a fully yielded
+contact of radius a carries π a² σ_c(a). Its elements are therefore compressed by at most
 
     u_c(a) = π a σ_c(a)/(2E*) = (π/2E*)(H a + q_c + f_c/a)
 
-at most, where a is the contact radius on loading: `RadiusCap`, and `UserLawCap` for a user's law. For H
-alone some profiles have closed forms. `yield_rule` chooses among these.
+with the contact radius a on loading: `RadiusCap`, and `UserLawCap` for a user's law. For H alone some
+profiles have closed forms. `yield_rule` chooses among these rules.
 """
 
 from abc import ABC, abstractmethod
@@ -32,70 +32,74 @@ from .integrals import integrals
 from .live_interval import LiveInterval
 
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
-#: transition depth. Contact times of five shapes over seven decades of speed then have errors of 5·10⁻¹¹
-#: at most, without them 3·10⁻⁶, with half of these depths 7·10⁻¹⁰, and with twice these depths 5·10⁻¹²:
-#: `python -m tests.benchmarks.constants`.
+#: transition depth. Contact times of five shapes over seven decades of speed then have errors of at most
+#: 5·10⁻¹¹. Without these depths the errors are 3·10⁻⁶, with halved depths 7·10⁻¹⁰, and with doubled depths
+#: 5·10⁻¹² (`python -m tests.benchmarks.constants`).
 TRANSITIONS = np.array([1.0, 6.0])
-#: Gauss nodes of the plastic work in each piece. Works of five shapes over seven decades of speed then have
-#: errors of 4·10⁻¹⁵ at most, with 16 nodes 7·10⁻¹³: measured by `python -m tests.benchmarks.constants`.
+#: Gauss nodes of the plastic work in each piece. The work of five shapes over seven decades of speed then
+#: has errors of at most 4·10⁻¹⁵, with 16 nodes 7·10⁻¹³ (`python -m tests.benchmarks.constants`).
 _NODES = 24
 
 
 @dataclass(frozen=True, eq=False)
 class YieldRule(check.Parameters, ABC):
-    """How a medium yields under a profile, elementwise for arrays of depths.
+    """Yield of a medium under a profile, elementwise for arrays of depths.
 
-    A subclass gives the cap, the depth at which loading reaches a plastic depth, the rate of the plastic
+    A subclass defines the cap, the depth at which loading reaches a plastic depth, the rate of the plastic
     depth, and the plastic work.
     """
 
     profile: Profile
 
-    #: Distances s past the onset of yield, over the penetration y₀ there, at which a loading is cut. The
-    #: ends of the live interval are at about s and s + y₀, so that forces have powers of both: a second
-    #: singular place at s = −y₀. Pieces whose ends have one ratio see it from equally far; a ratio of 25 is
-    #: 2.9 in the cube root of s, in which nodes are even. With them contact times have errors of 5·10⁻¹¹ at
-    #: most, without them 10⁻⁸, with the first alone 5·10⁻¹⁰, ten million critical depths deep. Those of
-    #: `RadiusCap` give 4·10⁻¹³ against 6·10⁻⁹: `python -m tests.benchmarks.constants`.
+    #: Distances s past the onset of yield, in units of the penetration y₀ there, at which a loading is cut.
+    #: The ends of the live interval are at about s and s + y₀. Forces have powers of both, with a second
+    #: singularity at s = −y₀. Pieces whose ends have the same ratio are equally far from it, relative to
+    #: their length. The ratio 25 is 2.9 in the cube root of s, in which nodes are even. Contact times then
+    #: have errors of at most 5·10⁻¹¹, ten million critical depths deep; without these distances 10⁻⁸, with
+    #: the first alone 5·10⁻¹⁰. The distances of `RadiusCap` give 4·10⁻¹³ instead of 6·10⁻⁹
+    #: (`python -m tests.benchmarks.constants`).
     scales = 5 * 25.0 ** np.arange(6)
-    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/ℓ for all, ℓ
-    #: being the live depth at the turning point of an impact on a virgin medium.
+    #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/ℓ for all of
+    #: them, with the live depth ℓ at the turning point of an impact on a virgin medium.
     similar = None
 
     @abstractmethod
     def cap(self, depth):
-        """Largest elastic compression u_c (m) of the elements on loading to a depth (m)."""
+        """Return the largest elastic compression u_c (m) of the elements on loading to a depth (m)."""
 
     @abstractmethod
     def penetration(self, plastic_depth, imprint):
-        """Penetration (m) below the bottom of an imprint at which loading reaches a plastic depth (m)."""
+        """Return the penetration (m) into an imprint at which loading reaches a plastic depth (m).
+
+        Penetrations count from the bottom of the imprint.
+        """
 
     @abstractmethod
     def rate(self, depth):
-        """dp/ds of the plastic depth by the depth (m) of loading."""
+        """Return the derivative dp/ds of the plastic depth with respect to the depth s (m) of loading."""
 
     @abstractmethod
     def plastic_integral(self, imprint, increase):
-        """Plastic work over 2E* (m³) while the plastic depth grows from `imprint` by `increase` (m)."""
+        """Return the plastic work over 2E* (m³) as the plastic depth grows from `imprint` by `increase`."""
 
     @abstractmethod
     def in_units_of(self, unit, length, depth):
-        """The rule for the `unit` profile of a profile with a length and a depth (m)."""
+        """Return the rule for the `unit` profile of a profile with a length and a depth (m)."""
 
     def onset(self, imprint=0.0):
-        """Depth (m) at which yield starts over an imprint of plastic depth `imprint` (m)."""
+        """Return the depth (m) at which yield starts over an imprint of plastic depth `imprint` (m)."""
         return imprint + self.penetration(imprint, imprint)
 
     def plastic_depth(self, largest):
-        """Plastic depth d_p (m) that a largest depth (m) leaves behind."""
+        """Return the plastic depth d_p (m) that a largest depth (m) leaves."""
         return np.maximum(largest - self.cap(largest), 0.0)
 
     def increase(self, penetration, imprint):
-        """Increase (m) of the plastic depth at a penetration (m) below the bottom of an imprint."""
+        """Return the increase (m) of the plastic depth at a penetration (m) into an imprint."""
         return np.maximum(self.plastic_depth(imprint + penetration) - imprint, 0.0)
 
     def loading(self, penetration, imprint=0.0):
-        """Live interval at a penetration y ≥ 0 (m) below the bottom of an imprint, and the `increase`."""
+        """Return the live interval at a penetration y ≥ 0 (m) into an imprint, and the `increase`."""
         increase = self.increase(penetration, imprint)
         lower = imprint + increase
         upper = np.maximum(imprint + penetration, lower)
@@ -103,7 +107,7 @@ class YieldRule(check.Parameters, ABC):
         return LiveInterval(lower, upper, length), increase
 
     def turning(self, penetration, imprint):
-        """`loading` to a turning point; its upper end is infinite where the penetration is infinite."""
+        """Return `loading` to a turning point; the upper end is infinite if the penetration is infinite."""
         too_deep = np.isinf(penetration)
         interval, increase = self.loading(np.where(too_deep, 0.0, penetration), imprint)
         return replace(interval, upper=np.where(too_deep, np.inf, interval.upper)), increase
@@ -113,30 +117,30 @@ class YieldRule(check.Parameters, ABC):
         return False
 
     def path(self, depth):
-        """Live interval after each point of a path of depths (m) along the last axis."""
+        """Return the live interval after each point of a path of depths (m) along the last axis."""
         largest = np.maximum.accumulate(depth, axis=-1) if depth.ndim else depth
         return interval_at(largest, depth, self.cap(largest))
 
     def past_onset(self, imprint, onset, distance):
-        """Live interval at a distance (m) of loading past the penetration `onset` (m) into an imprint."""
+        """Return the live interval at a distance (m) past the penetration `onset` (m) into an imprint."""
         return self.loading(onset + distance, imprint)[0]
 
     def yielding(self, interval):
         """Whether the elements of a state are at the cap, so that further loading yields."""
-        # The cap is computed again, with other rounding where arrays have other lengths.
+        # The cap is computed again; its rounding may differ for arrays of other lengths.
         return (interval.lower > 0) & (interval.length >= self.cap(interval.upper) * (1 - 1e-14))
 
     def yielding_stiffness_radius(self, interval):
-        """a − c dp/ds (m) on loading at the cap: the stiffness over 2E*."""
+        """Return the stiffness over 2E* on loading at the cap, a − c dp/ds (m)."""
         c = self.profile.radius_at(interval.lower)
-        # At first touch the rate may be infinite, where c is 0.
+        # At first touch c is 0, and the rate may be infinite.
         slower = np.where(c > 0, 1 - self.rate(interval.upper), 0.0)
         return integrals(self.profile).radius_difference(interval) + c * slower
 
     def loading_stiffness_radius(self, interval, increase, radius=None):
-        """a (m) on loading, a − c dp/ds where it increases the plastic depth: the stiffness over 2E*.
+        """Return the stiffness over 2E* on loading: a (m), or a − c dp/ds if the plastic depth increases.
 
-        `radius` is a (m), where it is known.
+        `radius` is a (m), if it is known.
         """
         width, yields = self.profile.radius_at(interval.upper) if radius is None else radius, increase > 0
         return (
@@ -144,9 +148,10 @@ class YieldRule(check.Parameters, ABC):
         )
 
     def work(self, penetration, imprint, compliance=None):
-        """Work over 2E* (m³) up to a penetration (m), stored, plastic and in a support, and its derivative.
+        """Return the work over 2E* (m³) up to a penetration (m), and its derivative.
 
-        The support has the compliance κ = 2E*/K (1/m). Under Φ = ∫ a ds it takes κ Φ²/2, and moves by κ dΦ.
+        It is the stored energy, the plastic work and the work of a support. The support has the compliance
+        κ = 2E*/K (1/m). Under Φ = ∫ a ds it takes κ Φ²/2, and moves by κ dΦ.
         """
         interval, increase = self.loading(penetration, imprint)
         force, stored = integrals(self.profile).radius_and_energy(interval)
@@ -159,39 +164,40 @@ class YieldRule(check.Parameters, ABC):
         )
 
     def breaks(self, imprint, deepest):
-        """The `Breaks` of loadings over imprints down to the `deepest` depths (m), both of shape (N, 1)."""
+        """Return the `Breaks` of loadings over imprints to the `deepest` depths (m), both (N, 1)."""
         return Breaks(self, imprint, deepest)
 
     def wall_integral(self):
-        """∫ a ds (m²) of a contact that has yielded throughout behind a wall, infinite without a wall."""
+        """Return ∫ a ds (m²) of a fully yielded contact bounded by a wall; infinite without a wall."""
         return self.profile.wall * self.cap(np.inf)
 
     @classmethod
     def at_ratio(cls, profile, ratio):
-        """A rule for a `similar` profile, and a live interval at its cap with d_p/ℓ = `ratio`."""
+        """Return a rule for a `similar` profile, and a live interval at its cap with d_p/ℓ = `ratio`."""
         raise NotImplementedError
 
     def turning_interval(self, energy):
-        """Live interval at the turning point of an impact on a virgin medium, None without a closed form.
+        """Return the live interval at the turning point of an impact on a virgin medium.
 
-        `energy` is the kinetic energy over 2E* (m³).
+        It is None without a closed form. `energy` is the kinetic energy over 2E* (m³).
         """
         return None
 
 
 @dataclass(frozen=True, eq=False)
 class Breaks:
-    """Where a loading is not smooth, or goes over to another power of the depth: penetrations (m).
+    """Penetrations (m) at which a loading is not smooth, or changes to another power of the depth.
 
-    They count from the bottom of an imprint, with a row for each loading and a column for each place, and
-    may lie beyond its end. At the onset and at kinks the stiffness has a kink; elsewhere all is smooth.
+    They count from the bottom of an imprint, and have one row per loading and one column per break. They
+    may be beyond the end of the loading. The stiffness has a kink at the onset and at kinks of g; elsewhere
+    it is smooth.
 
     Attributes
     ----------
     rule : YieldRule
-        The rule, of a profile or of N of shape (N, 1).
+        The rule, for one profile or for N profiles of shape (N, 1).
     imprint, deepest : ndarray, shape (N, 1)
-        Plastic depth (m) of the imprint, and depth (m) of the end. Without kinks that no loading passes.
+        Plastic depth (m) of the imprint, and largest depth (m). Kinks below all `deepest` are left out.
     """
 
     rule: YieldRule
@@ -200,52 +206,52 @@ class Breaks:
 
     @cached_property
     def onset(self):
-        """Where yield begins, (N, 1); infinite where nothing yields."""
+        """Onset of yield, (N, 1); infinite if nothing yields."""
         return self.rule.penetration(self.imprint, self.imprint)
 
     @cached_property
     def upper(self):
-        """Where the upper end of the live interval, the depth of the indenter, passes a kink of g."""
+        """Penetrations at which the upper end of the live interval, the depth, passes a kink of g."""
         return self._kinks_above(self.deepest) - self.imprint
 
     @cached_property
     def lower(self):
-        """Where the lower end, the plastic depth, passes a kink of g."""
+        """Penetrations at which the lower end, the plastic depth, passes a kink of g."""
         kinks = self._kinks_above(self.rule.plastic_depth(self.deepest))
         return self.rule.penetration(kinks, self.imprint) if kinks.size else kinks - self.imprint
 
     @property
     def transitions(self):
-        """Where the upper end comes to where a(s) goes over to another power, if that is known."""
+        """Penetrations at which a(s) at the upper end changes to another power, if they are known."""
         depth = self.rule.profile.transition_depth
         depths = np.empty((1, 0)) if depth is None else np.reshape(depth, (-1, 1)) * TRANSITIONS
         return depths - self.imprint
 
     @property
     def scales(self):
-        """Where the distance past the onset is one of the rule's `scales`."""
+        """Penetrations whose distance past the onset is one of the rule's `scales`."""
         return self.onset * (1 + self.rule.scales)
 
     @property
     def halved(self):
-        """Where pieces of the plastic work had to be halved: nowhere under laws of the library."""
+        """Penetrations at which pieces of the plastic work were halved: none under laws of the library."""
         return np.empty((len(self.imprint), 0))
 
     def _kinks_above(self, depth):
-        """Depths (m) of kinks from the undeformed surface, without those below all of these depths (m)."""
+        """Return the depths (m) of kinks from the undeformed surface, except kinks below all depths."""
         kinks = [np.reshape(kink, (-1, 1)) for kink in self.rule.profile.kinks if np.any(kink < depth)]
         return np.hstack(kinks) if kinks else np.empty((1, 0))
 
 
 @dataclass(frozen=True, eq=False)
 class ConstantCap(YieldRule):
-    """Hardness q_c/a: the cap is the critical depth (m), infinite where nothing yields."""
+    """Hardness q_c/a: the cap is the critical depth (m), infinite if nothing yields."""
 
     critical_depth: np.ndarray | float
 
     @classmethod
     def of(cls, profile, E_star, q_c):
-        """The rule for an effective modulus (Pa) and a yield constant (N/m)."""
+        """Return the rule for an effective modulus (Pa) and a yield constant (N/m)."""
         return cls(profile, critical_depth(E_star, q_c))
 
     def cap(self, depth):
@@ -266,7 +272,7 @@ class ConstantCap(YieldRule):
 
     def plastic_integral(self, imprint, increase):
         integral = integrals(self.profile).radius_integral(LiveInterval.above(imprint, increase))
-        # An infinite cap times 0 where nothing yields.
+        # If nothing yields, this is an infinite cap times 0.
         with np.errstate(invalid="ignore"):
             return np.where(increase > 0, self.critical_depth * integral, 0.0)
 
@@ -287,9 +293,9 @@ class ConstantCap(YieldRule):
 
 
 def interval_at(largest, depth, cap):
-    """Live interval at each depth (m) where the largest depth so far (m) had this cap (m)."""
+    """Return the live interval at each depth (m), from the largest depth so far (m) and its cap (m)."""
     lower = np.maximum(largest - cap, 0.0)
-    # The length is the depth before the first yield, and afterwards the cap less the depth of unloading.
+    # The length is the depth before the first yield, and afterwards the cap minus the depth of unloading.
     length = np.maximum(np.minimum(depth, cap - (largest - depth)), 0.0)
     return LiveInterval(lower, np.maximum(depth, lower), length)
 
@@ -298,15 +304,15 @@ def interval_at(largest, depth, cap):
 class RadiusCap(YieldRule):
     """Hardness H + q_c/a + f_c/a²: the cap u_c = π a σ_c/(2E*) of the contact radius a on loading.
 
-    `law` is that of the cap: the hardness scaled so that u_c (m) is its line load a σ_c. Where g(x)/x does
-    not fall, nor for H = 0 anywhere, u_c/s falls with s: p = s − u_c grows once it is 0.
+    `law` is the scaled hardness, with the cap u_c (m) as its line load a σ_c. If g(x)/x does not fall, or
+    if H = 0, u_c/s falls with s. Then p = s − u_c grows after it has reached 0.
     """
 
     law: Any
 
     @classmethod
     def of(cls, profile, medium):
-        """The rule for a medium."""
+        """Return the rule for a medium."""
         return cls(profile, medium.law.scaled(np.pi / 2 / medium.E_star, 1.0))
 
     scales = 0.5 * 50.0 ** np.arange(6)
@@ -315,7 +321,7 @@ class RadiusCap(YieldRule):
         return self.cap_at(self.profile.radius_at(np.maximum(depth, 0.0)))
 
     def cap_at(self, a):
-        """The cap u_c (m) at contact radii (m)."""
+        """Return the cap u_c (m) at contact radii (m)."""
         return self.law.line_load(a)
 
     def may_fall(self, depth):
@@ -326,7 +332,7 @@ class RadiusCap(YieldRule):
         return 1 - self.cap_rate_at(self.profile.radius_at(depth))
 
     def cap_rate_at(self, a):
-        """du_c/ds at contact radii (m)."""
+        """Return du_c/ds at contact radii (m)."""
         rate, slope = self.law.line_load_rate(a), self.profile.reduced_slope_at(a)
         # At first touch both may be 0, or infinite.
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -337,9 +343,9 @@ class RadiusCap(YieldRule):
         return self._penetration(imprint, plastic_depth - imprint)
 
     def _penetration(self, imprint, increase):
-        """Penetration (m) at which loading increases the plastic depth p₀ of an imprint: y = Δ + u_c.
+        """Return the penetration y = Δ + u_c (m) at which the plastic depth p₀ has grown by Δ.
 
-        The depth is s = p₀ + y, at which s/(p₀ + Δ + u_c(s)), a growing function of s, is 1.
+        The growing function s/(p₀ + Δ + u_c(s)) of the depth s is 1 at s = p₀ + y.
         """
         plastic_depth = imprint + increase
 
@@ -348,7 +354,7 @@ class RadiusCap(YieldRule):
             total = plastic_depth + self.cap_at(a)
             return depth / total, (total - depth * self.cap_rate_at(a)) / total / total
 
-        # Under a sharp tip that yields from first touch on the ratio is larger everywhere.
+        # Under a sharp tip that yields from first touch, the ratio is larger everywhere.
         sought = np.where(ratio(np.asarray(check.SHORTEST))[0] < 1, 1.0, 0.0)
         near = plastic_depth + self.cap(plastic_depth)
         start = np.where((plastic_depth > 0) & (near < np.inf), near, 1.0)
@@ -373,7 +379,7 @@ class RadiusCap(YieldRule):
         return result.reshape(shape)[()]
 
     def _plastic_sums(self, imprint, increase):
-        """∫ u_c a(p) dp of loadings, one a row of (N, 1), from kink to kink of a(s) and a(p)."""
+        """Return ∫ u_c a(p) dp of loadings, one per row of (N, 1), from kink to kink of a(s) and a(p)."""
         cuts, total = self._cuts(imprint, increase), np.zeros(len(imprint))
         for start, stop in zip(cuts.T[:, :, None], cuts.T[1:, :, None], strict=False):
             if np.any(stop > start):
@@ -381,16 +387,16 @@ class RadiusCap(YieldRule):
         return total
 
     def _cuts(self, imprint, increase):
-        """Penetrations (m), ascending in each row, between which the plastic work is smooth."""
+        """Return penetrations (m), ascending in each row, between which the plastic work is smooth."""
         last = np.minimum(self._penetration(imprint, increase), self.profile.known_depth - imprint)
         at = self.breaks(imprint, imprint + last)
         cuts = np.hstack([at.onset, at.upper, at.lower, at.scales, last])
         return np.sort(np.clip(cuts, at.onset, last), axis=1)
 
     def piece(self, start, stop, imprint, increase):
-        """∫ u_c a(p) dp between two penetrations (m), one piece a row of (N, 1); 0 where stop is start."""
+        """Return ∫ u_c a(p) dp between penetrations (m), one piece per row of (N, 1); 0 if empty."""
         node, weight = gauss_legendre(_NODES)
-        # Past a kink and past the onset a(p) is a power of the distance, of a fourth at least.
+        # Past a kink and past the onset, a(p) is a power of the distance with an exponent of at least 1/4.
         y = start + (stop - start) * node**4
         dy = (stop - start) * 4 * node**3 * weight
         p = imprint + np.minimum(self.increase(y, imprint), increase)
@@ -402,7 +408,7 @@ class RadiusCap(YieldRule):
 
 
 def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
-    """The rule by which a medium yields under a profile.
+    """Return the rule of yield for a medium and a profile.
 
     Examples
     --------
@@ -419,8 +425,8 @@ def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
         return lazy.cap.UserLawCap.of(profile, medium)
     if np.any(medium.hardness) and not integrals(profile).convex:
         raise check.MDRError(
-            "a hardness above 0 is not computed under a shape that is not convex: where g(x)/x falls, a "
-            "contact that has yielded becomes elastic again; set hardness = 0, or take a convex shape"
+            "a hardness above 0 needs a convex shape: if g(x)/x falls, a contact that has yielded would "
+            "become elastic again; set hardness = 0, or take a convex shape"
         )
     if np.any(medium.q_c) or np.any(medium.f_c):
         return RadiusCap.of(profile, medium)
@@ -429,5 +435,5 @@ def yield_rule(profile: Profile, medium: Medium) -> YieldRule:
 
 @singledispatch
 def constant_hardness(profile: Profile) -> type[RadiusCap]:
-    """The rule for a constant hardness alone: closed forms if registered for the class of the profile."""
+    """Return the rule for a constant hardness alone, with closed forms if they are registered."""
     return RadiusCap

@@ -1,8 +1,8 @@
-"""The yield cap of the elements: how far their springs are compressed elastically.
+"""The yield cap of the elements: the largest elastic compression of their springs.
 
 Popov (2015), Eqs. (12), (17)–(19), with the hardness σ_c(a) at the contact radius a of the largest depth.
-It asks the law of hardness, which defines the medium, and shares no code with the rule of yield that the
-chain bears witness of.
+It uses the law of hardness, which defines the medium. It shares no code with the rule of yield, because the
+chain checks this rule independently.
 """
 
 import numpy as np
@@ -12,7 +12,7 @@ from ..numerics.roots import increasing_root
 
 
 def elastic_limit(profile, medium, largest):
-    """Largest elastic compression u_c = π a σ_c(a)/(2E*) (m) of the elements after a largest depth (m)."""
+    """Return the largest elastic compression u_c = π a σ_c(a)/(2E*) (m) for a largest depth (m)."""
     if medium.inverse_to_radius:
         return medium.critical_depth
     a = profile.contact_radius(np.maximum(largest, 0.0))
@@ -21,17 +21,17 @@ def elastic_limit(profile, medium, largest):
 
 
 def plastic_depth(profile, medium, largest):
-    """Plastic part (m) of the element at the axis after a largest depth (m)."""
+    """Return the plastic part (m) of the element at the axis after a largest depth (m)."""
     return np.maximum(largest - elastic_limit(profile, medium, largest), 0.0)
 
 
 def onset_depth(profile, medium):
-    """Depth (m) at which the first element yields; infinite where none does within the known depth."""
+    """Return the depth (m) at which the first element yields; infinite if it exceeds the known depth."""
     if medium.inverse_to_radius:
         return medium.critical_depth
 
     def ratio(depth):
-        """Depth over elastic limit, which grows with depth, and about its derivative."""
+        """Return depth over elastic limit, which grows with depth, and its approximate derivative."""
         depth = np.minimum(depth, check.LONGEST)
         value = depth / elastic_limit(profile, medium, depth)
         before = depth * (1 - 1e-6)
@@ -43,8 +43,8 @@ def onset_depth(profile, medium):
 
 
 def flat_face_load(medium, radius):
-    """Force π (H b² + q_c b) (N) of a flat face of a radius b (m) that has yielded throughout.
+    """Return the force π (H b² + q_c b) (N) of a fully yielded flat face of radius b (m).
 
-    Infinite without a wall.
+    It is infinite for an infinite radius.
     """
     return np.pi * (medium.hardness * radius + medium.q_c) * radius if radius < np.inf else np.inf

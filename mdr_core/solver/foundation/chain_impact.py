@@ -1,6 +1,6 @@
-"""Impact of a free rigid body on the chain: also with viscosity, and on the imprint of earlier impacts.
+"""Impact of a free rigid body on the chain, also with viscosity, and on the imprint of earlier impacts.
 
-Each run has twice the elements and half the steps of the one before; both errors are of second order.
+Each run has twice the elements and half the step size of the previous run; both errors are of second order.
 """
 
 from dataclasses import dataclass, field, replace
@@ -24,7 +24,7 @@ from .row import NarrowRow, element_count
 
 #: Elements, and steps per time scale, of the coarsest run; number of runs.
 _ELEMENTS, _STEPS, _RUNS = 150, 12, 8
-#: Quantities that are refined, and their smallest errors as a share of the correction by extrapolation.
+#: Refined quantities, and their smallest errors as a share of the correction by extrapolation.
 _TRUST = {
     "restitution": 0.1, "max_depth": 0.2, "max_force": 2.0, "contact_time": 1.0,
     "stored_energy": 0.0, "plastic_work": 0.0, "viscous_work": 0.0, "structure_work": 0.0,
@@ -52,13 +52,13 @@ def chain_impact(
     mass, speed : float
         Mass m (kg), and speed v₀ (m/s) at the start, positive.
     start : Foundation, optional
-        The foundation before the impact, at the depth where the body starts; by default undeformed at first
-        contact. Its moves are repeated on the grids of the solver.
+        The foundation before the impact, at the starting depth of the body; by default undeformed at first
+        contact. The solver repeats its moves on its own grids.
     structure : Structure, optional
-        The plate, rod or support that carries the medium, also a viscous one; by default the body behind
+        The plate, rod or support that carries the medium, which may be viscous; by default the body behind
         the surface is at rest.
     n : int, optional
-        A fixed number of elements, whose error is not estimated; by default it is refined.
+        A fixed number of elements, without an estimate of their error; by default it is refined.
     tolerance : float, optional
         Largest error of the rebound speed relative to `speed`, and of the largest depth relative to itself;
         positive. Elements and steps are refined until it is reached, at most seven times.
@@ -66,8 +66,8 @@ def chain_impact(
     Returns
     -------
     ChainImpact
-        With the estimated `error`, and estimates for each quantity in `errors`. They hold for relaxation
-        times up to 10³ contact times.
+        The result, with the estimated `error`, and estimates for each quantity in `errors`. They hold for
+        relaxation times up to 10³ contact times.
 
     Raises
     ------
@@ -89,20 +89,18 @@ def chain_impact(
     structure = structure_of(structure)
     if structure.shape:
         raise check.MDRError(
-            "an impact on the chain needs a single structure, but its parameters are arrays of shape "
-            f"{structure.shape}; take one at a time, as in structure.entries(i)"
+            "an impact on the chain needs a single structure, not parameters of shape "
+            f"{structure.shape}: take one at a time, for example structure.entries(i)"
         )
     if structure.modes is not None:
-        raise check.MDRError(
-            "an impact on the chain is not computed with modes of a structure; take impact(…)"
-        )
+        raise check.MDRError("an impact on the chain does not support modes of a structure; take impact(…)")
     refuse_adhesion(medium, "an impact on the chain")
     mass = check.positive_number("mass", mass, unit="kg")
     speed = check.positive_number("speed", speed, unit="m/s")
     tolerance = check.positive_number("tolerance", tolerance)
     count, history = None if n is None else element_count(n), _history(profile, medium, start)
     if medium.has_own_law and medium.eta == 0:
-        # Without dashpots the body goes no less deep than on an elastic medium, whose bound has 5 % more.
+        # Without dashpots the body goes at least as deep as on an elastic medium, whose bound adds 5 %.
         elastic = impact_depth_bound(profile, Medium(medium.E_star), mass, speed, history) / 1.1
         check_reached(profile, medium, elastic)
     bound = impact_depth_bound(profile, medium, mass, speed, history)
@@ -114,10 +112,10 @@ def chain_impact(
         except NarrowRow:
             if depth == bound:
                 raise
-            # On a support a coarse run may end far above the largest depth, where the force jumps at yield.
+            # If the force jumps at yield, a coarse run on a support may end far above the largest depth.
             return solve(elements, bound, steps)
 
-    # A first run determines the largest depth, at whose radius the next one has an edge.
+    # A first run determines the largest depth; the next run has an edge at its radius.
     runs = [solve(_ELEMENTS, bound, _STEPS / 2)]
 
     def run(level):
@@ -145,7 +143,7 @@ def chain_impact(
 
 
 def _history(profile, medium, start):
-    """Moves of the foundation `start`, if it has this profile and medium."""
+    """Return the moves of the foundation `start`; raise an error if its profile or medium differ."""
     if start is None:
         return ()
     if not isinstance(start, Foundation):
@@ -153,13 +151,13 @@ def _history(profile, medium, start):
     if start.profile != profile or start.medium != medium:
         raise check.MDRError(
             f"start is a foundation under {start.profile!r} on {start.medium!r}, which differ from the "
-            "profile and medium of this impact; give the same"
+            "profile and medium of this impact: give the same profile and medium"
         )
     return start.history
 
 
 class ChainErrors(NamedTuple):
-    """Estimated errors of a `ChainImpact`, each relative to the quantity; infinite where that is zero."""
+    """Estimated errors of a `ChainImpact`, each relative to the quantity; infinite if it is zero."""
 
     restitution: float
     max_depth: float
@@ -169,10 +167,10 @@ class ChainErrors(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ChainImpact(ImpactResult):
-    """One impact on the chain; made by `chain_impact`.
+    """One impact on the chain; returned by `chain_impact`.
 
     Quantities are limits for vanishing steps and elements. For a fixed number of elements, limits and
-    errors are those of the steps alone.
+    errors concern the steps alone.
 
     Examples
     --------
@@ -186,7 +184,7 @@ class ChainImpact(ImpactResult):
     medium: Medium
     mass: float
     speed: float
-    #: What carries the medium; rigid, where none is given.
+    #: The structure that carries the medium; rigid by default.
     structure: Structure
     #: Coefficient of restitution, rebound speed over impact speed.
     restitution: float
@@ -201,10 +199,11 @@ class ChainImpact(ImpactResult):
     viscous_work: float
     #: Energy (J) that waves of the structure carry away.
     structure_work: float
-    #: Estimated error that the tolerance bounds: the larger one of rebound speed (over `speed`) and depth.
+    #: Estimated error, which the tolerance bounds: the larger error of rebound speed (over `speed`) and of
+    #: the largest depth.
     error: float
     errors: ChainErrors
-    #: The foundation when contact ends, from which another impact may start.
+    #: The foundation at the end of contact; another impact may start from it.
     foundation: Foundation = field(repr=False)
     _motion: Motion = field(repr=False)
 
@@ -221,9 +220,10 @@ class ChainImpact(ImpactResult):
         return bool(np.isinf(self.contact_time))
 
     def motion(self, n: int | None = None) -> Motion:
-        """The `Motion` of the finest run at every step, or interpolated at n equally spaced instants.
+        """Return the `Motion` of the finest run at every step, or interpolated at n instants.
 
-        Its energies sum to the initial energy for every step size.
+        The n instants are equally spaced before the turning point, and again after it. The sum of the
+        energies is the initial energy for every step size.
         """
         steps = replace(self._motion, impact=self)
         if n is None:

@@ -22,16 +22,16 @@ from .grid import cell_edges
 from .refinement import refine
 from .row import Row
 
-#: Elements of the coarsest run; largest number of elements times depths of the finest.
+#: Elements of the coarsest run; largest number of elements times depths of the finest run.
 _ELEMENTS, _MAX_ELEMENT_STEPS = 256, 10**8
-#: Depths of a path that have edges at their radii; of longer paths the turning points of largest depth.
+#: Number of depths with edges at their radii; a longer path has edges at its deepest turning points only.
 _MAX_EDGE_DEPTHS = 300
 #: Quantities that `follow` records.
 _RECORD = ("force", "stored_energy", "plastic_work", "viscous_work", "contact_radius")
 
 
 def check_times(time, path, quantity):
-    """`time` as an array, if it increases and has the shape of the one-dimensional path of a quantity."""
+    """Return `time` as an array if it increases and has the shape of a one-dimensional path."""
     time = check.finite_array("time", time, unit="s")
     if path.ndim != 1 or not path.size or time.shape != path.shape:
         raise check.MDRError(
@@ -49,7 +49,7 @@ def indent_in_time(
 ) -> "TimedIndentation":
     """Press an indenter into a viscous medium along a path of depth in time.
 
-    Solved by the chain, because contact may return to elements that are still relaxing (Popov 2015, Eq. (1)
+    The chain solves it, because contact may return to elements that are still relaxing (Popov 2015, Eq. (1)
     for each element).
 
     Parameters
@@ -57,7 +57,7 @@ def indent_in_time(
     profile, medium
         The indenter and the medium.
     depth : array_like, shape (N,)
-        Indentation depths d (m), linear in between; the first depth is reached quasi-statically.
+        Indentation depths d (m), linear between times. The first depth is reached quasi-statically.
     time : array_like, shape (N,)
         Increasing times (s).
     tolerance : float, optional
@@ -89,7 +89,7 @@ def indent_in_time(
     tolerance = check.positive_number("tolerance", tolerance)
     check_reached(profile, medium, np.max(depth))
     nodes = _node_radii(profile, medium, depth, time)
-    # A path without contact has no width of its own.
+    # A path without contact does not determine a width.
     half_width = float(profile.contact_radius(max(np.max(depth), 0.0))) or min(1.0, profile.known_radius)
 
     def run(level):
@@ -109,9 +109,9 @@ def indent_in_time(
 
 
 def follow(row, depth, time, advance=Row.advance, first=np.inf):
-    """The `_RECORD` of a row at each time of a path, shape (N, 5).
+    """Return the `_RECORD` of a row at each time of a path, shape (N, 5).
 
-    `first` is the time (s) in which the first depth is reached.
+    `first` is the duration (s) of the move to the first depth.
     """
     record = []
     for new_depth, dt in zip(depth, np.append(first, np.diff(time)), strict=True):
@@ -123,7 +123,7 @@ def follow(row, depth, time, advance=Row.advance, first=np.inf):
 
 
 def _node_radii(profile, medium, depth, time):
-    """Radii (m) of fronts of contact, yield and release at the times of a path."""
+    """Return the radii (m) of fronts of contact, yield and release at the times of a path."""
     if len(depth) > _MAX_EDGE_DEPTHS:
         direction = np.sign(np.diff(depth))
         turns = np.flatnonzero(np.concatenate([[True], direction[1:] != direction[:-1], [True]]))
@@ -136,21 +136,21 @@ def _node_radii(profile, medium, depth, time):
 
 
 class History(Protocol):
-    """A path along which the state of any element is known."""
+    """A path with the states of all elements."""
 
     model: Model
 
     def elements(self, x: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """Line load (N/m) and elastic compression (m) at x ≥ 0 (m) in the first states: (count, M)."""
+        """Return line load (N/m) and elastic compression (m) at x ≥ 0 (m) in the first `count` states."""
         ...
 
 
 @dataclass(frozen=True, eq=False)
 class Ramps:
-    """A path of straight ramps of depth (m) over time (s), the first of them infinitely slow.
+    """A path of straight ramps of depth (m) over time (s); the first ramp is infinitely slow.
 
-    `start` gives the elements at coordinates x (m) before the first ramp; by default they are undeformed.
-    With it the first depth is where they are, and `largest` (m) the largest depth before it.
+    `start` returns the elements at coordinates x (m) before the first ramp; by default they are undeformed.
+    With `start`, the path begins at the first depth, and `largest` (m) is the largest depth before it.
     """
 
     profile: Profile
@@ -163,7 +163,7 @@ class Ramps:
     model = CHAIN
 
     def elements(self, x, count):
-        """Line load (N/m) and elastic compression (m) at x (m) after each of the first depths."""
+        """Return line load (N/m) and elastic compression (m) at x (m) after each of the first depths."""
         medium = self.medium
         virgin = Elements.virgin(self.profile, x, np.zeros(x.size))
         elements = virgin if self.start is None else self.start(virgin)
@@ -184,7 +184,7 @@ class Ramps:
 
 @dataclass(frozen=True, eq=False)
 class _Joined:
-    """A path of `count` states, the last one of which is the first one of another path."""
+    """A path of `count` states, followed by another path that begins in its last state."""
 
     first: History
     later: History
@@ -193,7 +193,7 @@ class _Joined:
     model = property(lambda self: self.later.model)
 
     def elements(self, x, count):
-        """Line load (N/m) and elastic compression (m) at x (m) in the first states, shape (count, M)."""
+        """Return line load (N/m) and elastic compression (m) at x (m) in the first states, (count, M)."""
         parts = [self.first.elements(x, min(count, self.count))]
         if count > self.count:
             parts.append([values[1:] for values in self.later.elements(x, count - self.count + 1)])
@@ -206,7 +206,7 @@ class TimedIndentation(Result):
 
     `model` is the method of solution: the chain, or the scalar equations of creep.
 
-    Every quantity has the shape of `time`; `result[i]` is one state. Where the rate changes, force and
+    Every quantity has the shape of `time`; `result[i]` is one state. At a time of changing rate, force and
     fields belong to the end of the earlier piece.
 
     Examples
@@ -234,7 +234,7 @@ class TimedIndentation(Result):
     plastic_depth: Array
     #: Estimated error of force and energies (`indent_in_time`) or depth (`creep`), relative to the largest.
     error: float
-    #: Index of each state on the path that the elements follow, and that path.
+    #: Index of each state on the path of the elements, and this path.
     _index: Array
     _history: "History"
 
@@ -263,20 +263,23 @@ class TimedIndentation(Result):
 
     @check.frozen_property
     def plastic_radius(self):
-        """Plastic radius c (m); 0 where nothing has yielded."""
+        """Plastic radius c (m); 0 if nothing has yielded."""
         radius = self.profile.contact_radius(self.plastic_depth)
         return np.where(np.asarray(self.plastic_depth) > 0, radius, 0.0)
 
     def line_load(self, x: ArrayLike) -> Array:
-        """Line load q = E* u_e + 4ηḋ (N/m) of one state at x (m); Popov (2015), Eqs. (1), (17), (18)."""
+        """Return the line load q = E* u_e + 4ηḋ (N/m) of one state at x (m).
+
+        Popov (2015), Eqs. (1), (17), (18).
+        """
         check_single(self, "line_load")
         return self.elements(x)[0]
 
     def elements(self, x: ArrayLike) -> tuple[Array, Array]:
-        """Line load (N/m) and elastic compression (m) of the elements at x (m), in every state.
+        """Return line load (N/m) and elastic compression (m) of the elements at x (m), in every state.
 
-        Each has the shape of `time`, followed by that of `x`. The compression of a released element is the
-        part that has not relaxed yet. Exact along the path of depth.
+        Each has the shape of `time`, followed by the shape of `x`. The compression of a released element is
+        the part that has not relaxed yet. Both are exact along the path of depth.
         """
         x = np.abs(check.finite_array("coordinate x", x, unit="m"))
         index = np.asarray(self._index, int)
@@ -285,31 +288,31 @@ class TimedIndentation(Result):
         return load[index].reshape(shape)[()], elastic[index].reshape(shape)[()]
 
     def pressure(self, r: ArrayLike) -> Array:
-        """Contact pressure p = −σ_zz (Pa) of one state at radii r (m); Popov (2015), Eq. (10).
+        """Return the contact pressure p = −σ_zz (Pa) of one state at radii r (m); Popov (2015), Eq. (10).
 
-        Infinite at the contact radius while the dashpots carry load there.
+        It is infinite at the contact radius while the dashpots carry load there.
         """
         check_single(self, "pressure")
         r, radius = check.finite_array("radius r", r, unit="m"), float(self.contact_radius)
         if radius == 0:
             return np.zeros(r.shape)[()]
-        # The line load at 4000 coordinates is linear in between.
+        # The line load is linear between 4000 coordinates.
         x = cell_edges(self.profile, 4000, radius, nodes=(self.plastic_radius,))
-        # The last value just inside the contact, where the load may jump; without jumps of rounding's size.
+        # The last value is just inside the contact, where the load may jump; rounding is no jump.
         load = self.line_load(np.minimum(x, radius * (1 - 1e-12)))
         load[-1] = load[-1] if load[-1] > 1e-9 * load.max() else 0.0
         return 0.0 - abel.stress_from_line_load(x, load, r)
 
 
 def states_along(history: History, index: np.ndarray, **quantities: Any) -> TimedIndentation:
-    """The `TimedIndentation` of quantities by name, in states with these numbers along a history."""
+    """Return the `TimedIndentation` of quantities by name, in states with these numbers along a history."""
     return TimedIndentation(**quantities, _index=index, _history=history)
 
 
 def joined(first: TimedIndentation, later: TimedIndentation, force, time) -> TimedIndentation:
-    """One path of two, under forces (N) at times (s) of both; the last state of one begins the other.
+    """Join two paths under forces (N) at times (s) of both; one begins in the last state of the other.
 
-    The first one has all states of its history.
+    The first path has all states of its history.
     """
     count = len(first.time)
     names = ("depth", "contact_radius", "stored_energy", "plastic_work", "viscous_work", "plastic_depth")

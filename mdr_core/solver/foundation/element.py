@@ -4,9 +4,9 @@ The element at x is compressed by u = d − g(x) while it is in contact with the
 
     u_p ← max(u_p, u − u_c),   u_e = u − u_p,   q = E* u_e + 4η ḋ   (Popov 2015, Eqs. (1), (11)-(18)).
 
-It is released where q reaches zero, at u_e = −τḋ, and relaxes as u_e ∝ exp(−t/τ). Contact returns where
-the indenter reaches the surface of the relaxing element. Along a ramp of constant ḋ each of these events is
-the intersection of a line with a line or an exponential; a step is therefore exact, whatever its length.
+It is released when q reaches zero, at u_e = −τḋ, and relaxes as u_e ∝ exp(−t/τ). Contact returns when the
+indenter reaches the surface of the relaxing element. Along a ramp of constant ḋ, each of these events is
+the intersection of a line with a line or an exponential. A step of any length is therefore exact.
 
 All quantities are lengths and times; the profile does not enter. Operations are vectorised over elements.
 """
@@ -21,9 +21,10 @@ import scipy
 class Elements:
     """State of a row of elements: arrays with one entry per element.
 
-    Lengths (m): coordinate, width, reduced profile g(x), penetration d − g(x) − u_p into the relaxed
-    surface, elastic part u_e and plastic part u_p of the compression. In contact the penetration equals
-    u_e; after yield it is updated step by step, because the difference of depths would cancel.
+    Lengths (m) are the coordinate, the width, the reduced profile g(x), the penetration d − g(x) − u_p into
+    the relaxed surface, and the elastic part u_e and plastic part u_p of the compression. In contact the
+    penetration equals u_e. After yield it is updated step by step, because the difference of depths would
+    cancel.
     """
 
     x: np.ndarray
@@ -36,17 +37,18 @@ class Elements:
 
     @classmethod
     def virgin(cls, profile, x, width):
-        """Undeformed elements at coordinates x (m), with the indenter at depth 0."""
+        """Return undeformed elements at coordinates x (m), with the indenter at depth 0."""
         reduced, zero = np.asarray(profile.reduced(x)), np.zeros_like(x)
         return cls(x, width, reduced, -reduced, zero, zero, np.zeros(x.shape, bool))
 
 
 @dataclass(frozen=True)
 class Ramp:
-    """A straight piece of a path of depth in time; the medium's τ (s), its elastic limit u_c (m) there.
+    """A straight piece of a path of depth in time, with τ (s) and the elastic limit u_c (m) of the medium.
 
-    `travel` (m) ends at `depth` (m): a difference of depths may cancel. The `duration` (s) may be infinite.
-    `yield_travel` is the depth over the plastic depth gained while elements yield, 1 for a constant limit.
+    `travel` (m) ends at `depth` (m). It is stored because a difference of depths may cancel. The `duration`
+    (s) may be infinite. `yield_travel` is the ratio of the gains of depth and plastic depth while elements
+    yield, 1 for a constant limit.
     """
 
     depth: float
@@ -58,7 +60,7 @@ class Ramp:
 
     @property
     def lag(self):
-        """τḋ (m): compression at which the spring carries as much as the dashpot, with the sign of ḋ."""
+        """τḋ (m), the compression at which spring and dashpot carry the same load, with the sign of ḋ."""
         return self.travel * (self.tau / self.duration)
 
     @property
@@ -69,12 +71,12 @@ class Ramp:
 
 @dataclass(frozen=True, eq=False)
 class Exchange:
-    """Impulse and energy that each element takes up along a ramp, per unit of E* and of width.
+    """Impulse and energy of each element along a ramp, per unit of E* and of width.
 
-    In contact, `stroke` is the change of compression (m), `mean` the mean elastic part (m) over it,
-    `duration` the time (s), and `spring_share` the fraction of the stroke before the yield cap; without
-    contact stroke and duration are 0. `relaxed` is the energy (m²) dissipated out of contact, and `plastic`
-    that by yielding.
+    In contact, `stroke` is the change of compression (m), `mean` the mean elastic part (m) over it, and
+    `duration` the time (s). `spring_share` is the fraction of the stroke before the yield cap. Without
+    contact, stroke and duration are 0. `relaxed` is the energy (m²) dissipated out of contact, and
+    `plastic` the energy (m²) dissipated by yielding.
     """
 
     ramp: Ramp
@@ -92,7 +94,7 @@ class Exchange:
 
     @property
     def impulse_slope(self):
-        """Derivative of ∫ q dt/E* by the rate of the ramp (s²); approximate where contact returns."""
+        """Derivative of ∫ q dt/E* by the rate of the ramp (s²); approximate if contact returns."""
         ramp, spring_time = self.ramp, self.spring_share * self.duration
         if ramp.travel < 0:
             return self.duration * (self.duration / 2 + ramp.tau)
@@ -103,24 +105,24 @@ class Exchange:
 
     @property
     def viscous(self):
-        """Energy (m²) dissipated by the dashpot: 4ηḋ along the stroke, and by relaxation out of contact."""
+        """Energy (m²) dissipated by the dashpot, 4ηḋ along the stroke, and by relaxation out of contact."""
         return self.ramp.lag * self.stroke + self.relaxed
 
 
 def _released_energy(before, after):
-    """Energy (m²) by which a spring relaxes from one elastic part (m) to another."""
+    """Return the energy (m²) of a spring's relaxation from one elastic part (m) to another."""
     return (before - after) * (before + after) / 2
 
 
 def advance(elements, ramp):
-    """`Elements` at the end of a ramp, and the `Exchange` along it."""
+    """Return the `Elements` at the end of a ramp, and the `Exchange` along it."""
     virgin = elements.plastic == 0
     penetration = np.where(virgin, ramp.depth - elements.reduced, elements.penetration + ramp.travel)
     return (_press if ramp.travel >= 0 else _withdraw)(elements, ramp, penetration)
 
 
 def _press(elements, ramp, penetration):
-    """A ramp of increasing or constant depth: no element is released."""
+    """Advance on a ramp of increasing or constant depth: no element is released."""
     initial = elements.elastic
     relaxed = initial * ramp.decay
     contact = (penetration > relaxed) | elements.contact
@@ -129,7 +131,7 @@ def _press(elements, ramp, penetration):
     first = np.where(contact, first, elastic)
     stroke = np.where(contact, penetration - first, 0.0)
     excess = np.maximum(penetration - ramp.elastic_limit, 0.0)
-    # Along the stroke at the yield cap the elastic part goes linearly from `capped` to its end.
+    # Along the stroke at the yield cap, the elastic part goes linearly from `capped` to `elastic`.
     spring_share = 1 - ramp.yield_travel * excess / np.maximum(stroke, 1e-300)
     capped = elastic + excess * (1 - ramp.yield_travel)
     mean = (elastic + capped) / 2 - spring_share * ((elastic - first) / 2)
@@ -141,10 +143,10 @@ def _press(elements, ramp, penetration):
 
 
 def _pressed_contact(elements, ramp, penetration, touching):
-    """Elastic parts (m) at the start of contact on a pressing ramp, and the times (s) in contact.
+    """Return elastic parts (m) at the start of contact on a pressing ramp, and the times (s) in contact.
 
-    Elements in contact start from their elastic part, relaxed ones from zero. A relaxing element of
-    elastic part u₀ is reached at w from the penetration w₀ with w − w₀ = lag ln(u₀/w).
+    Elements in contact start from their elastic part, relaxed elements from zero. A relaxing element with
+    the elastic part u₀ and the penetration w₀ comes into contact at w, with w − w₀ = lag ln(u₀/w).
     """
     initial = elements.elastic
     relaxing = touching & (initial > 0)
@@ -169,7 +171,7 @@ def _pressed_contact(elements, ramp, penetration, touching):
 
 
 def _withdraw(elements, ramp, penetration):
-    """A ramp of decreasing depth: an element that is released remains free."""
+    """Advance on a ramp of decreasing depth: released elements remain free."""
     lag, initial = -ramp.lag, elements.elastic
     first, touched = initial, elements.contact
     returning = ~elements.contact & (initial > lag) & (penetration - ramp.travel > 0)
@@ -178,7 +180,7 @@ def _withdraw(elements, ramp, penetration):
         first, touched = np.where(returning, root, initial), touched | returning
     last = np.maximum(penetration, np.minimum(first, lag))
     contact = touched & (penetration > lag)
-    # Without viscosity a released element is relaxed at once.
+    # Without viscosity, a released element relaxes at once.
     with np.errstate(over="ignore"):
         decay = np.exp(np.minimum(penetration - last, 0.0) / lag) if lag > 0 else 0.0
     relaxed = np.where(touched, last * decay, initial * ramp.decay)
@@ -194,9 +196,9 @@ def _withdraw(elements, ramp, penetration):
 
 
 def _withdrawn_contact(elements, ramp, penetration, candidates):
-    """Elastic part w (m) at which a relaxing element reaches a slower indenter, and where this happens.
+    """Return the elastic part w (m) at which a relaxing element reaches the indenter, and whether it does.
 
-    Y − ln Y = w₀/lag − ln(u₀/lag) with w = lag Y; only for Y ≥ 1 is the element faster than the indenter.
+    Y − ln Y = w₀/lag − ln(u₀/lag) with w = lag Y. The element is faster than the indenter only for Y ≥ 1.
     """
     start, lag = penetration - ramp.travel, -ramp.lag
     if lag == 0:

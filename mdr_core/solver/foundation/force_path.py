@@ -1,6 +1,6 @@
 """Viscous indentation under a prescribed force in time, by the chain: steps that end at the force.
 
-The chain is the witness of the scalar laws of `creep`, and goes on where these end.
+The chain checks the scalar laws of `creep`, and continues when they no longer hold.
 """
 
 from collections.abc import Callable
@@ -23,19 +23,19 @@ from .row import Row
 
 #: Steps per piece of the path and elements of the coarsest run; number of runs; orders of their errors.
 _STEPS, _ELEMENTS, _RUNS, _ORDERS = 8, 200, 6, (1, 2)
-#: Fraction of the last step of a piece that has the rate at its end instead of the mean rate of the step.
+#: Fraction of the last step of a piece with the rate at its end instead of the mean rate of the step.
 _END_FRACTION = 1 / 16
 
 
 def check_creep(profile, medium, force, time, tolerance):
-    """Checked arrays of forces (N) and times (s) of a path of force in time, and its tolerance."""
+    """Return checked arrays of forces (N) and times (s) of a path of force in time, and its tolerance."""
     check_pair(profile, medium, "a path in time")
     refuse_adhesion(medium, "a path in time")
     refuse_own_law(medium, "creep()", "use indent_in_time(), which takes depths over time")
     if medium.f_c > 0:
         raise check.MDRError(
-            "creep() does not support f_c above 0: the force may fall while the depth grows, and the "
-            "indenter jumps; use indent_in_time(), which takes depths over time, or set f_c = 0"
+            "creep() does not support f_c above 0: if the force falls while the depth grows, the indenter "
+            "jumps; use indent_in_time(), which takes depths over time, or set f_c = 0"
         )
     force = check.force("force", force)
     time = check_times(time, force, "force")
@@ -49,10 +49,10 @@ def check_creep(profile, medium, force, time, tolerance):
 
 @dataclass(frozen=True)
 class Start:
-    """A state from which the row of elements goes on: contact inside the edge, which has retreated.
+    """A state from which the row of elements continues: contact inside the edge, which has retreated.
 
-    `depth`, `largest`, `plastic_depth` and `edge`, the reduced height at the edge of the contact (m);
-    `elastic` the compression (m) of elements at coordinates x (m); works (J) so far.
+    `edge` is the reduced height at the edge of the contact, and `elastic` the compression of elements at
+    coordinates x. Lengths are in m, and works so far in J.
     """
 
     depth: float
@@ -64,7 +64,7 @@ class Start:
     viscous_work: float
 
     def elements(self, virgin):
-        """`Elements` in this state, from undeformed ones at the same coordinates."""
+        """Return `Elements` in this state, from undeformed elements at the same coordinates."""
         elastic, contact = self.elastic(virgin.x), virgin.reduced < self.edge
         plastic = np.maximum(self.plastic_depth - virgin.reduced, 0.0)
         # In contact the penetration is the elastic part, without a difference of depths.
@@ -72,7 +72,7 @@ class Start:
         return replace(virgin, penetration=penetration, elastic=elastic, plastic=plastic, contact=contact)
 
     def put_on(self, row):
-        """A new row in this state."""
+        """Return a new row in this state."""
         return replace(
             row,
             elements=self.elements(row.elements),
@@ -86,10 +86,9 @@ class Start:
 
 
 def chain_creep(profile, medium, force, time, *, tolerance=1e-4, start=None):
-    """`creep` by the chain alone, in steps of constant ḋ each of which ends at the prescribed force.
+    """Solve `creep` by the chain alone, in steps of constant ḋ; each step ends at the prescribed force.
 
-    Errors of first and second order are extrapolated away. With a `Start` the first of the forces is the
-    one that it carries.
+    Errors of first and second order are removed by extrapolation. A `Start` carries the first force.
     """
     force, time, tolerance = check_creep(profile, medium, force, time, tolerance)
     # Bounds by the springs alone, and by the dashpots alone after the first force.
@@ -129,7 +128,7 @@ def chain_creep(profile, medium, force, time, *, tolerance=1e-4, start=None):
 
 
 class CreepRun(NamedTuple):
-    """One run: its last row, times (s) and depths (m) of its path, index of the given times on it.
+    """One run: its last row, times (s) and depths (m) of its path, index of the given times on the path.
 
     `record` holds depth (m), stored energy, plastic and viscous work (J) at the given times.
     """
@@ -142,12 +141,12 @@ class CreepRun(NamedTuple):
 
 
 def _creep_run(profile, medium, bound, n, force, time, steps, precision, start):
-    """`CreepRun` up to a depth bound (m), with `steps` per piece, to a relative precision of the depth."""
+    """Return the `CreepRun` up to a depth bound (m), with `steps` per piece and a relative precision."""
     bound = min(bound, profile.known_depth)
-    # A path without contact has no width of its own.
+    # A path without contact does not determine a width.
     half_width = float(profile.contact_radius(bound)) or min(1.0, profile.known_radius)
     row = Row.virgin(profile, medium, n, half_width)
-    # A small force maintains contact where none is prescribed.
+    # A small force maintains contact if the prescribed force is 0.
     close, smallest, rate = precision * bound, 1e-10 * np.max(force), 0.0
     # Times after the start of a piece increase as the cube of the step.
     fraction = (np.arange(steps + 1) / steps) ** 3
@@ -174,7 +173,7 @@ def _recorded(row):
 
 
 def _step(row, dt, force, guess, bound, close):
-    """`Row` after a time dt (s) under a force (N) at its end, from a guess of the travel (m)."""
+    """Return the `Row` after a time dt (s) under a force (N) at its end, from a guess of the travel (m)."""
     medium, room = row.medium, bound - row.depth
 
     def excess(travel):
@@ -193,10 +192,11 @@ def _step(row, dt, force, guess, bound, close):
 
 
 def _consistent_path(runs, force, start):
-    """Times (s) and depths (m) of a path that carries the force; index of the given times, radii (m) there.
+    """Return times (s) and depths (m) of a path that carries the force, with indices and radii (m).
 
-    It is the extrapolated path, or that of the finest run where unloading is so steep that the extrapolated
-    one does not carry the force. The rate at the end of each piece is adjusted to carry it exactly.
+    The indices and radii belong to the given times. It is the extrapolated path. If a steep unloading
+    prevents this path from carrying the force, it is the path of the finest run. The rate at the end of
+    each piece is adjusted to carry the force exactly.
     """
     finest, time, index = runs[-1].row, runs[-1].time, runs[-1].index
     profile, medium = finest.profile, finest.medium
@@ -217,7 +217,7 @@ def _consistent_path(runs, force, start):
 
 
 def _followed(row, depth, time, start):
-    """`follow` in one ramp for each depth; with a `Start` the first depth is where it is."""
+    """Return `follow` in one ramp per depth; a `Start` is at the first depth."""
     if start is None:
         return follow(row, depth, time, Row.ramp_to)
     first = start.put_on(row)
@@ -227,7 +227,7 @@ def _followed(row, depth, time, start):
 
 
 def _extrapolated_depth(runs):
-    """Depths (m) of the finest path, corrected at the times that it has in common with coarser ones."""
+    """Return the depths (m) of the finest path, corrected at its common times with coarser paths."""
     runs = runs[-len(_ORDERS) - 1 :]
     time, depth = runs[-1].time, runs[-1].depth
     common = [run.depth[:: 2**level] for level, run in enumerate(runs)]

@@ -1,6 +1,6 @@
-"""The 1D foundation under an indenter, as users see it: elements on both sides of the axis, in one state.
+"""The 1D foundation under an indenter, for users: elements on both sides of the axis, in one state.
 
-One side is computed, as a `Row`.
+A `Row` computes one side.
 """
 
 from dataclasses import dataclass, field, replace
@@ -19,11 +19,11 @@ from .row import Row
 class Foundation:
     """The 1D foundation as a row of independent springs and dashpots, which yield.
 
-    It is that of Popov (2015), Fig. 1. Each of the n elements between −half_width and half_width is a
-    spring Δk = E*Δx, which carries at most π q_c/2 per length, in parallel with a dashpot Δγ = 4ηΔx (Eqs.
-    (1), (12)); with another hardness at most π a σ_c(a)/2, where a is the contact radius at the largest
+    See Popov (2015), Fig. 1. Each of the n elements between −half_width and half_width is a spring
+    Δk = E*Δx in parallel with a dashpot Δγ = 4ηΔx (Eqs. (1), (12)). The spring carries at most π q_c/2 per
+    length. With another hardness it carries at most π a σ_c(a)/2, with the contact radius a at the largest
     depth. A foundation is immutable: `advance` returns a new one, exact for a straight ramp of depth
-    (plastic work to second order). Independent of `indent` and `impact`.
+    (plastic work to second order). The code is independent of `indent` and `impact`.
 
     Parameters
     ----------
@@ -34,8 +34,8 @@ class Foundation:
     half_width : float
         Length (m) of the row on either side of the axis, at least the largest contact radius.
     nodes : sequence of float, optional
-        Radii (m) of edges between elements, besides the flat face, kinks and wall of the profile. With the
-        contact radius and the plastic radius as nodes, sums are of second order in 1/n.
+        Radii (m) of edges between elements, in addition to the flat face, kinks and wall of the profile.
+        With the contact radius and the plastic radius as nodes, sums are of second order in 1/n.
 
     Raises
     ------
@@ -62,12 +62,12 @@ class Foundation:
     half_width: float
     nodes: tuple[float, ...] = ()
     _row: Row | None = field(default=None, kw_only=True)
-    #: Of a contact that has always been narrower than an element.
+    #: The loss in a contact that has always been narrower than an element.
     _loss: narrow.ViscousLoss = field(default=narrow.ViscousLoss(), kw_only=True)
 
     def __post_init__(self):
         if self._row is not None:
-            # A copy in another state has been checked before.
+            # A copy in another state was checked before.
             return
         check_pair(self.profile, self.medium, "a foundation")
         refuse_adhesion(self.medium, "a foundation")
@@ -85,19 +85,19 @@ class Foundation:
         depth : float
             New depth d (m); negative above the undeformed surface.
         dt : float, optional
-            Duration (s) of the move, positive; by default infinite: the dashpots carry no load, and
+            Duration (s) of the move, positive. The default is infinite: the dashpots carry no load, and
             released elements are relaxed.
 
         Returns
         -------
         Foundation
-            In the new state; its line load includes the dashpots at the rate of the ramp.
+            The new state; its line load includes the dashpots at the rate of the ramp.
 
         Raises
         ------
         ValueError
-            If the contact radius exceeds half_width, or the depth the known depth; or if a law of hardness
-            is none up to that radius.
+            If the contact radius exceeds half_width, or the depth exceeds the known depth; or if a law of
+            hardness is invalid up to that radius.
 
         Examples
         --------
@@ -123,13 +123,13 @@ class Foundation:
     def viscous_work(self) -> float:
         """Energy (J) dissipated by the dashpots so far.
 
-        Of contacts narrower than one element it is an integral, as the force is.
+        For contacts narrower than one element it is an integral, like the force.
         """
         return self._loss.work if narrow.was_always_narrow(self._row) else self._row.viscous_work
 
     @property
     def history(self) -> tuple[tuple[float, float], ...]:
-        """Moves so far, as (depth, dt); they bring another foundation to the same state."""
+        """Moves so far, as (depth, dt); repeating them brings another foundation to the same state."""
         return self._row.history
 
     @check.frozen_property
@@ -156,7 +156,7 @@ class Foundation:
     def contact(self) -> np.ndarray:
         """Whether each element is in contact; a released element may still be relaxing.
 
-        The two in the middle are where a narrower contact lies inside them.
+        If the contact is narrower than the two elements in the middle, these two are in contact.
         """
         contact = self._row.elements.contact
         if narrow.was_always_narrow(self._row):
@@ -181,7 +181,7 @@ class Foundation:
     def force(self) -> float:
         """Normal force F = Σ q Δx (N); Popov (2015), Eq. (9).
 
-        Of a contact that is narrower than one element it is ∫ q dx with the profile inside the element.
+        For a contact narrower than one element it is ∫ q dx with the profile inside the element.
         """
         if (inside := narrow.contact_within_an_element(self._row)) is not None:
             width, elastic = inside
@@ -192,7 +192,7 @@ class Foundation:
     def stored_energy(self) -> float:
         """Elastic energy U = Σ E* u_e² Δx/2 (J), including elements that relax out of contact.
 
-        Of a contact that is narrower than one element it is an integral, as the force is.
+        For a contact narrower than one element it is an integral, like the force.
         """
         inside = narrow.contact_within_an_element(self._row)
         energy = 0.0 if inside is None else float(self.medium.E_star * (inside[0] @ inside[1] ** 2))
@@ -205,7 +205,7 @@ class Foundation:
     def plastic_work(self) -> float:
         """Energy Σ ∫ E* u_c du_p Δx (J) dissipated by yielding so far.
 
-        Of contacts narrower than one element it is an integral, as the force is.
+        For contacts narrower than one element it is an integral, like the force.
         """
         if narrow.was_always_narrow(self._row):
             return narrow.plastic_work(self._row)
@@ -213,11 +213,11 @@ class Foundation:
 
 
 def foundation_of(row: Row) -> Foundation:
-    """The `Foundation` in the state of a row, as a solver has left it."""
+    """Return the `Foundation` in the final state of a row of a solver."""
     loss = narrow.ViscousLoss(row.viscous_work)
     return Foundation(row.profile, row.medium, row.n, row.half_width, row.nodes, _row=row, _loss=loss)
 
 
 def _mirrored(values):
-    """Values on both sides of the axis, without the element of no width."""
+    """Return values on both sides of the axis, without the element of width 0."""
     return np.concatenate([values[:0:-1], values[1:]])

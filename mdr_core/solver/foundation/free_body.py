@@ -1,12 +1,13 @@
 """A free body on the chain: Newton's equation in steps that are exact for the elements.
 
-1. A step of constant ḋ = V is exact for every element, and so is the impulse J(V) of their force. The
-   velocity of the body changes from v to v₁ with m (v₁ − v) = −J(V), V = (v + v₁)/2, solved by Newton's
-   method. The kinetic energy changes by the work of this force: energy is conserved for every step size.
-   On a structure ḋ is V less the mean rate of the deflection, which changes by J/Z + (F₁ − F₀)/K along the
-   step, with the forces F₀ and F₁ at its ends. The waves take J²/Z over the duration of the step.
-2. One step ends at the turning point ḋ = 0, because the elements remember the largest depth, and one where
-   yield begins, because the force has a kink there.
+1. A step of constant ḋ = V is exact for every element. The impulse J(V) of their force is therefore also
+   exact. The velocity of the body changes from v to v₁ with m (v₁ − v) = −J(V), V = (v + v₁)/2, solved by
+   Newton's method. The kinetic energy changes by the work of this force: energy is conserved for every
+   step size. On a structure, ḋ is V minus the mean rate of the deflection. The deflection changes by
+   J/Z + (F₁ − F₀)/K along the step, with the forces F₀ and F₁ at its ends. The waves take J²/Z over the
+   duration of the step.
+2. One step ends at the turning point ḋ = 0, because the elements remember the largest depth. Another step
+   ends at the onset of yield, because the force has a kink there.
 3. Steps are equal in ln(T₀ + t), with the time t since first contact, then since the turning point.
 """
 
@@ -26,17 +27,17 @@ from .row import Row
 
 #: Largest number of steps, and largest depth over critical depth.
 _MAX_STEPS, _MAX_DEPTH_RATIO = 20_000, 1e11
-#: Share of the energy up to which a body that never leaves is followed.
+#: Share of the initial energy at which the motion of a body that never leaves ends.
 _REST = 1e-9
 
 
 def earlier_depth(history):
-    """Largest depth (m) of the moves of a foundation, at least 0."""
+    """Return the largest depth (m) of the moves of a foundation, at least 0."""
     return max([0.0, *(depth for depth, _ in history)])
 
 
 def impact_depth_bound(profile, medium, mass, speed, history):
-    """Depth (m) that a body of a mass (kg) and speed (m/s) does not exceed after earlier moves."""
+    """Return an upper bound (m) of the depth for a mass (kg) and a speed (m/s) after earlier moves."""
     momentum, start = mass * speed, earlier_depth(history)
     bound = min(
         depth_bound(profile, medium, "work", momentum * speed / 2, start),
@@ -51,7 +52,7 @@ def impact_depth_bound(profile, medium, mass, speed, history):
 
 
 def row_before(profile, medium, history, n, depth):
-    """`Row` after earlier moves, with edges at the radii of these and of a depth (m) to come."""
+    """Return the `Row` after earlier moves, with edges at the radii of these moves and of `depth` (m)."""
     level = np.array([earlier_depth(history), depth])
     level = np.append(level, plastic_depth(profile, medium, level))
     nodes = profile.contact_radius(level[level > 0]) if n >= 16 else ()
@@ -65,7 +66,7 @@ def row_before(profile, medium, history, n, depth):
 class BodyStep(NamedTuple):
     """One step: its ramp, the elements at its end, and their exchange.
 
-    At its end the velocity of the body and the rate of the depth (m/s), and on a support the force (N).
+    `velocity` of the body, `depth_rate` (m/s) and, on a support, `force` (N) are values at its end.
     """
 
     ramp: Ramp
@@ -79,8 +80,8 @@ class BodyStep(NamedTuple):
 class ImpactSolver:
     """Time integration of one impact.
 
-    `solved()` has its `motion`, the `row` at the end of contact, `quantities`, and whether the impact is
-    `endless`. `depth` (m) is about the largest depth.
+    After `solved()` it has the `motion`, the `row` at the end of contact, the `quantities`, and whether the
+    impact is `endless`. `depth` (m) is the approximate largest depth.
     """
 
     def __init__(self, row, mass, speed, steps, bound, structure, depth):
@@ -94,26 +95,26 @@ class ImpactSolver:
         self.last_rate, self.last_duration = speed, np.inf
         self.earlier_depth, self.tau = earlier_depth(row.history), medium.relaxation_time
         self.yield_depth = max(self.earlier_depth, row.onset)
-        # Velocities are computed to twelve digits of the velocity that damping leaves.
+        # Velocities are computed to twelve digits of the velocity that remains after damping.
         tau = max(self.tau, bound * 1e-9 / speed)
         limit = elastic_limit(row.profile, medium, bound)
         self.precision = 1e-12 * min(speed, min(bound, limit) / tau)
         self._record()
 
     def solved(self):
-        """The solver itself, after it has integrated from the start to the loss of contact."""
+        """Integrate from the start to the loss of contact, and return the solver itself."""
         self._approach()
         first, untouched = len(self.records), self.row
         self._advance_until(lambda: self.depth_rate <= self.precision, self.depth / self.speed)
         turning_time, max_force = self.time, self._max_force(untouched, first)
-        # Time scale of the rebound: of an oscillator of the stiffness 2E*a, or of its creep if overdamped.
+        # Time scale of the rebound: the time of an oscillator of stiffness 2E*a, or of its creep.
         stiffness = 2 * self.row.medium.E_star * force_and_radius(self.row)[1]
         rate = stiffness / (1 + stiffness / self.structure.stiffness) / self.mass
         unit = 1 / (np.sqrt(rate) + (self.tau + self.mass / self.structure.impedance) * rate)
         self.endless = self._never_leaves()
         self._advance_until(self._ended, unit)
         self._release_support()
-        # Contact ended in the last step where d + τḋ was the surface at the axis; no force acts afterwards.
+        # Contact ended in the last step, when d + τḋ was the surface at the axis; then no force acts.
         penetration, rate = self.row.elements.penetration[0], self.depth_rate
         release_time = self.time if self.endless else self.time - (penetration + self.tau * rate) / rate
         motion = self.motion = self._motion(max(release_time, turning_time))
@@ -125,7 +126,7 @@ class ImpactSolver:
             "contact_time": motion.time[-1] - motion.time[first - 1],
             "stored_energy": stored[motion.turning_index],
             "plastic_work": motion.plastic_work[-1] - motion.plastic_work[0],
-            # The energy that relaxing elements store at the end is dissipated afterwards.
+            # Relaxing elements dissipate their stored energy after the end.
             "viscous_work": viscous[-1] - viscous[0] + stored[-1] - stored[0],
             "structure_work": motion.structure_work[-1],
         }
@@ -134,8 +135,8 @@ class ImpactSolver:
     def _never_leaves(self):
         """Whether the velocity of the body goes to zero with the force, because a plate damps it.
 
-        Of a body on a spring 2E*c with a dashpot of the time τ, on a dashpot 1/β, both modes are overdamped
-        and slower than τ where βm − τ ≥ 2√(m/(2E*c)).
+        The body is on a spring 2E*c with a dashpot of the time τ, on a second dashpot 1/β. Both modes are
+        overdamped and slower than τ if βm − τ ≥ 2√(m/(2E*c)).
         """
         if not self.structure.is_plate:
             return False
@@ -146,9 +147,10 @@ class ImpactSolver:
         return excess > 0 and excess**2 * 2 * row.medium.E_star * c >= 4 * self.mass
 
     def _release_support(self):
-        """Gives the body what the steps have left in a support, which carries nothing after the contact.
+        """Give the body the energy left in a support, which carries no load after the contact.
 
-        It is of second order in the steps; without it the restitution has the error of the last one.
+        This energy is of second order in the steps. Without it the restitution has the error of the last
+        step.
         """
         if self.support_energy:
             energy = self.mass * self.velocity**2 / 2 + self.support_energy
@@ -157,7 +159,7 @@ class ImpactSolver:
             self._record()
 
     def _ended(self):
-        """Whether the contact has ended, or next to no energy is left in one that does not end."""
+        """Whether the contact has ended, or an endless contact has almost no energy left."""
         if self.endless:
             left = self.row.stored_energy + self.mass * self.velocity**2 / 2
             return left <= _REST * self.mass * self.speed**2 / 2
@@ -190,18 +192,18 @@ class ImpactSolver:
         raise MDRError(f"the impact needs more than {_MAX_STEPS} steps{why}; check the units, or {instead}")
 
     def _trial(self, rate, dt, velocity):
-        """Step at a constant rate (m/s) that ends with a velocity, and its impulse (N·s)."""
+        """Return a step at a constant rate (m/s) that ends with a velocity, and its impulse (N·s)."""
         ramp = self.row.ramp(rate * dt, dt)
         elements, exchange = element.advance(self.row.elements, ramp)
         step = BodyStep(ramp, elements, exchange, velocity, velocity)
         return step, self.row.total(exchange.impulse)
 
     def _step(self, dt):
-        """Step of duration dt (s) that satisfies Newton's equation."""
+        """Return the step of duration dt (s) that satisfies Newton's equation."""
         m, v, structure = self.mass, self.velocity, self.structure
-        # J and J/(Z Δt) take 2m and 2m/(Z Δt) of twice the momentum that the mean rate lacks.
+        # 2m (V − v) + J (1 + 2m/(Z Δt)) + … = 0: twice the momentum missing in the mean rate.
         share = 1 + 2 * m / structure.impedance / dt
-        # By the mean rates of two steps, as in the backward differentiation formula of second order.
+        # From the mean rates of two steps, as in the backward differentiation formula of second order.
         ahead = dt / (dt + self.last_duration)
 
         def excess(rate):
@@ -219,7 +221,7 @@ class ImpactSolver:
                 springs, dashpots = self._stiffness_and_drag(step.elements)
                 miss += unit * (force - self.support_force)
                 slope += unit * (springs * dt + dashpots * (1 + ahead))
-                # The depth turns round with the body; of the velocity the depth has a share.
+                # The depth turns with the body; its rate is a share of the velocity of the body.
                 end_rate = after / (1 + springs / structure.stiffness) if self.tau == 0 else end_rate
             return miss, slope, step._replace(velocity=after, depth_rate=end_rate, force=force)
 
@@ -228,19 +230,19 @@ class ImpactSolver:
         return root_in_bracket(excess, start, -np.inf, np.inf, close)
 
     def _stiffness_and_drag(self, elements):
-        """2E*a (N/m) of the springs that have not yielded, and 8ηa (N·s/m), at the end of a step."""
+        """Return 2E*a (N/m) of springs that have not yielded, and 8ηa (N·s/m), at the end of a step."""
         held = elements.contact & (elements.elastic < self.row.elastic_limit * (1 - 1e-12))
         return self.row.total(held.astype(float)), self.tau * self.row.total(elements.contact.astype(float))
 
     def _rate_on_plate(self, elements, velocity):
-        """Rate of the depth (m/s) of a body on a plate: ḋ = V − F/Z, in which the dashpots carry 8ηa ḋ."""
+        """Return the rate of the depth (m/s) on a plate, ḋ = V − F/Z; the dashpots carry 8ηa ḋ of F."""
         springs = self.row.total(np.where(elements.contact, elements.elastic, 0.0))
         drag = self.tau * self.row.total(elements.contact.astype(float))
         impedance = self.structure.impedance
         return (velocity - springs / impedance) / (1 + drag / impedance)
 
     def _step_to_yield(self, step):
-        """The step, shortened to end where yield begins if it crosses that depth."""
+        """Return the step, shortened to end at the onset of yield if it crosses that depth."""
         travel = self.yield_depth - self.row.depth
         for _ in range(4):
             if not 1e-9 * self.yield_depth < travel < step.ramp.travel:
@@ -249,7 +251,7 @@ class ImpactSolver:
         return step
 
     def _turning_step(self, max_dt, too_far):
-        """Step to velocity zero, J(v/2) = m v, within a step of duration max_dt (s) which is `too_far`."""
+        """Return the step to velocity zero, J(v/2) = m v, inside the step `too_far` of duration max_dt."""
         if not self.structure.rigid:
             return self._turning_step_on_structure(max_dt, too_far)
         m, v, velocity = self.mass, self.velocity, too_far.velocity
@@ -264,7 +266,7 @@ class ImpactSolver:
         return root_in_bracket(excess, guess, 0.0, max_dt, close)
 
     def _turning_step_on_structure(self, max_dt, too_far):
-        """Step to the depth rate zero within a step of duration max_dt (s) which is `too_far`."""
+        """Return the step to depth rate zero inside `too_far`, a step of duration max_dt (s)."""
 
         def excess(dt):
             step = self._step(dt)
@@ -285,7 +287,7 @@ class ImpactSolver:
             self.support_energy += force * (step.force - self.support_force) / self.structure.stiffness
             self.support_force = step.force
             self.last_rate, self.last_duration = step.ramp.travel / duration, duration
-        # The dashpots carry load at the rate at the end, not at the mean rate of the step.
+        # The load of the dashpots follows the rate at the end, not the mean rate of the step.
         self.row = self.row.after(step.ramp, step.elements, step.exchange, step.depth_rate)
         self.velocity, self.time = step.velocity, self.time + duration
         self.depth_rate = step.depth_rate
@@ -309,10 +311,11 @@ class ImpactSolver:
         return {name: np.array([record[name] for record in self.records]) for name in self.records[0]}
 
     def _max_force(self, row, first):
-        """Largest force (N) up to the turning point: of the steps, and of a parabola through three of them.
+        """Return the largest force (N) up to the turning point, from steps and a parabola through three.
 
-        Blunt indenters have most of the dashpots' force at once: the `first` step, from the `row`
-        before it, is sampled at times of every order of magnitude. On a support they press it first.
+        Under blunt indenters most of the dashpots' force acts at once. The `first` step, from the `row`
+        before it, is therefore sampled at times of every order of magnitude. This is not needed on a
+        support, which the dashpots press first.
         """
         columns = self._columns()
         time, depth, force = columns["time"], columns["depth"], columns["force"]
@@ -334,7 +337,7 @@ class ImpactSolver:
         i = min(max(int(np.argmax(force)), 1), len(force) - 2)
         if depth[i - 1] < self.yield_depth * (1 - 1e-3) and depth[i + 1] > self.yield_depth * (1 + 1e-3):
             return float(force.max())
-        # Beside a kink, as where a plateau begins behind a wall, the force does not bend as much.
+        # Next to a kink, such as the start of a plateau at a wall, the force bends less.
         bends = np.diff(np.diff(force) / np.diff(time)) / (time[2:] - time[:-2])
         if np.any(bends[max(i - 2, 0) : i + 1] > bends[i - 1] / 4):
             return float(force.max())
@@ -344,7 +347,7 @@ class ImpactSolver:
         return float(force[i] + slope * top / 2 if x[0] < top < 1 else force.max())
 
     def _motion(self, end):
-        """`Motion` of the recorded steps, with the last one moved to the time (s) at which contact ends."""
+        """Return the `Motion` of the recorded steps; its last time (s) is moved to the end of contact."""
         columns, row = self._columns(), self.row
         time, depth = columns["time"], columns["depth"]
         end = max(end, time[-2])

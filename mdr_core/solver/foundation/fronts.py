@@ -1,11 +1,12 @@
 """Fronts of contact and of yield inside an element: corrections to the sum over whole elements.
 
 A front is a radius at which contact or yield ends. At a contact front the line load jumps by 4ηḋ, at a
-yield front it has a kink. On a virgin surface the contact front is the contact radius; on a relaxing one it
-is where the gap between indenter and surface closes, extrapolated from the gaps of the free elements.
+yield front it has a kink. On a virgin surface the contact front is the contact radius. On a relaxing
+surface the gap between indenter and surface closes there; it is extrapolated from the gaps of the free
+elements.
 
 Everything is on one side of the axis. Radii (m) are counted from the axis, and the load is the line load
-q (N/m). Corrections are ∫ q dx less the sum Σ q Δx over elements (N).
+q (N/m). Corrections are ∫ q dx minus the sum Σ q Δx over elements (N).
 """
 
 from typing import NamedTuple
@@ -14,9 +15,9 @@ import numpy as np
 
 
 class _Side(NamedTuple):
-    """A `Row` as fronts see it: arrays with an entry for each element, numbered from the axis outward.
+    """Data of a `Row` for the fronts: arrays with one entry per element, numbered from the axis outward.
 
-    Element 0 is the one without width on the axis itself.
+    Element 0 is on the axis itself and has the width 0.
     """
 
     #: Radii of the midpoints and widths (m).
@@ -25,8 +26,8 @@ class _Side(NamedTuple):
     #: q (N/m) at the midpoints, 0 out of contact, and whether the element is in contact.
     load: np.ndarray
     contact: np.ndarray
-    #: Elastic and plastic part (m) of the compression, and depth (m) of the indenter below the surface that
-    #: the element would have, if it were relaxed: negative above.
+    #: Elastic and plastic part (m) of the compression, and depth (m) of the indenter below the surface of
+    #: the relaxed element, negative above it.
     elastic: np.ndarray
     plastic: np.ndarray
     penetration: np.ndarray
@@ -35,27 +36,27 @@ class _Side(NamedTuple):
 
     @classmethod
     def of(cls, row):
-        """That of a `Row` at present."""
+        """Return the data of a `Row` in its present state."""
         elements, load = row.elements, row.line_load
         parts = elements.elastic, elements.plastic, elements.penetration
         dashpot_load = row.medium.E_star * row.lag
         return cls(elements.x, elements.width, load, elements.contact, *parts, dashpot_load)
 
     def last_yielded(self):
-        """Number of the outermost element with a plastic part, −1 if there is none."""
+        """Return the number of the outermost element with a plastic part, or −1."""
         return int(np.count_nonzero(self.plastic)) - 1
 
     def virgin(self, number):
-        """Whether an element has been neither compressed nor plastically deformed."""
+        """Whether an element has neither an elastic nor a plastic part of the compression."""
         return self.elastic[number] == 0 and self.plastic[number] == 0
 
 
 class _Boundary(NamedTuple):
-    """Where an element in contact has a free neighbour, by the numbers of the elements."""
+    """A boundary between an element in contact and a free neighbour, by the numbers of the elements."""
 
     #: The element in contact.
     last: int
-    #: 1 where the contact ends outward, −1 where it ends towards the axis, as around a released centre.
+    #: 1 if the contact ends outward, −1 if it ends towards the axis, for example around a released centre.
     step: int
 
     @property
@@ -65,23 +66,23 @@ class _Boundary(NamedTuple):
 
     @property
     def second_free(self):
-        """The element behind the free neighbour, which may not exist, nor be free."""
+        """The element after the free neighbour; it may not exist, or not be free."""
         return self.last + 2 * self.step
 
     @property
     def second_last(self):
-        """The element behind the last one in contact, which may not exist, nor be in contact."""
+        """The element before the last element in contact; it may not exist, or not be in contact."""
         return self.last - self.step
 
     @classmethod
     def all(cls, contact):
-        """All of them, from the axis outward."""
+        """Return all boundaries, from the axis outward."""
         changes = np.flatnonzero(contact[1:] != contact[:-1]).tolist()
         return [cls(i, 1) if contact[i] else cls(i + 1, -1) for i in changes]
 
 
 def force_and_radius(row):
-    """Force (N) including the fronts, and outer radius (m) of the contact, 0 without contact."""
+    """Return the force (N) including the fronts, and the outer radius (m) of the contact or 0."""
     side = _Side.of(row)
     total = float(side.load @ side.width) + _yield_correction(side)
     radius = 0.0
@@ -95,17 +96,17 @@ def force_and_radius(row):
 
 
 def _virgin_radius(row, depth):
-    """Contact radius (m) at a depth on a virgin surface."""
+    """Return the contact radius (m) at a depth on a virgin surface."""
     return float(row.profile.radius_at(np.asarray(max(depth, 0.0))))
 
 
 def _yield_correction(side):
-    """∫ q dx over the element in which yield ends, less the sum's part of it (N); 0 where it is not known.
+    """Return the correction (N) for the element in which yield ends; 0 if it is not known.
 
-    The load is constant inside the front, and outside it falls on a straight line, which goes through the
-    first two elements that have not yielded. The `kink` is the radius at which this line reaches the load
-    of the last one that has. It lies in the last yielded element or in the next one, between the midpoint
-    and an edge. From the kink to this edge the load is below what the midpoint stands for by a triangle.
+    The load is constant inside the front. Outside, it falls on a straight line through the first two
+    elements that have not yielded. The `kink` is the radius at which this line reaches the load of the last
+    yielded element. It lies in the last yielded element or in the next element, between the midpoint and an
+    edge. From the kink to this edge, the load is below the load at the midpoint by a triangle.
     """
     x, load = side.x, side.load
     yielded = side.last_yielded()
@@ -125,11 +126,11 @@ def _yield_correction(side):
 
 
 def _narrow_ring(row, side, boundary, front):
-    """Correction (N) where yield ends within three elements of a virgin contact front, else None.
+    """Return the correction (N) if yield ends within three elements of a virgin contact front, else None.
 
-    There are too few elements for the slope of the load. It is constant up to the `kink`, the radius at
-    which g = d − u_c, and falls linearly from there to that of the dashpots at the `front`. The integral of
-    this, from the inner edge of the last yielded element to the front, takes the place of the sum.
+    There are too few elements for the slope of the load. The load is constant up to the `kink`, the radius
+    at which g = d − u_c. From there it falls linearly to the load of the dashpots at the `front`. Its
+    integral from the inner edge of the last yielded element to the front replaces the sum.
     """
     yielded, last = side.last_yielded(), boundary.last
     if boundary.step < 0 or not 0 < yielded <= last < yielded + 3 or not side.virgin(boundary.free):
@@ -148,9 +149,10 @@ def _narrow_ring(row, side, boundary, front):
 
 
 def _contact_correction(side, boundary, front):
-    """∫ q dx (N) from the edge of the last element in contact to the front, negative if that is inside it.
+    """Return ∫ q dx (N) from the edge of the last element in contact to the front.
 
-    The load is extrapolated to the middle of this piece from the last two elements in contact.
+    It is negative if the front is inside this element. The load is extrapolated to the middle of this piece
+    from the last two elements in contact.
     """
     x, load = side.x, side.load
     last, second = boundary.last, boundary.second_last
@@ -159,18 +161,18 @@ def _contact_correction(side, boundary, front):
     if 0 <= second < len(load) and side.contact[second]:
         slope = (load[last] - load[second]) / (x[last] - x[second])
     elif second < 0 and front > 0:
-        # Only the axis is in contact: the load falls to that of the dashpots at the front.
+        # Only the axis is in contact: the load falls to the load of the dashpots at the front.
         slope = (max(side.dashpot_load, 0.0) - load[last]) / front
     middle = float(load[last] + slope * ((front + edge) / 2 - x[last]))
     return boundary.step * (front - edge) * middle
 
 
 def _contact_front(row, side, boundary):
-    """Radius (m) of the front between the last element in contact and its free neighbour.
+    """Return the radius (m) of the front between the last element in contact and its free neighbour.
 
-    On a virgin surface the contact radius; at release where the line through the last two loads is zero;
-    else where the line through the gaps of the first two free elements is zero. Always between the two
-    midpoints, and halfway if none of these is.
+    On a virgin surface it is the contact radius. At release it is the zero of the line through the last two
+    loads, else the zero of the line through the gaps of the first two free elements. It is always between
+    the two midpoints, and halfway if neither zero is.
     """
     last, free = boundary.last, boundary.free
     lower, upper = sorted((float(side.x[last]), float(side.x[free])))
@@ -186,9 +188,9 @@ def _contact_front(row, side, boundary):
 
 
 def _zero(x, values, near, far):
-    """Radius (m) at which the line through the values of two elements is zero.
+    """Return the radius (m) at which the line through the values of two elements is zero.
 
-    None if there is no far element, or if its value is not above that of the near one.
+    It is None if there is no far element, or if its value is not larger than the value of the near element.
     """
     if not 0 <= far < len(x) or not values[near] < values[far] < np.inf:
         return None

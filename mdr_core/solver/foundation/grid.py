@@ -1,4 +1,4 @@
-"""Grid of a foundation: how far it must extend, and where the edges between its elements are.
+"""Grid of a foundation: its extent, and the edges between its elements.
 
 With an edge at every kink and jump of the line load, sums over the elements are of second order.
 """
@@ -11,17 +11,17 @@ from .cap import elastic_limit
 
 
 def cell_edges(profile, count, half_width, nodes=()):
-    """Edges (m) of `count` elements from 0 to `half_width`, with edges at the kinks and nodes."""
+    """Return the edges (m) of `count` elements from 0 to `half_width`, also at kinks and nodes."""
     fixed = _fixed_edges(profile, half_width, nodes)
     share = np.diff(fixed) / half_width
     if len(share) > count:
         raise check.MDRError(
-            f"n = {2 * count} elements are too few for the {len(share)} intervals between the axis, the "
-            f"kinks of the profile and the nodes on each side; give at least n = {2 * len(share)}"
+            f"n = {2 * count} elements are too few for the {len(share)} intervals between axis, kinks of "
+            f"the profile and nodes on each side; give at least n = {2 * len(share)}"
         )
     # Half of the elements by length, half equally: the interval just outside a flat face is short.
     share = (share + 1 / len(share)) / 2
-    # One element per interval; the others are rounded such that their sum is right.
+    # One element per interval; the numbers of the others are rounded so that the sum is right.
     extra = np.diff(np.floor((count - len(share)) * np.append(0, np.cumsum(share)) + 0.5).astype(int))
     extra[-1] += count - len(share) - extra.sum()
     power = _grading(profile, fixed)
@@ -32,8 +32,8 @@ def cell_edges(profile, count, half_width, nodes=()):
 
 
 def _fixed_edges(profile, half_width, nodes):
-    """Radii (m) of the axis, flat face, kinks, wall, nodes and half-width, distinct within rounding."""
-    # At depth 0 the contact radius is that of the flat face.
+    """Return the distinct radii (m) of axis, flat face, kinks, wall, nodes and half-width."""
+    # At depth 0 the contact radius is the radius of the flat face.
     own = profile.contact_radius(np.array([0.0, *profile.kinks]))
     radii = np.concatenate([own, [profile.wall], np.asarray(nodes, dtype=float)])
     radii = np.unique(radii[(radii > 0) & (radii < half_width * (1 - 1e-12))])
@@ -42,9 +42,9 @@ def _fixed_edges(profile, half_width, nodes):
 
 
 def _grading(profile, fixed):
-    """Power p of the edges ξ^p within each interval, 1 for equal elements.
+    """Return the power p of the edges ξ^p within each interval, 1 for equal elements.
 
-    Where g rises as (x − lower)^n with n < 1, p = 3/(1 + n) makes h³ g″ the same for all elements.
+    If g rises as (x − lower)^n with n < 1, p = 3/(1 + n) makes h³ g″ the same for all elements.
     """
     lower, length = fixed[:-1], np.diff(fixed)
     base, near, far = profile.reduced(lower + length * np.array([[0.0], [2.0**-20], [2.0**-19]]))
@@ -54,17 +54,17 @@ def _grading(profile, fixed):
 
 
 def depth_bound(profile, medium, quantity, amount, start=0.0):
-    """Depth (m) at which an amount of a quantity is taken up from depth `start` on, plus 5 %.
+    """Return the depth (m), plus 5 %, at which a quantity has grown by an amount since the depth `start`.
 
     The quantity is "force" (N) or "work" (J) of the springs, ∫F dd = 2E* ∫ (u_e²/2 + d_c u_p) dx, or
-    "momentum" (N s) of the dashpots, 8η ∫ a dd = 8η ∫ u dx. At most the known depth.
+    "momentum" (N s) of the dashpots, 8η ∫ a dd = 8η ∫ u dx. The depth is at most the known depth.
     """
     if quantity == "work" and not medium.inverse_to_radius:
         return _depth_of_work(profile, medium, amount, start)
     limit = elastic_limit(profile, medium, start)
 
     def taken_up(depth):
-        """The quantity at a depth, and about its derivative."""
+        """Return the quantity at a depth, and its approximate derivative."""
         radius = profile.contact_radius(depth)
         limit = elastic_limit(profile, medium, max(depth, start))
         width = radius / 64
@@ -89,7 +89,7 @@ def depth_bound(profile, medium, quantity, amount, start=0.0):
 
 
 def _depth_of_work(profile, medium, amount, start):
-    """`depth_bound` of a work (J) where the elastic limit changes with depth: a sum of forces."""
+    """Return `depth_bound` of a work (J) if the elastic limit changes with depth: a sum of forces."""
     share = (np.arange(64) + 0.5) / 64
 
     def work(end):

@@ -1,8 +1,8 @@
 """A contact narrower than an element: its force, energy and works are integrals over the contact itself.
 
-The element without width on the axis knows the history of all those inside the first one: with the profile
-there, their plastic parts are max(u_p − g, 0), and their penetrations are less by max(g − u_p, 0), with u_p
-on the axis. What has been released counts as relaxed when the indenter comes back to it.
+The element of width 0 on the axis, with the profile, determines the history of all points inside the first
+element. With u_p on the axis, their plastic parts are max(u_p − g, 0). Their penetrations are smaller by
+max(g − u_p, 0). Released points count as relaxed when the indenter returns to them.
 """
 
 from dataclasses import replace
@@ -16,7 +16,7 @@ from .element import Elements
 
 
 class ViscousLoss(NamedTuple):
-    """Energies (J): dissipated by the dashpots so far, and left in springs that relax out of contact."""
+    """Energies (J) dissipated by the dashpots so far, and left in springs that relax out of contact."""
 
     work: float = 0.0
     relaxing: float = 0.0
@@ -28,7 +28,7 @@ def was_always_narrow(row):
 
 
 def contact_within_an_element(row):
-    """Widths (m) and elastic parts (m) on a side of a contact narrower than an element, else None."""
+    """Return widths and elastic parts (m) on one side of a contact narrower than an element, or None."""
     elements = row.elements
     if not was_always_narrow(row) and (not elements.contact[0] or elements.contact[2:].any()):
         return None
@@ -40,7 +40,7 @@ def contact_within_an_element(row):
 
 
 def plastic_work(row):
-    """W_p = 2E* ∫ u_c c dd_p (J) of the largest contact radius so far, from that at the onset of yield on.
+    """Return W_p = 2E* ∫ u_c c dd_p (J), from the contact radius at the onset of yield to the largest one.
 
     c is the radius of the imprint of depth d_p = g(a) − u_c(a).
     """
@@ -57,13 +57,13 @@ def plastic_work(row):
 
 
 def viscous_loss(loss, row, moved, dt):
-    """`ViscousLoss` after the straight move of a row in a time (s) to where it has `moved`."""
+    """Return the `ViscousLoss` after the straight move of a row in a time (s) to the row `moved`."""
     ramp = row.ramp(moved.depth - row.depth, dt, moved.depth)
     before, along = min(row.lag, 0.0), min(ramp.lag, 0.0)
     slower = max(before, along)
     radii = [_imprint(row), _imprint(moved), _rim(row, before), _rim(row, along), _rim(moved, along)]
     start = _elements(row, radii)
-    # A slower retreat has the wider contact: it is reached at once by what relaxes.
+    # A slower retreat has a wider contact, which relaxing points reach at once.
     contact, former = start.penetration > -slower, start.penetration > -before
     start = replace(start, elastic=np.where(contact, start.penetration, 0.0), contact=contact)
     end, exchange = element.advance(start, ramp)
@@ -79,13 +79,13 @@ def viscous_loss(loss, row, moved, dt):
 
 
 def _imprint(row):
-    """Radius (m) of the imprint."""
+    """Return the radius (m) of the imprint."""
     plastic = float(row.elements.plastic[0])
     return float(row.profile.contact_radius(plastic)) if plastic > 0 else 0.0
 
 
 def _rim(row, lag):
-    """Radius (m) at which the springs carry as much as the dashpots with a lag (m) that is not positive."""
+    """Return the radius (m) at which springs and dashpots carry the same load, for a lag ≤ 0 (m)."""
     elements = row.elements
     penetration = float(elements.penetration[0]) + lag
     depth = float(elements.plastic[0]) + penetration
@@ -93,7 +93,7 @@ def _rim(row, lag):
 
 
 def _elements(row, radii):
-    """Relaxed `Elements` at the nodes of a quadrature from the axis to the largest of some radii (m)."""
+    """Return relaxed `Elements` at the nodes of a quadrature from the axis to the largest of radii (m)."""
     x, width = _nodes(radii)
     axis, g = row.elements, row.profile.reduced(x)
     penetration = axis.penetration[0] - np.maximum(g - axis.plastic[0], 0.0)
@@ -102,9 +102,9 @@ def _elements(row, radii):
 
 
 def _nodes(radii, start=0.0):
-    """Radii (m) and weights (m) of a quadrature between a start and all these radii (m)."""
+    """Return radii (m) and weights (m) of a quadrature between a start and all these radii (m)."""
     edges = np.unique([start, *radii])
     node, weight = gauss_legendre(24)
-    # From the axis, the edge of the imprint and the onset on, functions may be roots: even in t⁴.
+    # Functions may begin as roots at the axis, the edge of the imprint and the onset: nodes in t⁴.
     length = np.diff(edges)[:, None]
     return (edges[:-1, None] + length * node**4).ravel(), (length * (4 * node**3 * weight)).ravel()

@@ -1,6 +1,6 @@
-"""The row of elements on one side of the axis, in one state: what solvers of the chain move on.
+"""The row of elements on one side of the axis, in one state, for the solvers of the chain.
 
-`Foundation` shows users a row on both sides of the axis. Solvers take the row itself: its elements, the
+`Foundation` shows users a row on both sides of the axis. Solvers use the row itself: its elements, the
 ramps from its present depth, and the row at their ends.
 """
 
@@ -17,12 +17,12 @@ from .cap import elastic_limit, onset_depth
 from .element import Elements, Exchange, Ramp
 from .grid import cell_edges
 
-#: Largest number of elements; a state of these takes some GB.
+#: Largest number of elements; such a state needs some GB.
 _MAX_ELEMENTS = 10**7
 
 
 def element_count(n):
-    """Number of elements n as an int, if it is even and positive."""
+    """Return the number of elements n as an int if it is even and positive; otherwise raise an error."""
     count = check.positive_number("n", n)
     if count % 2 or count > _MAX_ELEMENTS:
         raise check.MDRError(
@@ -32,31 +32,31 @@ def element_count(n):
 
 
 class NarrowRow(check.MDRError):
-    """The error of a contact that is wider than its row of elements."""
+    """Error of a contact that is wider than its row of elements."""
 
 
 @dataclass(frozen=True, eq=False)
 class Row:
     """Independent elements on one side of the axis, in one state; immutable.
 
-    `Row.virgin` makes an undeformed one. `advance` and `ramp_to` return the row after a move. A solver that
-    looks for its next move makes a `ramp`, tries it by `element.advance(row.elements, ramp)`, and takes
-    what it accepts by `after`. Works are of both sides of the axis.
+    `Row.virgin` makes an undeformed row. `advance` and `ramp_to` return the row after a move. To find its
+    next move, a solver makes a `ramp`, tries it by `element.advance(row.elements, ramp)`, and gets the new
+    row by `after`. Works are sums over both sides of the axis.
     """
 
     #: The indenter, which touches the undeformed surface at depth 0, and the medium.
     profile: Profile
     medium: Medium
-    #: Length (m) of the row, and radii (m) of edges between elements that were asked for.
+    #: Length (m) of the row, and requested radii (m) of edges between elements.
     half_width: float
     nodes: tuple[float, ...]
-    #: Arrays of shape (n/2 + 1,) from the axis outward. The first element has no width: there, on the axis
+    #: Arrays of shape (n/2 + 1,) from the axis outward. The first element has the width 0: on the axis
     #: itself, contact begins and ends.
     elements: Elements
     #: Depth (m) at which the contact reaches the half-width, and at which the first element yields.
     edge_depth: float
     onset: float
-    #: Present depth d (m), and largest one so far, whose contact radius sets the elastic limit.
+    #: Present depth d (m), and largest depth so far; its contact radius determines the elastic limit.
     depth: float = 0.0
     largest: float = 0.0
     #: τḋ (m) at the present rate of the depth.
@@ -69,9 +69,9 @@ class Row:
 
     @classmethod
     def virgin(cls, profile, medium, n, half_width, nodes=()):
-        """An undeformed row of n elements on both sides, to a half-width (m), with edges at nodes (m).
+        """Make an undeformed row of n elements on both sides, to a half-width (m), with edges at nodes.
 
-        ValueError if n is odd or too small, or the half-width exceeds the known radius of the profile.
+        It raises ValueError if n is odd or too small, or the half-width exceeds the known radius.
         """
         n = element_count(n)
         known = profile.known_radius
@@ -79,7 +79,7 @@ class Row:
         if half_width > known:
             raise check.MDRError(
                 f"half_width = {half_width:g} m exceeds the known radius of the profile, {known:g} m; "
-                "give at most that"
+                "give a smaller half_width"
             )
         nodes = check.finite_array("nodes", nodes, unit="m").ravel()
         edges = cell_edges(profile, n // 2, half_width, nodes)
@@ -109,18 +109,18 @@ class Row:
 
     @property
     def stored_energy(self) -> float:
-        """Σ E* u_e² Δx/2 (J), which the works along the ramps balance to rounding."""
+        """Σ E* u_e² Δx/2 (J); it balances the works along the ramps to rounding."""
         return self.total(self.elements.elastic**2 / 2)
 
     def total(self, values) -> float:
-        """E* times the sum over both sides of a quantity of the elements times their width.
+        """Return E* times the sum, over both sides, of a quantity of the elements times their width.
 
-        Of compressions (m) it is a force (N), of energies (m²) of an `Exchange` an energy (J).
+        For compressions (m) it is a force (N), for energies (m²) of an `Exchange` an energy (J).
         """
         return float(2 * self.medium.E_star * (values @ self.elements.width))
 
     def advance(self, depth, dt=np.inf) -> "Row":
-        """The row after a straight ramp to a depth (m) in a time (s): as `Foundation.advance`, checked."""
+        """Return the row after a straight ramp to a depth (m) in a time (s), checked; see `Foundation`."""
         depth = check.number("depth", depth, "m")
         depth = float(check.finite_array("depth", depth, unit="m", most=check.LONGEST))
         dt = check.positive_number("dt", dt, unit="s", infinite=True)
@@ -133,41 +133,41 @@ class Row:
         return replace(moved, history=(*self.history, (depth, dt)))
 
     def ramp_to(self, depth, dt) -> "Row":
-        """`advance` in one ramp also where the elastic limit changes along it: for short ramps.
+        """Advance in one short ramp, even if the elastic limit changes along it.
 
-        Then the plastic work has an error of second order in the length of the ramp, and nothing else has.
+        Then only the plastic work has an error, of second order in the length of the ramp.
         """
         ramp = self.ramp(depth - self.depth, dt, depth)
         return self.after(ramp, *element.advance(self.elements, ramp))
 
     def _ends(self, depth):
-        """Depths (m) of ramps to a depth: one, or where the elastic limit changes many past the onset."""
+        """Return depths (m) of ramps to a depth: many past the onset if the elastic limit changes."""
         start = max(self.largest, self.onset)
         if self.medium.inverse_to_radius or depth <= start:
             return [depth]
-        # Between the ends of a ramp the plastic depth is taken as linear: an error of second order in 1/n.
+        # Between the ends of a ramp the plastic depth is linear, with an error of second order in 1/n.
         count = max(self.n // 4, 1)
         shares = (np.arange(count + 1) / count) ** 2
         ends = start + (depth - start) * shares
         return [*ends[(ends > self.depth) & (ends < depth)].tolist(), depth]
 
     def ramp(self, travel, dt, depth=None) -> Ramp:
-        """`Ramp` from the present depth by a travel (m) in a time (s), to a rounded depth (m) if given."""
+        """Return a `Ramp` by a travel (m) in a time (s), to a rounded depth (m) if given."""
         profile, medium, before = self.profile, self.medium, self.largest
         depth = self.depth + travel if depth is None else depth
         limit, ratio = elastic_limit(profile, medium, max(before, depth)), 1.0
         start = max(before, self.onset)
         if depth > start and not medium.inverse_to_radius:
             gain = depth - limit - max(start - elastic_limit(profile, medium, start), 0.0)
-            # Less is rounding, next to the onset or to the largest depth.
+            # A smaller gain is rounding, next to the onset or to the largest depth.
             ratio = (depth - start) / gain if gain > 1e-9 * depth else 1.0
         return Ramp(depth, travel, dt, medium.relaxation_time, limit, ratio)
 
     def after(self, ramp: Ramp, elements: Elements, exchange: Exchange, rate=None) -> "Row":
-        """The row at the end of a ramp, with its elements there and what they took up along it.
+        """Return the row at the end of a ramp, with its elements there and their exchange along the ramp.
 
-        The dashpots have the rate (m/s) of the ramp, or another. ValueError if the depth exceeds the known
-        one, or the contact the half-width.
+        The dashpots have the rate (m/s) of the ramp, or `rate`. It raises ValueError if the depth exceeds
+        the known depth, or the contact radius exceeds the half-width.
         """
         if ramp.depth > self.profile.known_depth:
             check_known(self.profile, np.asarray(ramp.depth))
@@ -175,7 +175,7 @@ class Row:
             radius = self.profile.contact_radius(ramp.depth)
             raise NarrowRow(
                 f"half_width = {self.half_width:g} m is less than the contact radius {radius:g} m at "
-                f"depth = {ramp.depth:g} m; give at least that"
+                f"depth = {ramp.depth:g} m; give a larger half_width"
             )
         return replace(
             self,

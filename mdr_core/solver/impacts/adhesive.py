@@ -1,9 +1,9 @@
 """Impacts with adhesion by the energy balance.
 
-The surfaces touch at the bottom of the imprint with the kinetic energy T, where the contact jumps to a
-radius a₀, with the energy E₀. On loading T + E₀ = E + W_p + kinetic energy; from the turning point on E is
-conserved up to E₁ at the pull-off. So T (1 − e²) = W_p + W_a with W_a = E₁ − E₀, and the body is captured
-where E at the turning point is not larger than E₁. Energies here are over 2E* (m³).
+The surfaces touch at the bottom of the imprint with the kinetic energy T. There the contact jumps to a
+radius a₀, with the energy E₀. On loading T + E₀ = E + W_p + kinetic energy. From the turning point, E plus
+kinetic energy is conserved up to E₁ at the pull-off. Therefore T (1 − e²) = W_p + W_a with W_a = E₁ − E₀,
+and the body is captured if E at the turning point is not larger than E₁. Energies here are over 2E* (m³).
 """
 
 from dataclasses import dataclass
@@ -62,9 +62,9 @@ class AdhesiveImpact(Impact):
 
     @check.frozen_property
     def adhesive_work(self):
-        """Energy (J) that adhesion takes: the work between touching and pull-off.
+        """Energy (J) lost to adhesion: the work between touching and pull-off.
 
-        Of a captured body all that yielding leaves of its kinetic energy.
+        For a captured body it is the kinetic energy minus the plastic work.
         """
         first = touching(self.profile, self.medium, self.plastic_depth - self.plastic_depth_increase)[1]
         last = pull_off(self.profile, self.medium, self.plastic_depth)[1]
@@ -81,7 +81,7 @@ class AdhesiveImpact(Impact):
 
 
 def adhesive_impact(profile, medium, mass, speed, imprint_depth):
-    """Impacts over imprints of given plastic depth (m)."""
+    """Solve impacts over imprints of given plastic depth (m)."""
     energy = mass * speed**2 / (4 * medium.E_star)
     interval, stretched = adhesive_turning_interval(profile, medium, energy, imprint_depth)
     increase = interval.lower - imprint_depth
@@ -98,7 +98,7 @@ def _energy(profile, medium, interval):
 
 
 def touching(profile, medium, before):
-    """Live interval (m) and energy (m³) after the jump into contact at an imprint's depth `before` (m)."""
+    """Return live interval (m) and energy (m³) after the jump into contact at the depth `before`."""
     before = np.asarray(before) if np.any(before) else np.zeros(())
     low = single_range(profile, medium, AT_DEPTH)
     interval, _ = contact_interval(profile, medium, before, np.zeros_like(before), low, np.inf)
@@ -106,13 +106,13 @@ def touching(profile, medium, before):
 
 
 def pull_off(profile, medium, lower):
-    """Live interval (m) and energy (m³) where the contact is lost over an imprint of depth `lower` (m)."""
+    """Return live interval (m) and energy (m³) at the loss of contact over an imprint of depth `lower`."""
     interval = last_interval(np.asarray(lower), single_range(profile, medium, AT_DEPTH))
     return interval, _energy(profile, medium, interval)
 
 
 def _loading(profile, medium, upper, before):
-    """E + W_p (m³) on loading up to D = `upper` (m), and its derivative (m²)."""
+    """Return E + W_p (m³) on loading up to D = `upper` (m), and its derivative (m²)."""
     interval, stretched = loaded_interval(profile, medium, upper, before)
     radius = profile.radius_at(upper)
     tension, energy = tension_and_energy(profile, interval, radius, stretched)
@@ -122,14 +122,14 @@ def _loading(profile, medium, upper, before):
 
 
 def adhesive_turning_interval(profile, medium, target, before):
-    """Live interval (m) and stretch Δl (m) at the turning point for kinetic energies `target` (m³).
+    """Return live interval (m) and stretch Δl (m) at the turning point for kinetic energies `target` (m³).
 
-    The interval is infinite where the turning point is deeper than the known depth.
+    The interval is infinite if the turning point is deeper than the known depth.
     """
     shape = target.shape
     profile = tabulated_for(profile, target.size, lambda: profile.known_depth)
     start, energy = touching(profile, medium, before)
-    # The springs at the rim take some more than the jump into contact gives: four steps instead of ten.
+    # The springs at the rim take more energy than the jump gives. This guess needs 4 steps instead of 10.
     guess, _ = turning_interval(yield_rule(profile, medium), target - 3 * energy, before)
     guess = guess.upper + stretch(medium, profile.radius_at(np.minimum(guess.upper, profile.known_depth)))
     arrays = (target + energy, np.maximum(guess, start.upper), start.upper, before)
@@ -154,12 +154,12 @@ def adhesive_turning_interval(profile, medium, target, before):
 
 
 def rebound_energy(profile, medium, interval):
-    """Energy (m³) that a body has left after the pull-off, negative where it is captured."""
+    """Return the energy (m³) of a body after the pull-off, negative if it is captured."""
     return _energy(profile, medium, interval) - pull_off(profile, medium, interval.lower)[1]
 
 
 def adhesive_contact_time(profile, medium, inertia, speed, interval, increase):
-    """Time (s) from touching to the pull-off, infinite for captured bodies, by quadrature over D.
+    """Return the time (s) from touching to pull-off, infinite for captured bodies, by quadrature over D.
 
     `inertia` is the mass over 2E*.
     """
@@ -171,7 +171,7 @@ def adhesive_contact_time(profile, medium, inertia, speed, interval, increase):
     kinks = [kink for kink in profile.kinks if np.any(kink < turn)]
 
     def passing(plastic_depth):
-        """D (m) at which loading reaches a plastic depth (m), and otherwise the turning point."""
+        """Return D (m) at which loading reaches a plastic depth (m), or else at the turning point."""
         live_depth = np.where(yields, medium.critical_depth, 0.0)
         reached, _ = contact_interval(profile, medium, plastic_depth, live_depth, low, np.inf)
         return np.where(yields & (plastic_depth >= before), reached.upper, turn)
@@ -194,10 +194,10 @@ def adhesive_contact_time(profile, medium, inertia, speed, interval, increase):
 
 
 def _passage(profile, medium, inertia, kinetic_energy, low, turn, kinks, breaks):
-    """Time (s) between D = `low` and the turning point D = `turn` (m), elementwise.
+    """Return the time (s) between D = `low` and the turning point D = `turn` (m), elementwise.
 
-    `kinetic_energy` (m³) is a function of D. Pieces end at `kinks`, past which a(D) or the energy is a
-    power of the distance, and at `breaks`.
+    `kinetic_energy` (m³) is a function of D. Pieces end at `breaks` and at `kinks`. Past a kink, a(D) or
+    the energy is a power of the distance.
     """
     node, weight = gauss_legendre(_NODES)
     low, turn, *cuts = np.broadcast_arrays(low, turn, *kinks, *breaks)
@@ -220,7 +220,7 @@ def _passage(profile, medium, inertia, kinetic_energy, low, turn, kinks, breaks)
 
 
 def _step(profile, medium, upper, kinetic, inertia):
-    """dt/dD (s/m) at D = `upper` (m) with a kinetic energy (m³)."""
+    """Return dt/dD (s/m) at D = `upper` (m) with a kinetic energy (m³)."""
     radius = profile.radius_at(upper)
     rate = 1 - stretch_rate(profile, radius, stretch(medium, radius)) / (2 * radius)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -231,8 +231,8 @@ def _step(profile, medium, upper, kinetic, inertia):
 def capture_speeds(profile: Profile, medium: Medium, mass: ArrayLike) -> tuple[Array, Array]:
     """Compute the speeds (m/s) between which a body rebounds from a virgin medium with adhesion.
 
-    Slower bodies are captured because their kinetic energy is less than the work of adhesion, and on a
-    medium that yields faster ones because the imprint holds them.
+    Slower bodies are captured because their kinetic energy is less than the work of adhesion. On a medium
+    that yields, faster bodies are captured because the imprint holds them.
 
     Parameters
     ----------
@@ -244,8 +244,8 @@ def capture_speeds(profile: Profile, medium: Medium, mass: ArrayLike) -> tuple[A
     Returns
     -------
     low, high : float or ndarray
-        The two speeds, of the shape of `mass`; 0 and infinity where there is no such end, NaN for both
-        where bodies of all speeds are captured.
+        The two speeds, of the shape of `mass`. Without a lower or upper end they are 0 or infinite. Both
+        are NaN if bodies of all speeds are captured.
 
     Raises
     ------
@@ -274,7 +274,7 @@ def capture_speeds(profile: Profile, medium: Medium, mass: ArrayLike) -> tuple[A
     known = min(float(np.min(profile.known_depth)), check.LONGEST)
     scales = [float(start.upper)]
     if d_c < np.inf:
-        # The imprint holds a body where Δl(c) is about d_c.
+        # The imprint holds a body when Δl(c) is about d_c.
         radius = medium.E_star * d_c**2 / (2 * np.pi * medium.work_of_adhesion)
         scales += [d_c, float(profile.reduced_at(np.asarray(min(radius, profile.known_radius))))]
     spaced = np.geomspace(1e-6, 1e6, 601)

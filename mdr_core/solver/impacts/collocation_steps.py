@@ -1,8 +1,8 @@
 """Steps of an equation of motion by collocation, in the depth or in the velocity, many impacts at once.
 
 The unknown of a step is the velocity as a function of the depth, or near the turning point the depth as a
-function of the velocity: every step ends at a known depth or velocity. The unknown is a polynomial through
-24 Gauss nodes, from Newton's method; time and viscous work are integrals over the step.
+function of the velocity. Every step ends at a known depth or velocity. The unknown is a polynomial through
+24 Gauss nodes, found by Newton's method. Time and viscous work are integrals over the step.
 """
 
 from dataclasses import dataclass, replace
@@ -16,8 +16,8 @@ from ..numerics.stable import cube_rise, cube_way
 from .equation_of_motion import Equation, MotionState
 
 _NODES, _WEIGHTS = gauss_legendre(24)
-#: Matrices from values at the nodes to the integrals up to them, and to the last three coefficients of the
-#: polynomial in Legendre's.
+#: Matrices from values at the nodes to the integrals up to them, and to the last three Legendre
+#: coefficients of the polynomial.
 _INTEGRATE, _ONE = gauss_integrals(24, _NODES), np.eye(24)
 _LAST = np.polynomial.legendre.legvander(2 * _NODES - 1, 23)[:, -3:] * _WEIGHTS[:, None]
 _LAST = _LAST * (2 * np.arange(21, 24) + 1)
@@ -25,20 +25,20 @@ _LAST = _LAST * (2 * np.arange(21, 24) + 1)
 
 @dataclass(frozen=True)
 class DepthCoordinate(Entries):
-    """Coordinate δ of depths q = base + (root + δ)³ − root³ (m), one impact a row of (N, 1).
+    """Coordinate δ of depths q = base + (root + δ)³ − root³ (m), one impact per row of (N, 1).
 
-    Behind a kink or vertex a(s) is a fractional power of the distance (root³ at `base`), but smooth in δ.
+    After a kink or vertex a(s) is a fractional power of the distance (root³ at `base`), but smooth in δ.
     """
 
     base: np.ndarray
     root: np.ndarray
 
     def depth(self, delta):
-        """Depths (m) at coordinates."""
+        """Return the depths (m) at coordinates."""
         return self.base + cube_rise(self.root, delta)
 
     def delta(self, depth):
-        """Coordinates of depths (m)."""
+        """Return the coordinates of depths (m)."""
         # Both are infinite below the known depth.
         with np.errstate(invalid="ignore"):
             return cube_way(self.root, depth - self.base)
@@ -46,10 +46,10 @@ class DepthCoordinate(Entries):
 
 @dataclass(frozen=True)
 class Steps(Entries):
-    """Steps of impacts, one a row, from states `start`: base class of steps in depth and in velocity.
+    """Steps of impacts, one per row, from states `start`: base class of steps in depth and in velocity.
 
-    The variable of a step goes from `origin` on by `length` (N, 1). `slopes` (N, 3, 24) are the rates of
-    the unknown, of time and of work at the nodes.
+    The variable of a step goes from `origin` by `length` (N, 1). `slopes` (N, 3, 24) are the rates of the
+    unknown, of time and of work at the nodes.
     """
 
     equation: Equation
@@ -60,22 +60,22 @@ class Steps(Entries):
     slopes: np.ndarray | None = None
 
     def at(self, share):
-        """The `MotionState` at shares of the steps, of shape (N, K)."""
+        """Return the `MotionState` at shares of the steps, of shape (N, K)."""
         matrix = gauss_integrals(_NODES.size, share.ravel()).reshape(*share.shape, -1)
         return self.state(share, np.einsum("nkj,nsj->snk", matrix, self.slopes))
 
     def end(self):
-        """The `MotionState` at the ends (N, 1): more exact than between the nodes."""
+        """Return the `MotionState` at the ends (N, 1), which is more accurate than between the nodes."""
         return self.state(1.0, (self.slopes @ _WEIGHTS).T[..., None])
 
     def state(self, share, integrals):
-        """The `MotionState` at shares of the steps, from the integrals of `slopes` up to there."""
+        """Return the `MotionState` at shares of the steps, from the integrals of `slopes` up to there."""
         change, time, work = self.length * integrals
         depth, velocity = self._depth_and_velocity(self.origin + self.length * share, change)
         return MotionState(depth, velocity, self.start.time + time, self.start.work + work)
 
     def solved(self):
-        """The steps with their slopes, and estimates of their relative errors, infinite where unsolved."""
+        """Return the steps with their slopes, and their estimated relative errors, infinite if unsolved."""
         slopes = self._slopes(self.origin + self.length * _NODES)
 
         def slope_and_jacobian(unknown):
@@ -85,7 +85,7 @@ class Steps(Entries):
         unknown, settled = _collocate(slope_and_jacobian, self._first_unknown(), self.length)
         step = replace(self, slopes=np.stack(slopes(unknown)[0], axis=1))
         end, bodies = step.end(), self.equation.bodies
-        # Near zero the work counts against a part of the kinetic energy.
+        # A work near zero is compared with a part of the kinetic energy.
         work = np.abs(end.work) + 1e-3 * bodies.inertia * bodies.speed**2
         size = np.hstack([self._size(end), np.abs(end.time), work])
         with np.errstate(all="ignore"):
@@ -93,7 +93,7 @@ class Steps(Entries):
         return step, np.where(settled & (error < np.inf), error, np.inf)
 
     def largest_deceleration(self):
-        """The largest deceleration (m/s²) within each step, next to the node where it is largest."""
+        """Return the largest deceleration (m/s²) within each step, next to the node where it is largest."""
 
         def deceleration(share):
             state = self.at(share)
@@ -111,21 +111,21 @@ class DepthSteps(Steps):
         return self.start.velocity
 
     def _size(self, end):
-        # A velocity that falls to zero counts against a part of the first one.
+        # A velocity that falls to zero is compared with a part of the first velocity.
         return np.abs(end.velocity) + np.abs(self.start.velocity) / 10
 
     def _depth_and_velocity(self, delta, change):
         return self.coordinate.depth(delta), self.start.velocity + change
 
     def _slopes(self, delta):
-        """Function from the unknown to slopes of unknown, time and work, and ∂(first)/∂(unknown)."""
+        """Return a function from the unknown to slopes of unknown, time, work and ∂(first)/∂(unknown)."""
         load, radius = self.equation.load(self.coordinate.depth(delta))
         damping, depth_rate = self.equation.damping(radius), 3 * (self.coordinate.root + delta) ** 2
         depth_share = self.equation.depth_share(radius)
 
         def slopes(velocity):
             rate, acceleration, power = self.equation.rates(load, radius, velocity)
-            # A step that is too long passes the turning point; it is not good.
+            # A step that is too long passes the turning point, and is rejected.
             with np.errstate(all="ignore"):
                 time = depth_rate / rate
                 change = damping + acceleration * depth_share / rate
@@ -134,8 +134,8 @@ class DepthSteps(Steps):
         return slopes
 
     def decelerations(self):
-        """Decelerations (m/s²) at the nodes."""
-        # At an end in the coordinate of a kink both may be 0.
+        """Return the decelerations (m/s²) at the nodes."""
+        # At an end at a kink both slopes may be 0.
         with np.errstate(divide="ignore", invalid="ignore"):
             return -self.slopes[:, 0] / self.slopes[:, 1]
 
@@ -158,7 +158,7 @@ class VelocitySteps(Steps):
             rate, acceleration, power = self.equation.rates(load, radius, velocity)
             stiffness = self.equation.stiffness(depth, load, radius, velocity)
             stiffness = stiffness * self.equation.depth_share(radius)
-            # Without contact there is no acceleration; such a step is not good.
+            # Without contact there is no acceleration; such a step is rejected.
             with np.errstate(all="ignore"):
                 jacobian = stiffness * velocity / self.equation.bodies.inertia / acceleration**2
                 return (rate / acceleration, 1 / acceleration, power / acceleration), jacobian
@@ -166,21 +166,21 @@ class VelocitySteps(Steps):
         return slopes
 
     def decelerations(self):
-        """Decelerations (m/s²) at the nodes."""
+        """Return the decelerations (m/s²) at the nodes."""
         return -1 / self.slopes[:, 1]
 
 
 def _collocate(derivative, first, length):
-    """Solutions of u′ = f(u) over intervals as polynomials through 24 Gauss nodes, one interval a row.
+    """Solve u′ = f(u) over intervals by polynomials through 24 Gauss nodes, one interval per row.
 
-    `derivative` gives f and ∂f/∂u for values of u at the nodes; `first` and `length`, of shape (N, 1), are
-    u at the start and the length of each interval. Returns u at the nodes, of shape (N, 24) and of one sign
-    in each interval, and whether Newton's method has converged.
+    `derivative` returns f and ∂f/∂u for values of u at the nodes. `first` and `length`, of shape (N, 1),
+    are u at the start and the length of each interval. Return u at the nodes, of shape (N, 24) and of one
+    sign in each interval, and whether Newton's method has converged.
     """
     u, settled = np.repeat(first, len(_INTEGRATE), axis=1), np.zeros(len(first), bool)
     for _ in range(8):
         value, rate = derivative(u)
-        # An interval that is too long may leave double precision; it is not settled.
+        # In an interval that is too long, values may overflow; it is not settled.
         with np.errstate(all="ignore"):
             change = _newton_step(u - first - length * (value @ _INTEGRATE.T), length * rate)
             u = np.where(change / u < 0.75, u - change, u / 4)
@@ -191,11 +191,11 @@ def _collocate(derivative, first, length):
 
 
 def _newton_step(residual, rate):
-    """δ with δ − ∫ f′δ = r for the residual r and the rate f′, times the length, at the nodes.
+    """Return δ with δ − ∫ f′δ = r for the residual r and the rate f′, times the length, at the nodes.
 
     It is δ = r + E ∫ f′r/E with E = exp ∫ f′. Up to E = e^10 its polynomial is so accurate that Newton's
-    method converges as fast; up to e^20 it leaves 10⁻¹² of u, which times f′ is an error of the slope that
-    no shorter step makes less.
+    method converges as fast. Up to e^20 it would leave 10⁻¹² of u. Times f′ this is an error of the slope,
+    which shorter steps do not reduce.
     """
     exponent = rate @ _INTEGRATE.T
     factor = np.exp(exponent)
@@ -209,5 +209,5 @@ def _newton_step(residual, rate):
 
 
 def _last_coefficient(values):
-    """Largest of the last three Legendre coefficients of polynomials through 24 Gauss nodes."""
+    """Return the largest of the last three Legendre coefficients of polynomials through 24 Gauss nodes."""
     return np.abs(values @ _LAST).max(axis=-1)

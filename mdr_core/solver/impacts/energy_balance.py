@@ -1,12 +1,12 @@
 """Impacts without viscosity by the energy balance: maximum depth and restitution, without time stepping.
 
 The indenter meets a medium with an imprint of plastic depth p₀ (0 if virgin). Up to the penetration
-y = d − p₀ its work is the energy 2E* ∫(d − s) a ds that is stored over the live interval, plus the plastic
-work. A support of stiffness K takes up F²/2K besides: the kinetic energy is spent where
+y = d − p₀ its work is the energy U = 2E* ∫(d − s) a ds stored over the live interval, plus the plastic work
+W_p. A support of stiffness K additionally takes up F²/2K. The kinetic energy is spent when
 
     U + W_p + F²/2K = m v₀²/2
 
-and on the way back U and F²/2K are returned. With F = 2E* Φ and κ = 2E*/K the last term over 2E* is κ Φ²/2.
+On the way back, U and F²/2K are returned. With F = 2E* Φ and κ = 2E*/K, the last term over 2E* is κ Φ²/2.
 """
 
 from dataclasses import dataclass, replace
@@ -32,7 +32,7 @@ class DryImpact(Impact):
 
     @check.frozen_property
     def restitution(self):
-        """e = √(R/(R + W_p)), R = U + F²/2K, with the sum for the kinetic energy: it is never above 1."""
+        """e = √(R/(R + W_p)), R = U + F²/2K; with this sum as the kinetic energy, e is never above 1."""
         profile, modulus = self._rule.profile, 2 * self.medium.E_star
         returned = modulus * integrals(profile).energy_integral(self.turning_point.live_interval)
         if np.any(self.structure.is_support):
@@ -49,16 +49,16 @@ class DryImpact(Impact):
         """Time (s) from first contact to the loss of contact."""
         inertia = self.mass / (2 * self.medium.E_star)
         rule, interval = yield_rule(self.profile, self.medium), self.turning_point.live_interval
-        support_compliance = _give(self.medium, self.structure)
+        support_compliance = _support_compliance(self.medium, self.structure)
         return contact_time(
             rule, inertia, self.speed, interval, self.plastic_depth_increase, support_compliance
         )
 
 
 def dry_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID):
-    """Impacts over imprints of given plastic depth (m); on plates as without them."""
+    """Solve impacts over imprints of given plastic depth (m), without the losses to plates."""
     energy = mass * speed**2 / (4 * medium.E_star)
-    rule, support_compliance = yield_rule(profile, medium), _give(medium, structure)
+    rule, support_compliance = yield_rule(profile, medium), _support_compliance(medium, structure)
     interval, increase = turning_interval(rule, energy, imprint_depth)
     if support_compliance is not None:
         deepest = depth_before_snap(
@@ -69,15 +69,16 @@ def dry_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID):
     return DryImpact(mass[()], speed[()], turning_point, increase, structure=structure)
 
 
-def _give(medium, structure):
-    """κ = 2E*/K (1/m) of supports, None if there are none."""
+def _support_compliance(medium, structure):
+    """Return κ = 2E*/K (1/m) of supports, or None without supports."""
     return 2 * medium.E_star / structure.stiffness if np.any(structure.is_support) else None
 
 
 def largest_force(rule, turning_point, increase):
-    """Largest force (N) of the springs: at the turning point, or before it if the force falls with depth.
+    """Return the largest force (N) of the springs, at the turning point or before it.
 
-    `increase` (m) is that of the plastic depth.
+    It is before the turning point if the force falls with depth. `increase` (m) is the increase of the
+    plastic depth.
     """
     force, interval, shape = turning_point.force, turning_point.live_interval, np.shape(increase)
     if not rule.may_fall(turning_point.depth):
@@ -89,7 +90,7 @@ def largest_force(rule, turning_point, increase):
 
 
 def _largest_area(rule, imprint, penetration):
-    """Largest ∫ a ds (m²) on loading from the onset of yield to penetrations (m), one a row of (N, 1)."""
+    """Return the largest ∫ a ds (m²) from the onset of yield to penetrations (m), one per row of (N, 1)."""
     start = np.minimum(rule.penetration(imprint, imprint), penetration)
 
     def area(share):
@@ -101,12 +102,12 @@ def _largest_area(rule, imprint, penetration):
 
 
 def turning_interval(rule, target, before, support_compliance=None, deepest=np.inf):
-    """Live interval at the turning point of a dry impact, and the increase Δ (m) of the plastic depth.
+    """Return the live interval at the turning point of a dry impact, and the increase Δ (m) of d_p.
 
-    Elementwise for kinetic energies `target` over 2E* (m³), to whose shape the imprint's depth `before` (m)
-    and the parameters of the `YieldRule` broadcast. `support_compliance` is κ = 2E*/K (1/m) of a support,
-    `deepest` a penetration (m) which it does not reach. The interval is infinite where the turning point is
-    deeper than the known depth.
+    It is elementwise for kinetic energies `target` over 2E* (m³). The imprint's depth `before` (m) and the
+    parameters of the `YieldRule` broadcast to the shape of `target`. `support_compliance` is κ = 2E*/K
+    (1/m) of a support, and `deepest` (m) an upper bound of the penetration. The interval is infinite if the
+    turning point is deeper than the known depth.
     """
     interval = None if np.any(before) or support_compliance is not None else rule.turning_interval(target)
     if interval is not None:
@@ -115,7 +116,7 @@ def turning_interval(rule, target, before, support_compliance=None, deepest=np.i
     given = rule
 
     def largest_depth():
-        """Depth (m) of the impact of the largest energy; a deeper one is beyond the table, and slower."""
+        """Return the depth (m) of the largest energy; deeper impacts are beyond the table, and slower."""
         row = np.unravel_index(np.argmax(target), shape)
         imprint = np.broadcast_to(before, shape)[row]
         energy = np.array([target[row]])
@@ -124,19 +125,19 @@ def turning_interval(rule, target, before, support_compliance=None, deepest=np.i
     rule = replace(rule, profile=tabulated_for(rule.profile, target.size, largest_depth))
     unit, *scales = integrals(rule.profile).unit
     rule = rule.flat_entries(slice(None), shape)
-    # Apart from results and arguments, arrays are no longer than a block.
+    # Except for results and arguments, arrays are no longer than a block.
     _, arrays = broadcast_flat(
         target, before, *scales, 0.0 if support_compliance is None else support_compliance, deepest
     )
     result = np.empty((4, target.size))
     for rows in chunks(target.size, LONG):
-        energy, imprint, length, depth, own_give, end = (array[rows] for array in arrays)
+        energy, imprint, length, depth, own_compliance, end = (array[rows] for array in arrays)
         part = rule.flat_entries(rows, (target.size,))
         part = part.in_units_of(unit.flat_entries(rows, shape), length, depth)
         imprint = imprint / depth
-        own_give = None if support_compliance is None else own_give * length
+        own_compliance = None if support_compliance is None else own_compliance * length
         energy = energy / (length * depth**2)
-        y = _penetration(part, energy, imprint, support_compliance=own_give, deepest=end / depth)
+        y = _penetration(part, energy, imprint, support_compliance=own_compliance, deepest=end / depth)
         interval, increase = part.turning(y, imprint)
         result[:, rows] = depth * np.array([interval.lower, interval.upper, interval.length, increase])
     *interval, increase = result.reshape(4, *shape)
@@ -144,13 +145,13 @@ def turning_interval(rule, target, before, support_compliance=None, deepest=np.i
 
 
 def _penetration(rule, target, before, close=1e-7, support_compliance=None, deepest=np.inf):
-    """y = d − p₀ (m) at which the work over 2E* is `target` (m³); infinite below the known depth.
+    """Return y = d − p₀ (m) at which the work over 2E* is `target` (m³); infinite below the known depth.
 
-    With κ (1/m) of a support, `support_compliance`, its energy κ Φ²/2 is a part of the work, which grows up
-    to the penetration `deepest` (m).
+    With κ (1/m) of a support, `support_compliance`, the support's energy κ Φ²/2 is a part of the work. The
+    work grows up to the penetration `deepest` (m).
 
-    The work grows about as a power of y: Newton's method on their logarithms. After a step of less than
-    `close` the next one would be about its square: with 10⁻⁷ that is rounding.
+    The work grows approximately as a power of y, so that Newton's method solves for their logarithms. After
+    a step smaller than `close`, the next step would be about its square: for 10⁻⁷ this is rounding.
     """
 
     def work(y, rows):
@@ -162,9 +163,9 @@ def _penetration(rule, target, before, close=1e-7, support_compliance=None, deep
     rows = np.arange(y.size)
     for _ in range(12):
         value, slope = work(y[rows], rows)
-        # Far from the root powers leave double precision.
+        # Far from the root, powers may overflow.
         with np.errstate(all="ignore"):
-            # Where the force has nearly no slope, as past the onset on a soft support, a step is no guess.
+            # If the force has almost no slope, as past the onset on a soft support, steps are too long.
             step = np.clip(np.log(target[rows] / value) * value / (slope * y[rows]), -60.0, 60.0)
             new = np.minimum(y[rows] * np.exp(step), highest[rows])
         # At the known depth the work is still less than the energy.
@@ -172,14 +173,14 @@ def _penetration(rule, target, before, close=1e-7, support_compliance=None, deep
         rows = rows[~(np.abs(step) < close) & (y[rows] < np.inf)]
         if not rows.size:
             return y
-    # The first guess was poor, or left double precision: in a bracket.
+    # The first guess was poor, or overflowed: search in a bracket.
     y[rows] = increasing_root(lambda y: work(y, rows), target[rows], 1.0, highest[rows])
     return y
 
 
 def _first_guess(rule, target, before):
-    """Penetration (m) to about 10⁻⁴ from the table of a profile, else that of the onset of yield."""
-    # Against the onset: 1.4 times as fast for 300 impacts of samples, 1.6 times for 10⁵ of a rounded cone.
+    """Return the penetration (m) to about 10⁻⁴ from the table of a profile, else at the onset of yield."""
+    # Compared with the onset: 1.4 times as fast for 300 impacts of samples, 1.6 for 10⁵ of a rounded cone.
     onset = rule.penetration(before, before)
     table, imprint = integrals(rule.profile).table, before.any()
     if table is None:
@@ -190,9 +191,9 @@ def _first_guess(rule, target, before):
         with np.errstate(divide="ignore"):
             punch = np.sqrt(2 * target / table.radius(before))
         elastic = np.where(before > 0, np.minimum(elastic, punch), elastic)
-    # The mean of a force that goes as the power 3/2 of the depth is nearly that in the middle.
+    # The mean of a force ∝ depth^(3/2) is nearly its value in the middle.
     cap = rule.cap(before + elastic)
-    # The cap may be 0 or infinite, where the other guess is taken.
+    # If the cap is 0 or infinite, the other guess is used.
     with np.errstate(divide="ignore", invalid="ignore"):
         middle = table.depth_of_area(target / cap + (table.area(before) if imprint else 0.0))
         yielding = middle - cap * cap / (48 * middle) + cap / 2 - before

@@ -1,7 +1,7 @@
 """Impact of a free rigid body.
 
-On a medium without viscosity it is solved by the energy balance and quadrature, without time stepping, on a
-viscous one by the equation of motion.
+Without viscosity it is solved by the energy balance and quadrature, without time stepping. With viscosity
+it is solved by the equation of motion.
 """
 
 import numpy as np
@@ -44,12 +44,11 @@ def impact(
     mass, speed : float or array_like
         Mass m (kg), and speed v₀ (m/s) at first contact, positive.
     plastic_depth : float or array_like, optional
-        Plastic depth (m) of a relaxed imprint of the same indenter: for repeated impacts, the
-        `plastic_depth` of the previous one. 0 (the default) is a virgin medium.
+        Plastic depth (m) of a relaxed imprint of the same indenter; for repeated impacts, the
+        `plastic_depth` of the previous impact. 0 (the default) is a virgin medium.
     structure : Structure, optional
         The plate, rod or support that carries the medium; by default the body behind the surface is at
-        rest. A plate without edges is at rest again after an impact; the next one on the imprint starts
-        from there.
+        rest. A plate without edges is at rest again after an impact, before the next impact on the imprint.
 
     Returns
     -------
@@ -59,10 +58,10 @@ def impact(
     Raises
     ------
     ValueError
-        If an argument is out of its range; if the indenter would go deeper than its profile is known; if a
-        `HardnessLaw` is invalid (negative, jumps) below the largest contact radius. On a structure if the
-        medium is viscous (`chain_impact` solves that) or adhesive, or if the contact snaps on a support:
-        its force falls with depth by more than the stiffness of the support.
+        If an argument is out of its range. If the indenter would go deeper than the known depth of its
+        profile. If a `HardnessLaw` is invalid (negative, jumps) below the largest contact radius. On a
+        structure, if the medium is viscous (`chain_impact` solves this case) or adhesive, or if the contact
+        snaps on a support: its force falls with depth by more than the stiffness of the support.
 
     Examples
     --------
@@ -80,7 +79,7 @@ def impact(
 
 
 def solve_impact(profile, medium, mass, speed, plastic_depth, structure=None, *, in_time=False):
-    """`impact`; `in_time` the equation of motion is solved also where there is no viscosity."""
+    """Solve `impact`; with `in_time`, use the equation of motion also without viscosity."""
     check_pair(profile, medium)
     mass = check.positive("mass", mass, unit="kg")
     speed = check.positive("speed", speed, unit="m/s")
@@ -95,7 +94,7 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, structure=None, *,
     mass, speed, imprint_depth = (np.broadcast_to(values, shape) for values in (mass, speed, imprint_depth))
     outside = imprint_depth > profile.known_depth
     if np.any(outside):
-        bound, advice = f"is {_too_deep(profile, outside)}", "give a smaller one"
+        bound, advice = f"is {_too_deep(profile, outside)}", "give a smaller plastic_depth"
         check.raise_if("plastic_depth", imprint_depth, outside, bound, unit="m", advice=advice)
     hit = _solved(profile, medium, mass, speed, imprint_depth, structure, in_time)
     check_reached(profile, medium, hit.turning_point.live_interval.upper)
@@ -108,30 +107,30 @@ def solve_impact(profile, medium, mass, speed, plastic_depth, structure=None, *,
 
 
 def _too_deep(profile, where):
-    """Words for the known depth of the first indenter of an ensemble at a mask."""
+    """Return words for the known depth of the first indenter of an ensemble at a mask."""
     return profile.flat_entries(int(np.argmax(where)), where.shape).too_deep()
 
 
 def _refuse_losses(medium, structure, shape):
-    """Refuses adhesion and viscosity of an entry on a structure, and adhesion of others in the ensemble."""
+    """Raise an error for adhesion or viscosity of entries on a structure, or adhesion next to these."""
     on_structure = np.broadcast_to(
         structure.is_plate | structure.is_support | (structure.modes is not None), shape
     )
     work, quantity = np.broadcast_to(medium.work_of_adhesion, shape), "work of adhesion work_of_adhesion"
-    bound, advice = "is not computed together with a structure", "set work_of_adhesion = 0"
+    bound, advice = "is not supported together with a structure", "set work_of_adhesion = 0"
     check.raise_if(quantity, work, (work > 0) & on_structure, bound, unit="J/m²", advice=advice)
-    bound, advice = "is not solved together with entries on a structure", "solve these apart"
+    bound, advice = "is not supported together with entries on a structure", "solve these separately"
     check.raise_if(quantity, work, work > 0, bound, unit="J/m²", advice=advice)
     eta = np.broadcast_to(medium.eta, shape)
-    bound = "is not computed together with a structure by `impact`"
+    bound = "is not supported together with a structure by `impact`"
     advice = "take chain_impact(…, structure=…), or set eta = 0"
     if structure.modes is not None:
-        bound, advice = "is not computed together with a structure by its modes", "set eta = 0"
+        bound, advice = "is not supported together with a structure with modes", "set eta = 0"
     check.raise_if("viscosity eta", eta, (eta > 0) & on_structure, bound, unit="Pa·s", advice=advice)
 
 
 def _solved(profile, medium, mass, speed, imprint_depth, structure, in_time):
-    """The `Impact` by the solver for its medium, with an infinite depth below the known depth."""
+    """Return the `Impact` by the solver for its medium; depths below the known depth are infinite."""
     if structure.modes is not None:
         return modal_impact(profile, medium, mass, speed, imprint_depth, structure)
     if np.any(np.asarray(medium.work_of_adhesion) > 0):

@@ -24,9 +24,9 @@ from .result import Impact
 class ModalErrors(NamedTuple):
     """Estimated errors of an impact on modes, each relative to the quantity.
 
-    They are three times the change by half of the modes, the others without inertia, and the change by a
-    tolerance that is 100 times larger. Of 100 impacts of balls on plates they cover 97. Where a body hits
-    dozens of times, neither converges.
+    An error is three times the change by half of the modes (the others then have no inertia), plus the
+    change by a 100 times larger tolerance. Of 100 impacts of balls on plates they cover 97. If a body hits
+    dozens of times, neither change converges.
     """
 
     restitution: Array
@@ -38,22 +38,22 @@ class ModalErrors(NamedTuple):
 class ModalImpact(Impact):
     """Impacts on a structure with modes, from first touch until the body has left.
 
-    A body may hit several times. `contact_time` is that from first touch to the last loss of contact,
-    infinite for a captured body, which does not leave within 100 periods of the lowest oscillation. On a
-    free structure `restitution` is negative where the body goes on behind it.
+    A body may hit several times. `contact_time` is the time from first touch to the last loss of contact.
+    It is infinite for a captured body, which does not leave within 100 periods of the lowest oscillation.
+    On a free structure, `restitution` is negative if the body continues behind it.
     """
 
     restitution: Array = field()
     contact_time: Array = field()
     max_force: Array = field()
-    #: Energy (J) that the structure has taken: that of its modes, and what damping has dissipated.
+    #: Energy (J) that the structure has taken: the energy of its modes, and the energy lost by damping.
     structure_work: Array = field()
     _motions: Any = field()
 
     model = MODES
 
     def __post_init__(self):
-        # A motion alone has no index.
+        # A single motion has no index.
         check.store(self, _motions=np.asarray(self._motions, object))
 
     @property
@@ -68,7 +68,7 @@ class ModalImpact(Impact):
 
     @property
     def contacts(self):
-        """Number of contacts; those of less than 1 % of the momentum depend on the number of modes."""
+        """Number of contacts; contacts with less than 1 % of the momentum depend on the number of modes."""
         return self._each(lambda motion: len(motion.hits), int)
 
     @property
@@ -77,7 +77,7 @@ class ModalImpact(Impact):
         return self._each(lambda motion: motion.max_deflection, float)
 
     def _each(self, value, kind):
-        """An array of values of the motions, or one value."""
+        """Return an array of values of the motions, or one value."""
         found = np.empty(self.shape, kind)
         for index in np.ndindex(*self.shape):
             found[index] = value(self._motions[index])
@@ -85,7 +85,7 @@ class ModalImpact(Impact):
 
     @cached_property
     def errors(self) -> ModalErrors:
-        """Estimated errors, by solving twice more: with half of the modes, and with a larger tolerance."""
+        """Estimated errors, from solutions with half of the modes and with a larger tolerance."""
         modes, K = self.structure.modes, self.structure.stiffness
         order = np.argsort(modes.frequency)[: (len(modes.frequency) + 1) // 2]
         half = Modes(*(np.array(each)[order] for each in (modes.frequency, modes.mass, modes.damping)))
@@ -109,10 +109,11 @@ class ModalImpact(Impact):
         return ModalErrors(**relative)
 
     def motion(self, n: int = 200) -> Motion:
-        """The motion of one impact at n instants, contacts and flights, from first touch to the last loss.
+        """Return the motion of one impact at n instants, from first touch to the last loss of contact.
 
-        Instants are equally spaced before the turning point, the largest depth, and again after it.
-        `structure_work` is what damping has dissipated, `support_energy` the energy of the structure.
+        It includes contacts and flights. Instants are equally spaced before the turning point, the largest
+        depth, and again after it. `structure_work` is the energy dissipated by damping, and
+        `support_energy` the energy of the structure.
         """
         check_single(self, "motion")
         motion = self._motions[()]
@@ -120,7 +121,7 @@ class ModalImpact(Impact):
 
 
 def modal_impact(profile, medium, mass, speed, imprint_depth, structure, tolerance=TOLERANCE):
-    """Impacts on one structure with modes, one after another, over imprints of given plastic depth (m)."""
+    """Solve impacts on one structure with modes, one by one, over imprints of given plastic depth (m)."""
     motions = np.empty(mass.shape, object)
     for index in np.ndindex(*mass.shape):
         own = (
@@ -147,7 +148,7 @@ def modal_impact(profile, medium, mass, speed, imprint_depth, structure, toleran
 
 
 def contact_instants(hit, n):
-    """About n ascending times (s) of one impact: in all contacts, few in flights, and the turning point.
+    """Return about n ascending times (s) of one impact: in all contacts, a few in flights, and the turn.
 
     Half of the times of a contact are before and half after the turning point or its middle.
     """
@@ -160,13 +161,13 @@ def contact_instants(hit, n):
 
 
 def motion_at(hit, time):
-    """The `Motion` of one impact at ascending times (s)."""
+    """Return the `Motion` of one impact at ascending times (s)."""
     motion = hit._motions[()]
     law, found = motion.law, _sampled(motion, time)
     y, p, yields = found["penetration"], found["imprint"], found["yields"]
     interval, increase = law.rule.loading(np.maximum(y, 0.0), p)
     increase = np.where(yields, increase, 0.0)
-    # In a flight, and where contact ends, nothing is compressed.
+    # In a flight, and at the end of contact, nothing is compressed.
     live = np.where(yields, interval.length, np.maximum(y, 0.0))
     stiffness = law.modulus * np.where(
         yields, law.rule.loading_stiffness_radius(interval, increase), law.rule.profile.radius_at(p + live)
@@ -191,7 +192,7 @@ def motion_at(hit, time):
 
 
 def _sampled(motion, time):
-    """Columns of a `ModalMotion` at ascending times (s): depth, velocity, force … and energies."""
+    """Return columns of a `ModalMotion` at ascending times (s): depth, velocity, force … and energies."""
     starts = np.array([part.start for part in motion.parts])
     rows = np.clip(np.searchsorted(starts, time, side="right") - 1, 0, None)
     parts = [motion.parts[row] for row in rows]
@@ -200,14 +201,14 @@ def _sampled(motion, time):
 
 
 def _at(motion, part, t):
-    """One instant at a time t (s) after the beginning of a part."""
+    """Return one instant at a time t (s) after the beginning of a part."""
     s, h, imprint, damped = motion.system, part.duration, part.imprint, part.damping_work
     begun = motion.energy_of(part.z, part.v, 0.0 if part.force is None else part.force[0])
     if part.force is None:
         z, v, x, force, work = np.exp(s.root * t) * part.z, part.v, part.x + part.v * t, 0.0, 0.0
         penetration = -np.sum(x) - np.sum(s.displacements(z)) - imprint
     else:
-        # Of the part up to there, in its own nodes.
+        # Nodes of the part up to this time.
         there = at(t / h * NODES)
         forces, penetrations = there @ part.force, there @ part.penetration
         force, penetration = forces[-1], penetrations[-1]

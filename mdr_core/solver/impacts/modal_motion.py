@@ -1,13 +1,14 @@
 """The motion of one body on a structure with modes: waves come back, and a body may hit several times.
 
 The body and each mode are linear oscillators under the contact force, which over a step is a polynomial
-(`oscillators`). With the displacements x of free masses, the body's upward among them, and q of the modes,
+(`oscillators`). x are the displacements of free masses, including the body (upward), and q of the modes.
+Newton's method solves
 
     d = −Σ x − Σ q − r F(d)
 
-at each node of a step, which Newton's method solves. Steps end at the onset of yield and where a contact
-that yields turns round, so that the law of the contact is smooth in each. They are halved towards first
-contact and its loss, where the force is a power of the distance.
+at each node of a step. Steps end at the onset of yield and at the turning point of a yielding contact, so
+that the law of the contact is smooth in each step. They are halved towards first contact and its loss,
+because the force is a power of the distance there.
 """
 
 from dataclasses import dataclass
@@ -35,25 +36,26 @@ from .oscillators import (
 )  # fmt: skip
 from .snap import snap
 
-#: Error of the impulse of a step over m v₀, and what is left of it where contact is lost.
+#: Error of the impulse of a step over m v₀, and its remainder at the loss of contact.
 TOLERANCE, _LOST = 1e-9, 1e-13
-#: Steps of a contact and contacts of a body at most; periods of the lowest oscillation after which a body
-#: is captured.
+#: Largest numbers of steps of a contact and of contacts of a body; periods of the lowest oscillation after
+#: which a body is captured.
 _STEPS, _CONTACTS, _PERIODS = 20_000, 10_000, 100
-#: Depths for which `tabulated_for` asks whether a table is worth its time, as that of a shape without a
-#: closed form is; that of a thousand samples is not.
+#: Number of depths for `tabulated_for`: a table is worth its time for a shape without a closed form, but
+#: not for a thousand samples.
 _EVALUATIONS = 64
-#: Duration of the first step of a contact, of the shortest and of the longest one, in sixteenths of the
-#: contact time on a rigid body.
+#: Durations of the first, the shortest and the longest step of a contact, in sixteenths of the contact time
+#: on a rigid body.
 _FIRST, _SHORTEST, _LONGEST = 2.0**-14, 2.0**-45, 8.0
-#: What to do where nothing is found.
+#: Remedy if there is no solution.
 _CHECK = "check mass, speed and modes, and whether all quantities are in SI units"
-#: Places of a step at which events are looked for.
+#: Places of a step at which to search for events.
 _PLACES = np.linspace(0.0, 1.0, 33)
 _THERE, _SLOPE_THERE = at(_PLACES), slope_at(_PLACES)
 _UNIT = np.eye(DEGREE)
-#: Grid of the search for the next contact: places at once, places of its first interval, share of the
-#: largest depth by which modes move that do not set it, and intervals in a half turn of the others.
+#: Grid of the search for the next contact: number of places at once, and in its first interval. Motion, as
+#: a share of the largest depth, below which modes do not determine the grid. Intervals per half period of
+#: the other modes.
 _AT_ONCE, _GEOMETRIC, _STILL, _TURN = 257, 120, 1e-6, 6
 
 
@@ -64,15 +66,15 @@ class ContactLaw:
         self.rule = yield_rule(tabulated_for(profile, _EVALUATIONS, lambda: deepest), medium)
         self.modulus, self.plastic_depth, self.yields = 2 * float(medium.E_star), float(imprint), False
         p = np.asarray(self.plastic_depth)
-        #: Penetration (m) at which it yields on.
+        #: Penetration (m) at which yield continues.
         self.onset = float(self.rule.penetration(p, p))
-        #: Energy (J) that yielding has taken.
+        #: Energy (J) dissipated by yielding.
         self.work = 0.0
 
     def __call__(self, y):
-        """Force (N) and its slope (N/m) at penetrations (m) below the imprint."""
+        """Return force (N) and its slope (N/m) at penetrations (m) below the imprint."""
         p = self.plastic_depth
-        # A deeper contact is refused once a step of it is found.
+        # A deeper contact raises an error after its step is found.
         y = np.clip(y, 0.0, self.rule.profile.known_depth - p)
         if self.yields:
             interval, increase = self.rule.loading(y, p)
@@ -83,7 +85,7 @@ class ContactLaw:
         return self.modulus * integrals(self.rule.profile).radius_integral(interval), self.modulus * width
 
     def turn(self, y):
-        """Keep what yielding to a penetration (m) leaves."""
+        """Store the plastic depth and the work of yielding to a penetration (m)."""
         before = np.asarray(self.plastic_depth)
         interval, increase = self.rule.loading(np.asarray(y), before)
         self.work += float(self.modulus * self.rule.plastic_integral(before, increase))
@@ -92,10 +94,10 @@ class ContactLaw:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A step of a contact, or a flight: what it begins with, and forces and penetrations at its nodes.
+    """A step of a contact, or a flight: its initial values, and forces and penetrations at its nodes.
 
-    Free masses have the displacements `x` (m) and velocities `v` (m/s), the modes the complex `z` (m/s).
-    Damping has taken `damping_work` (J) before.
+    Free masses have the displacements `x` (m) and velocities `v` (m/s), modes have the complex `z` (m/s).
+    `damping_work` (J) is the energy dissipated by damping before.
     """
 
     start: float
@@ -125,7 +127,7 @@ class ModalMotion:
         self.mass, self.speed, self.tolerance = float(mass), float(speed), tolerance
         self.momentum = self.mass * self.speed
         rigid = dry_impact(profile, medium, *(np.asarray(each) for each in (mass, speed, imprint)))
-        # No contact goes deeper than that on a rigid body, where nothing else takes energy.
+        # No contact is deeper than on a rigid body, which takes no energy.
         self.known, deepest = float(profile.known_depth), float(rigid.max_depth)
         self.law = ContactLaw(profile, medium, imprint, min(deepest, self.known))
         duration = float(rigid.contact_time) if deepest < np.inf else self.known / self.speed
@@ -145,13 +147,13 @@ class ModalMotion:
                 break
 
     def _system(self, structure, contact_time):
-        """Body and modes as `Oscillators`, and the time (s) after which the body is captured."""
+        """Return body and modes as `Oscillators`, and the time (s) after which the body is captured."""
         modes = structure.modes
         omega = np.append(0.0, 2 * np.pi * np.array(modes.frequency))
         masses, damping = np.append(self.mass, modes.mass), np.append(0.0, modes.damping)
         compliance = 1 / structure.stiffness if structure.stiffness < np.inf else modes.compliance
         lowest = omega[omega > 0].min(initial=np.inf)
-        # On a structure without support the body cannot push its compliance; the lowest mode tells.
+        # Without a support the compliance is infinite; then the lowest mode determines the period.
         soft = self.mass * compliance if compliance < np.inf else 0.0
         period = 2 * np.pi * np.sqrt(soft + lowest**-2.0) + contact_time
         return Oscillators(
@@ -160,7 +162,7 @@ class ModalMotion:
 
     @property
     def restitution(self):
-        """Rebound speed of the body over its speed; negative where it goes on behind a free structure."""
+        """Rebound speed of the body over its speed; negative if it continues behind a free structure."""
         if self.captured or self.too_deep:
             return 0.0
         e = float(self.v[0] / self.speed)
@@ -175,13 +177,13 @@ class ModalMotion:
 
     @property
     def structure_work(self):
-        """Energy (J) that the structure has taken, and does not give back."""
+        """Energy (J) that the structure has taken and does not return."""
         if self.captured:
             return self.mass * self.speed**2 / 2 - self.law.work
         return self.energy + self.damping_work
 
     def depth_rate(self):
-        """Rate (m/s) of the depth without force."""
+        """Return the rate (m/s) of the depth without force."""
         return -np.sum(self.v) - np.sum(self.system.rates(self.z))
 
     @property
@@ -190,16 +192,16 @@ class ModalMotion:
         return self.energy_of(self.z, self.v, self.force)
 
     def energy_of(self, z, v, force):
-        """Energy (J) of the structure with modes z, velocities v (m/s) of free masses and a force (N)."""
+        """Return the energy (J) of the structure with modes z, velocities v of free masses and a force."""
         free = np.sum(self.system.free_mass[1:] * v[1:] ** 2) / 2
         return float(self.system.energies(z) + free + self.system.residual * force**2 / 2)
 
     def _trial(self, h):
-        """Forces (N) and penetrations (m) at the nodes of a step of duration h (s); None if not found."""
+        """Return forces (N) and penetrations (m) at the nodes of a step of duration h (s), or None."""
         s, (compliance, turned, _) = self.system, self.system.step(h)
         free = -np.sum(self.x) - np.sum(self.v) * h * NODES - (turned @ (self.z / s.root.imag)).imag
         free -= self.law.plastic_depth
-        # The first node is known: there the force is that of the end of the last step.
+        # The first node is known: its force is the force at the end of the last step.
         known, inner = free[1:] - compliance[1:, 0] * self.force, compliance[1:, 1:]
         y, scale = known - inner @ np.full(DEGREE, self.force), np.abs(known).max()
         for _ in range(25):
@@ -207,21 +209,21 @@ class ModalMotion:
             slope = np.where(y > 0, slope, 0.0)
             step = np.linalg.solve(_UNIT + inner * slope, known - y - inner @ force)
             y, force = y + step, force + slope * step
-            # The next step would be about the square of this one.
+            # The next Newton step would be about the square of this step.
             if np.abs(step).max() <= 1e-9 * scale:
                 start = free[0] - s.residual * self.force
                 return np.append(self.force, force), np.append(start, y)
         return None
 
     def _contact(self):
-        """Steps from first contact to its loss."""
+        """Take the steps from first contact to its loss."""
         start, done, h = self.time, [], self.unit * _FIRST
         for _ in range(_STEPS):
             trial = self._trial(h)
             if self.max_depth >= self.snap_depth:
                 raise MDRError(
                     "after the onset of yield the force falls with depth by more than 1/r, the stiffness "
-                    "of the modes that are not given: the contact snaps, and what it loses is not "
+                    "of the modes that are not given: the contact snaps, with an energy loss that is not "
                     "computed; give more modes, less speed, or a hardness without f_c"
                 )
             if trial is None:
@@ -233,7 +235,7 @@ class ModalMotion:
                 break
             error = h * np.abs((TO_LEGENDRE @ force)[-2:]).max() / self.momentum
             if lost or error > self.tolerance:
-                # Where contact is lost the step is halved at once to what is before.
+                # If contact is lost, the step is halved at once to end before the loss.
                 first = int(np.argmax(_THERE @ y <= 0)) if lost else 0
                 h = self._halved(h, int(np.log2(_PLACES[-1] / _PLACES[first])) if first else 1)
                 continue
@@ -261,19 +263,19 @@ class ModalMotion:
         self.hits.append(Hit(start, self.time, float(largest.max()), float(impulse.sum())))
 
     def _halved(self, h, times=1):
-        """A duration (s) that is too long, halved so many times and once at least."""
+        """Halve a duration (s) that is too long `times`, but at least once."""
         if h < _SHORTEST * self.unit:
             raise MDRError(f"the contact on the structure is not solved by steps of {h:.3g} s; {_CHECK}")
         return h / 2 ** max(times, 1)
 
     def _event(self, y):
-        """Share of a step at which yield begins, or at which a contact that yields turns; None if not."""
+        """Return the share of a step at which yield begins or a yielding contact turns, or None."""
         slope = _SLOPE_THERE @ y
         if self.law.yields:
             values, place, goal, close = -slope, polynomial(y, -1), 0.0, 0.0
         else:
             values, place, goal = _THERE @ y, polynomial(y), self.law.onset
-            # Of the depth that this is a part of, to rounding.
+            # The rounding of this penetration, and of the depth.
             close = 1e-13 * goal + 1e-15 * self.max_depth if goal < np.inf else 0.0
         beyond = values > goal + close
         if beyond[0] and (self.law.yields or slope[0] > 0):
@@ -287,7 +289,7 @@ class ModalMotion:
         return sign_change(lambda share: place(share) - goal, *_PLACES[first : first + 2])
 
     def _accept(self, h, force, y):
-        """Take a step; its impulse (N·s) and largest force (N)."""
+        """Take a step; return its impulse (N·s) and largest force (N)."""
         s, imprint = self.system, self.law.plastic_depth
         _, turned, weights = s.step(h)
         self.parts.append(Part(*self._begun(h), self.law.yields, force, y))
@@ -308,18 +310,18 @@ class ModalMotion:
         return impulse, largest
 
     def _flight(self):
-        """Free motion to the next contact; whether there is one."""
+        """Move freely to the next contact; return whether there is a next contact."""
         s, swing = self.system, self.z / self.system.root.imag
         if len(self.hits) >= _CONTACTS:
             raise MDRError(f"the body has hit the structure {_CONTACTS} times; {_CHECK}")
         drift, position = -np.sum(self.v), -np.sum(self.x) - self.law.plastic_depth
 
         def gap(t):
-            """Overlap (m) after times t (s), negative in flight, and its rate (m/s)."""
+            """Return the overlap (m) after times t (s), negative in flight, and its rate (m/s)."""
             turned = np.exp(np.multiply.outer(t, s.root)) * swing
             return position + drift * t - turned.imag.sum(-1), drift - (turned * s.root).imag.sum(-1)
 
-        # Farther away than all amplitudes together the modes do not reach the body.
+        # If the body is farther away than the sum of all amplitudes, the modes do not reach it.
         amplitude = np.abs(swing)
         far, last = position + amplitude.sum(), self.longest - self.time
         leaves = drift < 0 and far <= -drift * last
@@ -339,7 +341,7 @@ class ModalMotion:
             value = gap(grid)[0]
             for i in np.flatnonzero((value[1:] > 0) & (value[:-1] <= 0)):
                 low, high = grid[i : i + 2]
-                # Alone a place is summed in another order: at the end of a contact the gap is rounding.
+                # A single place is summed in another order: at the end of a contact the gap is rounding.
                 if gap(low)[0] < 0 < gap(high)[0]:
                     touch = sign_change(lambda u: float(gap(u)[0]), low, high)
                     if gap(touch)[1] > 0:
@@ -350,7 +352,7 @@ class ModalMotion:
         return False
 
     def _fly(self, t, interval):
-        """Move freely for a time t (s); an interval (s) shows what moves."""
+        """Move freely for a time t (s); the deflection is sampled at a quarter of an interval (s)."""
         self.parts.append(Part(*self._begun(t)))
         before = self.energy
         times = np.linspace(0.0, t, int(np.ceil(4 * t / interval)) + 1)[:, None]
@@ -365,12 +367,12 @@ class ModalMotion:
             self.damping_work += before - self.energy
 
     def _begun(self, duration):
-        """What a part of a duration (s) begins with."""
+        """Return the initial values of a part of a duration (s)."""
         return self.time, duration, self.x, self.v, self.z, self.damping_work, self.law.plastic_depth
 
 
 def _snap_depth(law, imprint, rigid, compliance):
-    """Depth (m) at which the contact snaps, up to the largest one on a rigid body; infinite if nowhere."""
+    """Return the depth (m) at which the contact snaps, up to the rigid body's depth; infinite if none."""
     depth = rigid.max_depth
     if not compliance or not law.rule.may_fall(depth) or not np.isfinite(depth):
         return np.inf
@@ -379,7 +381,7 @@ def _snap_depth(law, imprint, rigid, compliance):
 
 
 def _largest(*columns):
-    """Largest values of polynomials with values at the nodes of a step, and their shares of the step."""
+    """Return largest values of polynomials with values at the nodes, and their shares of the step."""
     found = [max((values[0], 0.0), (values[-1], 1.0)) for values in columns]
     slope = np.array(columns) @ _SLOPE_THERE.T
     for k, i in zip(*np.nonzero((slope[:, :-1] > 0) & (slope[:, 1:] <= 0)), strict=True):

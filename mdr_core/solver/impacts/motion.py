@@ -16,7 +16,7 @@ from ..numerics.gauss import gauss_integrals
 from .equation_of_motion import ON_MEDIUM, ON_STRUCTURE, Bodies, MotionState
 from .motion_solver import solve
 
-#: Parts of a step in which Newton's method starts.
+#: Number of parts of a step as starting intervals of Newton's method.
 _CELLS = 64
 #: Tolerance of a step, whose estimate is a bound: between nodes 150 random motions on media, plates and
 #: supports are within 5·10⁻¹¹ of those with 10⁻¹², and take half of the time of 10⁻¹⁰ on a plate.
@@ -24,7 +24,7 @@ _TOLERANCE = 1e-7
 
 
 def motion(hit, n, before_yield=0):
-    """The `Motion` of one `Impact` at n instants, and so many more up to the onset of yield."""
+    """Return the `Motion` of one `Impact` at n instants, and at `before_yield` more up to the onset."""
     refuse_adhesion(hit.medium, "the motion of an impact")
     check_single(hit, "motion")
     dense, medium, modulus = dense_motion(hit), hit.medium, 2 * hit.medium.E_star
@@ -37,12 +37,12 @@ def motion(hit, n, before_yield=0):
     state, released, structure = dense.at(time), _released_energy(hit, dense, time), hit.structure
     uniform_load = 4 * medium.eta * np.maximum(state.velocity, 0.0)
     states = Indentation(hit.profile, medium, state.depth, state.interval, uniform_load, in_time=True)
-    # Energy of the elements at the rim at their release, by parts: dissipated, or still stored in them.
+    # Energy of the elements at the rim at their release, by parts: dissipated, or still stored.
     elastic = -medium.relaxation_time * np.minimum(state.velocity, 0.0)
     rim = elastic**2 * states.contact_radius / 2
     plastic = rule.plastic_integral(state.interval.lower - state.increase, state.increase)
     work = modulus * (state.work - rim - released)
-    # The velocity of the equation of motion is that of the body less F/Z.
+    # The velocity of the equation of motion is the velocity of the body minus F/Z.
     body_velocity = state.velocity + states.force / structure.impedance
     velocity = state.velocity
     if structure.is_support:
@@ -72,7 +72,7 @@ def motion(hit, n, before_yield=0):
 
 
 def _released_energy(hit, dense, time):
-    """Energy over 2E* (m³) of the springs of released elements at times (s), 0 on loading.
+    """Return the energy over 2E* (m³) of the springs of released elements at times (s), 0 on loading.
 
     An element is released with the elastic part τ|v|, which relaxes as exp(−t/τ). Between two instants the
     radius of the rim and v² are linear in time.
@@ -80,7 +80,7 @@ def _released_energy(hit, dense, time):
     tau = hit.medium.relaxation_time
     if tau == 0:
         return np.zeros_like(time)
-    # Steps are short where the velocity falls quickly.
+    # Steps are short if the velocity falls quickly.
     even = np.linspace(dense.turning_time, dense.end_time, 400)
     finer = np.unique(np.concatenate([time, even, dense.unloading.nodes(33).time]))
     finer = finer[(finer >= dense.turning_time) & (finer <= dense.end_time)]
@@ -98,16 +98,16 @@ def _released_energy(hit, dense, time):
         energy[i + 1] = factor * energy[i] + new
     # At the end all remaining elements are released at once.
     energy[-1] += radius[-1] * density[-1]
-    # All times of unloading are among the finer ones; before them the energy is that of the first, 0.
+    # `finer` has all times of unloading; before them np.interp gives the first energy, 0.
     return np.interp(time, finer, energy)
 
 
 def released_compression(states, time, i, height):
-    """Elastic compression (m) left in released elements, at heights g (m) of the profile.
+    """Return the elastic compression (m) left in released elements, at heights g (m) of the profile.
 
-    The state is that of index i among the states of an impact at some times (s). 0 of elements in contact.
-    An element is released with the compression by which the depth is ahead of the live interval, which
-    relaxes as exp(−t/τ).
+    It belongs to state i of the states of an impact at some times (s), and is 0 for elements in contact. At
+    its release an element has the compression of the depth beyond the live interval, which relaxes as
+    exp(−t/τ).
     """
     tau, turn = states.medium.relaxation_time, int(np.argmax(states.depth))
     if tau == 0 or i <= turn:
@@ -132,19 +132,19 @@ class Branch:
         self._table = self._states(self._places)
 
     def at(self, time):
-        """The `MotionState` at times (s)."""
+        """Return the `MotionState` at times (s)."""
         return self._where("time", time)
 
     def when(self, depth):
-        """Times (s) at depths (m): of y on loading, of ℓ on unloading."""
+        """Return the times (s) at depths (m): of y on loading, of ℓ on unloading."""
         return self._where("depth", depth).time
 
     def nodes(self, count):
-        """The `MotionState` at `count` equal shares of every step."""
+        """Return the `MotionState` at `count` equal shares of every step."""
         return self._states(np.linspace(0, len(self._steps), len(self._steps) * (count - 1) + 1))
 
     def _states(self, place):
-        """The `MotionState` at places: the number of a step, and a share of it."""
+        """Return the `MotionState` at places: the number of a step plus a share of it."""
         number = np.minimum(place.astype(int), len(self._steps) - 1)
         share, states = place - number, MotionState(*np.empty((4, place.size)))
         matrix = gauss_integrals(self._slopes.shape[2], share)
@@ -155,15 +155,15 @@ class Branch:
         return states
 
     def _where(self, name, values):
-        """The `MotionState` where depth or time, which are monotonic, have given values."""
+        """Return the `MotionState` at given values of depth or time, which are monotonic."""
         start, end = getattr(self.start, name), getattr(self.end, name)
         sign = np.sign(end - start)
         table = np.maximum.accumulate(sign * getattr(self._table, name))
         place = np.interp(sign * values, table, self._places)
         low, states, rows = np.floor(place * _CELLS) / _CELLS, self._states(place), np.arange(values.size)
         for _ in range(20):
-            # Newton's method, with a difference for the derivative, which may vanish at an end of a step,
-            # where the depth is a cube of δ: a miss within rounding must not move the place there.
+            # Newton's method, with a difference as the derivative. At an end of a step the depth is a cube
+            # of δ, and the derivative may vanish. There, a miss within rounding must not move the place.
             miss = values[rows] - getattr(states, name)[rows]
             far = np.abs(miss) > 1e-14 * max(abs(start), abs(end))
             rows, miss = rows[far], miss[far]
@@ -174,7 +174,7 @@ class Branch:
             rate = np.maximum(sign * (beside - getattr(states, name)[rows]) / shift, 1e-300)
             place[rows] = np.clip(place[rows] + sign * miss / rate, low[rows], low[rows] + 1 / _CELLS)
             states = states.replaced(rows, self._states(place[rows]))
-        # The ends are known better than from the polynomials.
+        # The exact ends are more accurate than the polynomials.
         states = states.replaced(sign * values <= sign * start, self.start)
         states = states.replaced(sign * values >= sign * end, self.end)
         return states
@@ -183,7 +183,7 @@ class Branch:
 class DenseState(NamedTuple):
     """States of one impact (SI), with the velocity of the equation of motion.
 
-    `work` (m³) is that of the dashpots over 2E*, with the energy that released elements will lose, or that
+    `work` (m³) is the work over 2E* of the dashpots, with the energy that released elements will lose, or
     of the waves of a plate.
     """
 
@@ -196,10 +196,10 @@ class DenseState(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class DenseMotion:
-    """Motion of one impact to the loss of contact: its two branches.
+    """Motion of one impact to the loss of contact, with its two branches; made by `dense_motion`.
 
     `turning_point` is the state of largest depth, `imprint_depth` the plastic depth (m) before the impact,
-    and `increase` (m) what the impact adds to it. `dense_motion` makes it.
+    and `increase` (m) its increase by the impact.
     """
 
     turning_point: Indentation
@@ -219,12 +219,12 @@ class DenseMotion:
         return self.unloading.end.time
 
     def at(self, time):
-        """The `DenseState` at an array of times (s) since first contact."""
+        """Return the `DenseState` at an array of times (s) since first contact."""
         pressed = time <= self.turning_time
         state = MotionState(*np.empty((4, time.size)))
         for branch, rows in ((self.loading, pressed), (self.unloading, ~pressed)):
             state = state.replaced(rows, branch.at(time[rows]))
-        # The penetration at the turning point is that of the impact, to the last digit.
+        # The penetration at the turning point equals the impact's to the last digit.
         largest = penetration_of(self.turning_point, self.increase)
         y = np.where(time < self.turning_time, np.minimum(state.depth, largest), largest)
         medium, final = self.turning_point.medium, self.turning_point.live_interval
@@ -239,10 +239,10 @@ class DenseMotion:
         return DenseState(depth, state.velocity, LiveInterval(lower, upper, length), increase, state.work)
 
 
-# Kept, two motions of one impact are 1.4 times as fast, and friction asks for it in each of its runs.
+# The cache makes two motions of one impact 1.4 times as fast; friction needs them in each of its runs.
 @lru_cache(maxsize=16)
 def dense_motion(hit):
-    """The `DenseMotion` of one `Impact`, by its equation of motion; that of the last ones is kept."""
+    """Return the `DenseMotion` of one `Impact`, by its equation of motion; the last results are cached."""
     increase = hit.plastic_depth_increase
     imprint_depth = np.asarray(hit.plastic_depth - increase)
     penetration = penetration_of(hit.turning_point, increase)
@@ -254,5 +254,5 @@ def dense_motion(hit):
 
 
 def penetration_of(turning_point, increase):
-    """Depth (m) from the imprint to a state, with the increase (m) of its plastic depth."""
+    """Return the depth (m) from the imprint to a state, with the increase (m) of its plastic depth."""
     return turning_point.live_interval.length + increase

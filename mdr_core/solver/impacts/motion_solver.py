@@ -1,10 +1,10 @@
 """Solution of the equation of motion, leg by leg, many impacts at once.
 
-1. Loading and unloading are cut into legs at the depths where the motion is not smooth: where yield begins,
-   and where either end of the live interval passes a kink of g.
-2. A leg is a sequence of steps: in the depth while the depth changes faster, relative to itself, than the
-   velocity, and in the velocity near the turning point. Each impact has step lengths of its own.
-3. The last Legendre coefficients of a step are the estimate of its error, which sets the next length.
+1. Loading and unloading are cut into legs at the depths where the motion is not smooth: at the onset of
+   yield, and where either end of the live interval passes a kink of g.
+2. A leg is a sequence of steps. Steps are in the depth while the depth changes faster, relative to itself,
+   than the velocity, and in the velocity near the turning point. Each impact has its own step lengths.
+3. The last Legendre coefficients of a step estimate its error, which determines the next length.
 """
 
 from dataclasses import dataclass, fields, replace
@@ -19,44 +19,44 @@ from ..numerics.stable import cube_way
 from .collocation_steps import DepthCoordinate, DepthSteps, VelocitySteps
 from .equation_of_motion import ON_MEDIUM, Loading, MotionState, Unloading
 
-#: Tries of steps of one leg, after which it is given up. Legs of impacts with τ from 10⁻⁴ to 10⁴ contact
-#: times take 17 at most; under profiles r^0.02 to r^20, with τ from 10⁻⁶ to 10⁸ and the tolerance of a
-#: motion in time, 92.
+#: Largest number of steps tried for one leg. Legs of impacts with τ from 10⁻⁴ to 10⁴ contact times take at
+#: most 17. Under profiles r^0.02 to r^20, with τ from 10⁻⁶ to 10⁸ and the tolerance of a motion, at most
+#: 92.
 _MOST_STEPS = 500
 
-# Shares of lengths. They decide how many steps are tried, not how exact these are: a step is made shorter
-# if its error is too large. The ranges are those in which impacts with the τ above take at most 5 % more
-# steps: measured by `python -m tests.benchmarks.constants`.
+# Shares of lengths. They determine the number of steps, not their accuracy: a step with a large error is
+# shortened. Within the given ranges, impacts with the τ above take at most 5 % more steps
+# (`python -m tests.benchmarks.constants`).
 
 #: First step in depth, over the largest penetration of the same impact without viscosity: 0.5 to 0.7.
 _FIRST = 0.65
-#: Longest step in depth on loading, over the way v²/(2|v̇|) on which the present deceleration would stop the
-#: body: 0.3 to 1.0.
+#: Longest step in depth on loading, over the stopping distance v²/(2|v̇|) at the present deceleration: 0.3
+#: to 1.0.
 _STOPPING = 2 / 3
 #: Longest step in velocity on unloading, over the velocity that springs or dashpots alone would return: 0.3
 #: to 0.7.
 _RETURNED = 0.4
-#: Next length, over the one at which the error is the tolerance: the usual safety, 0.82 to 0.92.
+#: Next length, over the length at which the error is the tolerance: the usual safety factor, 0.82 to 0.92.
 _SAFETY = 0.9
-#: Power of the length with which the error is taken to grow, 28 to 50. Coefficients of degree 21 and more,
-#: times the length, grow as its power 22 where the motion is smooth, and as 22/√(1 − s) for a step over the
-#: share s of the depths up to a singular one: 30 is s = 0.46.
+#: Assumed power of the length in the error, 28 to 50. Coefficients of degree 21 and more, times the length,
+#: grow as its power 22 if the motion is smooth. They grow as 22/√(1 − s) for a step over the share s of the
+#: depths up to a singular depth: 30 is s = 0.46.
 _POWER = 30
-#: Least change of a length from one step to the next, and the inverse of the largest: 0.1 to 0.5.
+#: Smallest ratio of the lengths of successive steps, and the inverse of the largest: 0.1 to 0.5.
 _SHORTER = 0.3
-#: Share of the room of a step towards zero that is tried if the whole of it was too long: 0.82 to 0.88. A
-#: function that is singular at zero has Legendre coefficients ∝ ρ⁻ⁿ over the share s, with s = 4ρ/(1 + ρ)²:
-#: for 0.85 that is 2·10⁻⁸ at degree 22, and 0.93 is where it is the tolerance of 10⁻⁵.
+#: Share of the room of a step towards zero to try if the whole room was too long: 0.82 to 0.88. A function
+#: with a singularity at zero has Legendre coefficients ∝ ρ⁻ⁿ over the share s, with s = 4ρ/(1 + ρ)². For
+#: 0.85 they are 2·10⁻⁸ at degree 22; for 0.93 they reach the tolerance of 10⁻⁵.
 _AGAIN = 0.85
-#: Live depth, over that at the turning point, at which a motion that never ends is cut off.
+#: Live depth, over the live depth at the turning point, at which an endless motion is cut off.
 _AT_REST = 1e-3
-#: Share of the critical damping, squared, from which the end of a motion is taken from the damped
-#: oscillator: bodies return with less than 10⁻⁴⁰ of their speed. And the live depth there, over that at the
-#: turning point, by which the contact is wider than at the end.
+#: Square of the share of the critical damping from which the damped oscillator gives the end of a motion:
+#: bodies return with less than 10⁻⁴⁰ of their speed. Live depth at this change, over the live depth at the
+#: turning point; the contact is wider by it than at the end.
 _NEARLY_CRITICAL = 0.999
 _OSCILLATES = 1e-12
-#: A largest deceleration is looked for in steps that have this share of it at a node. Nodes are at most
-#: 0.064 of a step apart: a peak as wide as a step has 0.996 at one.
+#: The largest deceleration is searched in steps that have this share of it at a node. Nodes are at most
+#: 0.064 of a step apart: a peak as wide as a step has 0.996 at one of the nodes.
 _NEAR = 0.98
 
 
@@ -65,8 +65,7 @@ class Solution:
     """States (N, 1) of N impacts at the turning point and at the end, and their steps.
 
     The depth of a turning point below the known depth is infinite. `loading` and `unloading` are lists of
-    pairs: the numbers of impacts, and the steps that these have taken. The motion of a body that never
-    leaves has no end: `endless`, (N, 1), says which.
+    pairs: the numbers of impacts, and their steps. `endless`, (N, 1), marks bodies that never leave.
     """
 
     turning_point: MotionState
@@ -77,11 +76,11 @@ class Solution:
 
     @property
     def max_deceleration(self):
-        """The largest deceleration (m/s²) of each impact."""
+        """Largest deceleration (m/s²) of each impact."""
         largest = np.zeros(len(self.end.time))
         for rows, step in self.loading:
             np.fmax.at(largest, rows, step.decelerations().max(axis=1))
-        # Steps next to the largest value at a node may have a larger one in between.
+        # Steps close to the largest value at a node may have a larger value between nodes.
         for rows, step in self.loading:
             near = np.flatnonzero(step.decelerations().max(axis=1) >= _NEAR * largest[rows])
             if near.size:
@@ -90,7 +89,7 @@ class Solution:
 
 
 class ConvergenceError(MDRError):
-    """The error of impacts, at `rows`, whose motion has not ended after as many steps as are tried."""
+    """Error of impacts, at `rows`, whose motion has not ended after the largest number of steps."""
 
     def __init__(self, rows):
         super().__init__(rows)
@@ -101,10 +100,10 @@ class ConvergenceError(MDRError):
 
 
 def solve(bodies, tolerance=1e-5, equations=ON_MEDIUM, to_rest=False):
-    """The `Solution` of impacts by their equations of loading and of unloading.
+    """Return the `Solution` of impacts by their equations of loading and of unloading.
 
     `tolerance` is the relative error of a step between its nodes; at its end the error is far smaller.
-    Motions that never end are followed beyond the turning point if they are asked for `to_rest`.
+    Endless motions continue beyond the turning point only if `to_rest` is true.
     """
     on_loading, on_unloading = equations
     turning_point, loading = _load(bodies, tolerance, on_loading)
@@ -113,7 +112,7 @@ def solve(bodies, tolerance=1e-5, equations=ON_MEDIUM, to_rest=False):
 
 
 def _load(bodies, tolerance, equation_of):
-    """State at the turning point (of infinite depth below the known depth), and the steps of loading."""
+    """Return the turning point, with infinite depth below the known depth, and the steps of loading."""
     profile, rule, imprint = bodies.profile, bodies.rule, bodies.imprint_depth
     breaks = rule.breaks(imprint, imprint + bodies.dry_penetration)
     equation, steps, zero = equation_of(bodies), [], np.zeros_like(bodies.speed)
@@ -124,7 +123,7 @@ def _load(bodies, tolerance, equation_of):
     below = imprint - kink_above(profile, imprint)
     base, rows = zero, np.arange(zero.size)
     for edge in [*edges.T[:, :, None], end]:
-        # Behind a kink the radius is a power of the distance from it, else of that from the kink above.
+        # After a kink the radius is a power of the distance from it, else from the kink above.
         root = np.cbrt(np.where((base == 0) | (base == breaks.onset), below, 0.0))
         coordinate = DepthCoordinate(base, root)
         leg = _LoadingLeg(equation, coordinate, edge, coordinate.delta(edge))
@@ -137,7 +136,7 @@ def _load(bodies, tolerance, equation_of):
 
 
 def _unload(bodies, turning_state, tolerance, equation_of, to_rest):
-    """State at the loss of contact, for which bodies it never comes, and the steps of unloading."""
+    """Return the state at the loss of contact, a mask of endless motions, and the steps of unloading."""
     profile, steps, zero = bodies.profile, [], np.zeros_like(bodies.speed)
     interval, _ = bodies.rule.turning(turning_state.depth, bodies.imprint_depth)
     equation = equation_of(bodies, interval.lower)
@@ -163,44 +162,44 @@ def _unload(bodies, turning_state, tolerance, equation_of, to_rest):
 
 
 class _Outcome(IntEnum):
-    """What becomes of an impact by a step that was tried."""
+    """Outcome of a step for an impact."""
 
-    #: The step is not good: it is tried again, shorter.
+    #: The step is rejected, and a shorter step is tried.
     AGAIN = 0
-    #: It goes on from the end of the step.
+    #: The impact continues from the end of the step.
     ON = 1
-    #: It is at the end of the leg.
+    #: The impact is at the end of the leg.
     ARRIVED = 2
-    #: It is at the turning point.
+    #: The impact is at the turning point.
     TURNED = 3
 
 
 @dataclass(frozen=True)
 class _Underway(Entries):
-    """Impacts on their way along a leg, at the end of their last steps: one a row of arrays (N, 1)."""
+    """Impacts along a leg, at the end of their last steps: one impact per row of arrays (N, 1)."""
 
     #: Numbers of the impacts, of shape (N,): their rows in the arrays of the leg.
     row: np.ndarray
     #: Depth q (m), velocity (m/s), time (s) and work (m³).
     state: MotionState
-    #: Coordinate δ (m^(1/3)) of the depth: a step in depth ends at a known δ, which the depth gives only to
-    #: rounding.
+    #: Coordinate δ (m^(1/3)) of the depth. A step in depth ends at an exact δ; from the depth it would have
+    #: a rounding error.
     delta: np.ndarray
-    #: Longest next step in depth, in δ (m^(1/3)); infinite after a step in velocity, and before any.
+    #: Longest next step in depth, in δ (m^(1/3)); infinite after a step in velocity, and at first.
     depth_step: np.ndarray
-    #: Longest next step in velocity (m/s); infinite after a step in depth, and before any.
+    #: Longest next step in velocity (m/s); infinite after a step in depth, and at first.
     velocity_step: np.ndarray
-    #: Whether only steps in depth are left up to the edge, because one in velocity would pass it.
+    #: Whether only steps in depth remain up to the edge, because a step in velocity would pass it.
     depth_only: np.ndarray
 
 
 @dataclass(frozen=True)
 class _Leg(Entries):
-    """One leg, up to a depth or to the turning point, one impact a row of arrays (N, 1).
+    """One leg, up to a depth or to the turning point, with one impact per row of arrays (N, 1).
 
-    Depths q are penetrations below the bottom of the imprint before on loading, and live depths on
-    unloading. A step is one in depth, which goes by the coordinate δ of q, counted from the `base` of the
-    `DepthCoordinate`, or one in velocity. A subclass says how long a step of each kind may be.
+    Depths q are penetrations below the bottom of the earlier imprint on loading, and live depths on
+    unloading. A step is in the depth or in the velocity. A step in depth uses the coordinate δ of q,
+    counted from the `base` of the `DepthCoordinate`. A subclass limits the length of each kind of step.
     """
 
     equation: Loading | Unloading
@@ -210,16 +209,16 @@ class _Leg(Entries):
     edge_delta: np.ndarray
 
     def from_states(self, state, rows, first=None):
-        """The `_Underway` of impacts at some rows, from their states and with largest first steps in δ."""
+        """Return the `_Underway` of impacts at some rows, from states and longest first steps in δ."""
         none = np.full((rows.size, 1), np.inf)
         delta = self.coordinate[rows].delta(state.depth[rows])
         first = none if first is None else first[rows]
         return _Underway(rows, state[rows], delta, first, none, np.zeros(none.shape, bool))
 
     def run(self, impacts, tolerance, steps):
-        """The impacts at the end of the leg, and which of them have turned round.
+        """Return the impacts at the end of the leg, and whether each has reached the turning point.
 
-        Appends to `steps` pairs: the numbers of impacts, and the steps that they have taken.
+        It appends pairs to `steps`: the numbers of impacts, and their steps.
         """
         ended, turned = [impacts[:0]], [np.zeros(0, bool)]
         for _ in range(_MOST_STEPS):
@@ -241,20 +240,20 @@ class _Leg(Entries):
         raise ConvergenceError(impacts.row)
 
     def _variable(self, impacts):
-        """Which impacts take their next step in depth, shape (N,), and their decelerations (m/s²)."""
+        """Return whether each impact takes its next step in depth, (N,), and its deceleration (m/s²)."""
         state, equation = impacts.state, self.equation[impacts.row]
         rate, acceleration, _ = equation.rates(*equation.load(state.depth), state.velocity)
         # In the depth while it changes faster, relative to itself, than the velocity.
         in_depth = np.abs(rate * state.velocity) > np.abs(acceleration * state.depth)
         in_depth |= impacts.depth_only | (impacts.delta == 0)
-        # On a plate a body that returns may get slower, and steps in velocity go to a faster one.
+        # On a plate, a returning body may get slower, but steps in velocity go to a faster velocity.
         in_depth |= (rate < 0) & (acceleration >= 0)
         return in_depth[:, 0], np.abs(acceleration)
 
     def _by_depth(self, impacts, deceleration, tolerance):
-        """Tries one step in depth of each impact.
+        """Try one step in depth of each impact.
 
-        Returns the impacts after it, where they were if it was not good; the steps; and the `_Outcome`.
+        Return the impacts after the step (before it if it was rejected), the steps and the `_Outcome`.
         """
         leg, state = self[impacts.row], impacts.state
         room = self.depth_sign * (leg.edge_delta - impacts.delta)
@@ -278,7 +277,7 @@ class _Leg(Entries):
         return after, step, _outcome(good, last, _Outcome.ARRIVED)
 
     def _by_velocity(self, impacts, deceleration, tolerance):
-        """Tries one step in velocity of each impact; returns the same as `_by_depth`."""
+        """Try one step in velocity of each impact; return the same as `_by_depth`."""
         leg, state = self[impacts.row], impacts.state
         room, longest = leg.room_in_velocity(impacts, deceleration)
         length, last = _length(room, np.minimum(impacts.velocity_step, longest))
@@ -286,7 +285,7 @@ class _Leg(Entries):
         end = step.end()
         good, factor = _judged(step, end, error, tolerance)
         passed = self.depth_sign * (end.depth - leg.edge) > self.margin * leg.edge
-        # Past the edge only the depth leads to it; but from rest the depth is no variable.
+        # A step that would pass the edge must be in depth, but from rest the depth is no variable.
         depth_only = good & passed & (state.velocity != 0)
         good &= ~passed
         factor = np.where(passed, _SHORTER, factor)
@@ -300,44 +299,44 @@ class _Leg(Entries):
             velocity_step=length * factor,
             depth_only=impacts.depth_only | depth_only,
         )
-        # A step in velocity ends a leg only where the velocity is zero.
+        # A step in velocity ends a leg only at zero velocity.
         return after, step, _outcome(good, last, _Outcome.TURNED)
 
 
 class _LoadingLeg(_Leg):
     """A leg of loading: the depth grows, the velocity falls to zero at the turning point."""
 
-    #: Direction in which the depth goes, and whether it, or else the velocity, goes to zero.
+    #: Direction of the depth, and whether the depth (or else the velocity) goes to zero.
     depth_sign = 1
     depth_vanishes = False
     #: Rounding by which a step in velocity may pass the edge, over its depth.
     margin = 1e-12
 
     def longest_in_depth(self, impacts, room, deceleration):
-        """Longest step in δ (m^(1/3)): a share of the way on which the present force stops the body."""
+        """Return the longest step in δ (m^(1/3)): a share of the stopping distance at this force."""
         depth, velocity = impacts.state.depth, impacts.state.velocity
         with np.errstate(divide="ignore"):
             way = _STOPPING * velocity**2 / (2 * deceleration)
         return self.coordinate.delta(depth + way) - impacts.delta
 
     def room_in_velocity(self, impacts, deceleration):
-        """Velocity (m/s) that is left, and the longest step."""
+        """Return the remaining velocity (m/s), and the longest step."""
         return impacts.state.velocity, impacts.state.velocity
 
 
 class _UnloadingLeg(_Leg):
-    """A leg of unloading: the live depth falls to the edge, where δ is 0; the velocity is negative."""
+    """A leg of unloading: the live depth falls to the edge with δ = 0; the velocity is negative."""
 
     depth_sign = -1
     depth_vanishes = True
     margin = 0.0
 
     def longest_in_depth(self, impacts, room, deceleration):
-        """Longest step in δ (m^(1/3)): as far as the edge."""
+        """Return the longest step in δ (m^(1/3)), up to the edge."""
         return room
 
     def room_in_velocity(self, impacts, deceleration):
-        """Room in velocity, infinite because the leg ends at a depth, and the longest step (m/s).
+        """Return the room in velocity, infinite because the leg ends at a depth, and the longest step.
 
         The longest step is a share of the velocity that springs alone, or dashpots alone, would return.
         """
@@ -347,19 +346,19 @@ class _UnloadingLeg(_Leg):
 
 
 def _outcome(good, last, end):
-    """The `_Outcome` of steps (N, 1), (N,): `end` of good ones that took all of the room."""
+    """Return the `_Outcome`, (N,), of steps (N, 1): `end` for good steps that took all of the room."""
     return np.select([~good[:, 0], last[:, 0]], [_Outcome.AGAIN, end], _Outcome.ON)
 
 
 def _length(room, longest):
-    """Lengths of steps, at most `longest` and at most the room; and which of them take all of the room."""
+    """Return lengths of steps, at most `longest` and the room, and whether they take all of the room."""
     last = room <= longest
     return np.where(last, room, longest), last
 
 
 def _judged(step, end, error, tolerance):
-    """Which steps are good, and the length of the next ones over that of these, both (N, 1)."""
-    # A body that turns round within a step in depth leaves no state at its end.
+    """Return whether steps are good, and the ratio of the next length to their length, both (N, 1)."""
+    # A body that turns within a step in depth has no state at its end.
     error = np.where(step.start.velocity * end.velocity >= 0, error[:, None], np.inf)
     with np.errstate(divide="ignore"):
         factor = np.clip(_SAFETY * (tolerance / error) ** (1 / _POWER), _SHORTER, 1 / _SHORTER)
@@ -367,14 +366,14 @@ def _judged(step, end, error, tolerance):
 
 
 def _shrinking(factor, good, last, length, room):
-    """`factor` of steps towards zero: a good one leaves less room, and the next is shorter by as much."""
+    """Return `factor` for steps towards zero: a good step leaves less room and shortens the next step."""
     with np.errstate(invalid="ignore"):
         shrunk = factor * (1 - length / room)
     return np.where(good, shrunk, np.where(last, _AGAIN, factor))
 
 
 def _joined(parts):
-    """The `_Underway` of all impacts of several."""
+    """Join several `_Underway`."""
     if len(parts) == 1:
         return parts[0]
     state = MotionState(*(

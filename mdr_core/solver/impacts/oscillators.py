@@ -4,8 +4,8 @@ q″ + 2 ζ ω q′ + ω² q = F/M has the roots λ, λ̄ with λ = −ζω + i�
 
     z′ = λ z + F/M        q = Im z/Im λ        q′ = Re z + q Re λ
 
-so that a step needs ∫ exp(λ (t − τ)) F dτ alone. For polynomials it is exact, for modes that turn over a
-thousand times within a step as for those that hardly move. Free masses (ω = 0) are polynomials themselves.
+so that a step only needs ∫ exp(λ (t − τ)) F dτ. For polynomials it is exact, both for modes with a thousand
+oscillations within a step and for modes that hardly move. Free masses (ω = 0) are polynomials themselves.
 """
 
 from functools import lru_cache
@@ -13,53 +13,53 @@ from functools import lru_cache
 import numpy as np
 from numpy.polynomial import legendre
 
-#: Degree of the force over a step. Nodes are Lobatto's: the first one is the end of the last step.
+#: Degree of the force over a step. The nodes are Lobatto nodes: the first node is the end of the last step.
 DEGREE = 8
-#: |λh| up to which the integral is by so many Gauss nodes; beyond, it is by parts, where nothing cancels.
+#: Bounds of |λh| and numbers of Gauss nodes; beyond the bounds, the integral by parts has no cancellation.
 _GAUSS = ((4.0, 14), (40.0, 44))
-#: Durations of which matrices are kept.
+#: Number of durations with stored matrices.
 _KEPT = 64
 
 
 def _lobatto(count):
-    """Lobatto nodes in [0, 1]."""
+    """Return the Lobatto nodes in [0, 1]."""
     inner = legendre.Legendre.basis(count - 1).deriv().roots()
     return (np.concatenate([[-1.0], np.sort(inner.real), [1.0]]) + 1) / 2
 
 
 NODES = _lobatto(DEGREE + 1)
 _VANDER = legendre.legvander(2 * NODES - 1, DEGREE)
-#: From values at the nodes to coefficients of Legendre's polynomials.
+#: Matrix from values at the nodes to Legendre coefficients.
 TO_LEGENDRE = np.linalg.inv(_VANDER)
-#: From these coefficients to those of the derivative by the share of the step.
+#: Matrix from these coefficients to the coefficients of the derivative by the share of the step.
 _DERIVE = np.array([np.pad(2 * legendre.legder(row), (0, 1))[: DEGREE + 1] for row in np.eye(DEGREE + 1)]).T
 
 
 def at(shares):
-    """Matrix from values at the nodes to the polynomial at shares of the step."""
+    """Return the matrix from values at the nodes to the polynomial at shares of the step."""
     return legendre.legvander(2 * np.asarray(shares) - 1, DEGREE) @ TO_LEGENDRE
 
 
 def slope_at(shares):
-    """Matrix from values at the nodes to the derivative by the share."""
+    """Return the matrix from values at the nodes to the derivative by the share."""
     return legendre.legvander(2 * np.asarray(shares) - 1, DEGREE) @ _DERIVE @ TO_LEGENDRE
 
 
 def polynomial(values, sign=0):
-    """The polynomial through values at the nodes, by the share; with a `sign` ± its derivative."""
+    """Return the polynomial of the share through values at the nodes; with a `sign`, ± its derivative."""
     coefficients = (sign * _DERIVE if sign else np.eye(DEGREE + 1)) @ TO_LEGENDRE @ values
     return lambda share: float(legendre.legval(2 * share - 1, coefficients))
 
 
 def integral_at(shares, times=1):
-    """Matrix from values at the nodes to the integral from the beginning, or to that of the integral."""
+    """Return the matrix from values at the nodes to the integral from the start, repeated `times`."""
     columns = [legendre.Legendre(column, [0, 1]).integ(times, lbnd=0)(shares) for column in TO_LEGENDRE.T]
     return np.transpose(columns)
 
 
 @lru_cache
 def _derivatives():
-    """Matrices from values at the nodes to derivatives of all orders there."""
+    """Return the matrices from values at the nodes to derivatives of all orders there."""
     powers = [np.eye(DEGREE + 1)]
     for _ in range(DEGREE):
         powers.append(_DERIVE @ powers[-1])
@@ -68,14 +68,14 @@ def _derivatives():
 
 @lru_cache
 def _gauss(count):
-    """Gauss nodes u of [0, 1], and for each node c the weighted Lagrange polynomials at c u: (c, u, j)."""
+    """Return Gauss nodes u of [0, 1], and per node c weighted Lagrange polynomials at c u: (c, u, j)."""
     node, weight = legendre.leggauss(count)
     node, weight = (node + 1) / 2, weight / 2
     return node, np.array([at(c * node) * (c * weight)[:, None] for c in NODES])
 
 
 def _convolved(rate, i):
-    """∫₀^c exp(rate (c − τ)) ℓ_j(τ) dτ for complex rates (K,) at the node c with number i: (K, j)."""
+    """Return ∫₀^c exp(rate (c − τ)) ℓ_j(τ) dτ, (K, j), for complex rates (K,) at node number i, c."""
     c, low = NODES[i], -1.0
     result, z = np.zeros((rate.size, DEGREE + 1), complex), np.abs(rate) * c
     for high, count in _GAUSS:
@@ -100,7 +100,7 @@ DISPLACEMENTS, SLOPE, WHOLE = integral_at(NODES, 2), slope_at(NODES), integral_a
 class Oscillators:
     """Free masses and modes under one force; the first mass is the body, which the force brakes.
 
-    `residual` is the compliance (m/N) of what answers without delay.
+    `residual` is the compliance (m/N) of the parts that respond without delay.
     """
 
     def __init__(self, omega, mass, damping, residual):
@@ -111,25 +111,26 @@ class Oscillators:
         self._steps = {}
 
     def displacements(self, z):
-        """Displacements q (m) of the modes."""
+        """Return the displacements q (m) of the modes."""
         return z.imag / self.root.imag
 
     def rates(self, z):
-        """Rates q′ (m/s) of the modes."""
+        """Return the rates q′ (m/s) of the modes."""
         return z.real + self.displacements(z) * self.root.real
 
     def energies(self, z):
-        """Energy (J) of the modes."""
+        """Return the energy (J) of the modes."""
         return (
             np.sum(self.mass * (self.rates(z) ** 2 + (self.omega * self.displacements(z)) ** 2), axis=-1)
             / 2
         )
 
     def step(self, h):
-        """Matrices of a step of duration h (s).
+        """Return the three matrices of a step of duration h (s).
 
-        The compliance (node, j) between forces at the nodes and displacements there, of modes, free masses
-        and the residual; exp(λ c h) at the nodes (node, K); and the part of z (node, K, j) by the forces.
+        The first is the compliance (node, j) of modes, free masses and residual between forces and
+        displacements at the nodes. The second is exp(λ c h) at the nodes, (node, K). The third is the
+        forces' part of z, (node, K, j).
         """
         if h not in self._steps:
             if len(self._steps) >= _KEPT:
@@ -145,6 +146,6 @@ class Oscillators:
         return self._steps[h]
 
     def after(self, z, t, force):
-        """z after a time t (s), by the forces (N) at the nodes of that time."""
+        """Return z after a time t (s), from the forces (N) at the nodes of this time."""
         weights = _convolved(self.root * t, DEGREE)
         return np.exp(self.root * t) * z + t / self.mass * (weights @ force)

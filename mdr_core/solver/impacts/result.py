@@ -24,9 +24,9 @@ from .scaling import FastLimit, fast_limit
 class Impact(Entries, ImpactResult):
     """Results of one or many impacts, returned by `impact`; `result[i]` selects one.
 
-    `turning_point` is the state of largest depth; `plastic_depth_increase` (m) is due to this impact alone.
-    A subclass is the solution by one solver, which gives `restitution`, the coefficient e, 0 for a captured
-    body, and `contact_time` (s) from first contact to its loss, infinite for a captured body.
+    `turning_point` is the state of largest depth. `plastic_depth_increase` (m) is due to this impact alone.
+    Each solver has a subclass, which defines `restitution`, the coefficient e, and `contact_time` (s) from
+    first contact to its loss. For a captured body they are 0 and infinite.
 
     Examples
     --------
@@ -40,11 +40,11 @@ class Impact(Entries, ImpactResult):
     speed: Array
     turning_point: Indentation
     plastic_depth_increase: Array
-    #: What carries the medium; rigid, where none is given.
+    #: The structure that carries the medium; rigid by default.
     structure: Structure = field(default=RIGID, kw_only=True)
 
     _name = "Impact"
-    #: How it was solved: by the energy balance in closed form, or by the equation of motion.
+    #: Method of solution: the energy balance in closed form, or the equation of motion.
     model: ClassVar[Model] = CLOSED_FORM
 
     def __getitem__(self, index: Any) -> Self:
@@ -65,7 +65,7 @@ class Impact(Entries, ImpactResult):
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end for these impacts, and the fast limit (23), (24), as data."""
+        """Limits of the model's assumptions for these impacts, and the fast limit (23), (24), as data."""
         return lazy.limits.impact_limits(self)
 
     @property
@@ -92,13 +92,16 @@ class Impact(Entries, ImpactResult):
     def stored_energy(self) -> Array:
         """Elastic energy (J) of the medium at the turning point.
 
-        All of it is returned, unless the medium is viscous or stands on a plate.
+        All of it is returned, unless the medium is viscous or on a plate.
         """
         return self.turning_point.stored_energy
 
     @check.frozen_property
     def max_force(self):
-        """Largest force (N), with adhesion that at the turning point; a viscous one is before it."""
+        """Largest force (N); with adhesion, the force at the turning point.
+
+        In a viscous impact it is before the turning point.
+        """
         return self.turning_point.force
 
     @property
@@ -120,7 +123,7 @@ class Impact(Entries, ImpactResult):
 
     @check.frozen_property
     def structure_work(self):
-        """Energy (J) that the waves of a plate or a rod carry away; 0 without one."""
+        """Energy (J) that the waves of a plate or a rod carry away; 0 without a plate or a rod."""
         return np.zeros(np.shape(self.mass))
 
     @property
@@ -132,11 +135,11 @@ class Impact(Entries, ImpactResult):
 
     @property
     def fast_limit(self) -> FastLimit:
-        """The impact in the limit of Popov (2015), Eqs. (23), (24), with its error: a `FastLimit`."""
+        """The impact in the limit of Popov (2015), Eqs. (23), (24), with its error, as a `FastLimit`."""
         return fast_limit(self)
 
     def motion(self, n: int = 200) -> Motion:
-        """The motion of one impact at n instants, from first contact to the loss of contact.
+        """Return the motion of one impact at n instants, from first contact to the loss of contact.
 
         Instants are equally spaced before the turning point, and again after it.
 

@@ -27,7 +27,7 @@ class ScalingLaw:
     """Power laws in the impact energy W for very fast impacts on a medium of one class of hardness.
 
     With F ∝ aⁱ and a ∝ d^(1/n), the work is proportional to d^((n + i)/n), the elastic energy to F²/a. The
-    medium is on a rigid support: a `Structure` takes up a part of the energy, which is no power of W.
+    medium is on a rigid support: a `Structure` takes up a part of the energy that is not a power of W.
 
     Parameters
     ----------
@@ -84,14 +84,14 @@ class ScalingLaw:
 
 @dataclass(frozen=True)
 class HardnessClass:
-    """Class of hardness that measurements show: imprints, mean pressures or a curve.
+    """Class of hardness from measurements: imprints, mean pressures or a curve.
 
-    `best` is the letter of the nearest class, None where the measurements tell nothing, and `possible` has
-    the letters of all classes that they do not rule out. `describes` says whether the best class describes
-    them, and `reason` is the evidence in words.
+    `best` is the letter of the nearest class, or None if the measurements do not determine it. `possible`
+    has the letters of all classes that are not ruled out. `describes` is whether the best class describes
+    the measurements, and `reason` is the evidence in words.
 
-    Of imprints and mean pressures `slope` is the measured power with its standard error `slope_error`,
-    infinite for two points; of a curve both are None.
+    For imprints and mean pressures, `slope` is the measured power with its standard error `slope_error`,
+    infinite for two points. For a curve both are None.
 
     Examples
     --------
@@ -111,7 +111,7 @@ class HardnessClass:
 
     @property
     def letter(self) -> str | None:
-        """Letter of the class, None where none or several describe the measurements."""
+        """Letter of the class that alone describes the measurements, else None."""
         return self.best if self.describes and len(self.possible) == 1 else None
 
     hardness_class = check.former("hardness_class", "letter")
@@ -126,21 +126,22 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
     """Determine the class of hardness from the radii of imprints of fast impacts at several energies.
 
     The slope of ln(radius) over ln(energy) is compared with 1/(n + i). A class fits within two standard
-    errors, or within 10 %, because real impacts are only approximately fast. The body
-    that is hit must be thick and massive: a plate or a soft support takes a part of the energy. The classes
-    are those of Popov (2015), section 1.
+    errors, or within 10 %, because real impacts are only approximately fast. The target must be thick and
+    massive: a plate or a soft support takes a part of the energy. Popov (2015), section 1, defines the
+    classes.
 
     Parameters
     ----------
     energy, radius : array_like
-        Energies (J) dissipated by the impacts, at least two different ones, and radii (m) of the imprints.
+        Energies (J) dissipated by the impacts, with at least two different values, and radii (m) of the
+        imprints.
     exponent : float
         Exponent n of the indenter z = c rⁿ, positive: 1 for a cone, 2 for a paraboloid.
 
     Returns
     -------
     HardnessClass
-        With the `letter` of the class, or None, and the reason in words.
+        The class, with its `letter` or None, and the reason in words.
 
     Raises
     ------
@@ -166,9 +167,9 @@ def hardness_class(energy: ArrayLike, radius: ArrayLike, exponent: float) -> Har
 
 
 def class_of(expected, x, y, points):
-    """`HardnessClass` from the slope of y over x at some `points`.
+    """Return the `HardnessClass` from the slope of y over x at some `points`.
 
-    `expected` has the power of each class, and the tolerance of it if two standard errors are smaller.
+    `expected` has the power of each class, and its tolerance if two standard errors are smaller.
     """
     slope, error = _straight_line(x, y)
     fits = [n for n, (power, limit) in expected.items() if abs(slope - power) <= max(2 * error, limit)]
@@ -188,7 +189,7 @@ def class_of(expected, x, y, points):
 
 
 def _straight_line(x, y):
-    """Slope of y over x by least squares, NaN for a single x, and its standard error, infinite for two."""
+    """Return slope of y over x by least squares, NaN for one x, and standard error, infinite for two."""
     count = np.unique(x).size
     if count < 2:
         return np.nan, np.inf
@@ -202,13 +203,13 @@ def _straight_line(x, y):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FastLimit(Entries, Record):
-    """Impact in the limit of a fully yielded contact, and its errors against the exact solution.
+    """Impact in the limit of a fully yielded contact, with its errors relative to the exact solution.
 
     Popov (2015), Eqs. (23), (24): the work is π q_c ∫ a dd, for a cone q_c d²/s, and the whole contact
     is damaged. The coefficient of restitution is √(U/W) with U = E* a d_c².
 
-    Largest depth (m), contact area (m²) and coefficient of restitution in this limit, with their relative
-    errors, which are large where the limit does not hold.
+    It has the largest depth (m), the contact area (m²) and the coefficient of restitution in this limit,
+    with their relative errors. The errors are large if the limit does not hold.
     """
 
     max_depth: Array
@@ -226,7 +227,7 @@ class FastLimit(Entries, Record):
 
 
 def depth_in_fast_limit(hit):
-    """Depth (m) at which π q_c ∫ a dd is the energy of an `Impact`; ∞ below the known depth."""
+    """Return the depth (m) at which π q_c ∫ a dd is the energy of an `Impact`; ∞ below the known depth."""
     profile, energy = hit.profile, hit.mass * hit.speed**2 / 2
     target = np.broadcast_to(energy / (np.pi * hit.medium.q_c), np.shape(hit.max_depth))
 
@@ -237,12 +238,12 @@ def depth_in_fast_limit(hit):
 
 
 def fast_limit(hit):
-    """The `FastLimit` of an `Impact`."""
+    """Return the `FastLimit` of an `Impact`."""
     profile, medium = hit.profile, hit.medium
     if not hit.structure.rigid:
         raise check.MDRError(
-            "the fast limit is not for impacts on a structure, which takes up a part of the energy; leave "
-            "the structure out"
+            "the fast limit does not support impacts on a structure, which takes up a part of the energy; "
+            "leave the structure out"
         )
     refuse_other_classes(medium, "the fast limit", "ScalingLaw has the powers of each class")
     d_c = np.asarray(medium.critical_depth)
@@ -257,7 +258,7 @@ def fast_limit(hit):
     area = np.pi * a**2
     energy = hit.mass * hit.speed**2 / 2
     restitution = np.sqrt(medium.E_star * a * d_c**2 / energy)
-    # A body that adhesion holds has no restitution.
+    # If adhesion holds the body, the restitution is 0.
     with np.errstate(divide="ignore"):
         return FastLimit(
             max_depth=check.frozen(depth),

@@ -1,25 +1,25 @@
-"""Whether a contact snaps on a support: where its force falls faster with depth than the support gives way.
+"""Snap of a contact on a support: its force falls with depth faster than the stiffness of the support.
 
-On loading the body goes by S dd with S = 1 + F′/K. Where the force falls after the onset of yield, as with
-a hardness f_c/a², S may be 0: there the depth jumps at a fixed place of the body, and energy is lost that
-is in no term of the balance, which would close over the jump.
+On loading the body moves by S dd with S = 1 + F′/K. If the force falls after the onset of yield, as with a
+hardness f_c/a², S may reach 0. Then the depth jumps at a fixed position of the body. The jump loses energy,
+but no term of the energy balance includes this loss.
 """
 
 import numpy as np
 
 from ...base import check
 
-#: Places between the onset of yield and the turning point at which S is looked at, and grids by which the
-#: first one below 0 is closed in, or else the smallest one.
+#: Places between the onset of yield and the turning point at which S is evaluated, and number of grids that
+#: enclose the first place with S ≤ 0, or else the place of the smallest S.
 _PLACES = 65
 _GRIDS = 5
 
 
 def depth_before_snap(rule, imprint, interval, increase, energy, support_compliance, structure):
-    """Penetrations (m) up to which the contact does not snap; impacts that reach them are refused.
+    """Return penetrations (m) up to which the contact does not snap; raise an error if impacts reach them.
 
-    `interval` and `increase` (m) are those without a support, which are deeper, `energy` the kinetic energy
-    over 2E* (m³), `support_compliance` 2E*/K (1/m). Infinite where it does not snap.
+    `interval` and `increase` (m) are those of the deeper impact without a support. `energy` is the kinetic
+    energy over 2E* (m³), and `support_compliance` is 2E*/K (1/m). Without a snap the result is infinite.
     """
     if not rule.may_fall(interval.upper):
         return np.inf
@@ -43,8 +43,8 @@ def depth_before_snap(rule, imprint, interval, increase, energy, support_complia
             1 - displacement_slope(start + (end - start) * shares**3).min(axis=1), shape
         )
         bound = (
-            f"is no more than the {fall[snaps].flat[0]:.6g} N/m by which the force falls with depth after "
-            "the onset of yield: the contact snaps, and the energy that it loses is not computed"
+            f"must exceed {fall[snaps].flat[0]:.6g} N/m, the slope at which the force falls after the "
+            "onset of yield: below it the contact snaps, with an energy loss that is not computed"
         )
         advice = "give a stiffer support, less speed, or a hardness without f_c"
         check.raise_if("stiffness", stiffness, snaps, bound, unit="N/m", advice=advice)
@@ -52,24 +52,24 @@ def depth_before_snap(rule, imprint, interval, increase, energy, support_complia
 
 
 def snap(rule, imprint, end, support_compliance):
-    """Penetrations (m) just before a contact snaps, infinite if not up to `end`; S, and the onsets (m)."""
+    """Return penetrations (m) just before a snap, infinite if none up to `end`; S; and the onsets (m)."""
     start = np.minimum(rule.penetration(imprint, imprint), end)
 
     def displacement_slope(y):
-        """S at penetrations (m)."""
+        """Return S at penetrations (m)."""
         return 1 + support_compliance * rule.loading_stiffness_radius(*rule.loading(y, imprint))
 
-    # Just before it: at the very place the work has no slope.
+    # Just before the snap: at the snap itself the work has no slope.
     return (1 - 1e-9) * _first_snap(displacement_slope, start, end), displacement_slope, start
 
 
 def _first_snap(displacement_slope, start, end):
-    """Penetration (m) between `start` and `end` (N, 1) at which S is 0 first; infinite if nowhere."""
+    """Return the first penetration (m) with S = 0 between `start` and `end` (N, 1); infinite if none."""
     rows = np.arange(len(start))
     low, high = np.zeros_like(start), np.ones_like(start)
     share = np.linspace(0, 1, _PLACES)
     for _ in range(_GRIDS):
-        # Of third power: next to the onset S changes as a root of the distance.
+        # A third power, because S changes as a root of the distance next to the onset.
         places = low + (high - low) * share
         value = displacement_slope(start + (end - start) * places**3)
         negative = value <= 0

@@ -1,4 +1,4 @@
-"""Impacts by the equation of motion: on a viscous medium, on a plate, and for a comparison on others."""
+"""Impacts by the equation of motion: on a viscous medium, on a plate, and for comparison on others."""
 
 from dataclasses import dataclass, field
 
@@ -18,13 +18,13 @@ from .equation_of_motion import ON_MEDIUM, ON_STRUCTURE, Bodies
 from .motion_solver import ConvergenceError, solve
 from .result import Impact
 
-#: Errors of steps. On a plate a depth may have a small share in the work: ten thousand critical depths deep
-#: the ledger has an error of 5·10⁻¹⁰ with the first of them, and of 3·10⁻¹² with the second.
+#: Errors of steps. On a plate a depth may have a small share in the work. Ten thousand critical depths
+#: deep, the ledger has an error of 5·10⁻¹⁰ with the first tolerance, and of 3·10⁻¹² with the second.
 _TOLERANCE = {ON_MEDIUM: 1e-5, ON_STRUCTURE: 1e-7}
-#: Impacts that are solved at once. On a plate they take steps of more kinds, so that fewer are left in
-#: each: 1000 elastic impacts of a paraboloid are 1.3 times as fast as by 256.
+#: Number of impacts solved at once. On a plate there are more kinds of steps, and fewer impacts in each:
+#: 1000 elastic impacts of a paraboloid are 1.3 times as fast as in blocks of 256.
 _TOGETHER = {ON_MEDIUM: 256, ON_STRUCTURE: 1024}
-#: Λ = F₀/(Z v) from which on a plate only follows the body.
+#: Least Λ = F₀/(Z v) at which a plate only follows the body.
 _SOFT = 1e4
 
 
@@ -48,22 +48,22 @@ class ViscousImpact(Impact):
 
 
 def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID, in_time=False):
-    """Impacts over imprints of given plastic depth (m).
+    """Solve impacts over imprints of given plastic depth (m).
 
-    Where the medium has no viscosity, and the structure no waves, they are solved by the energy balance,
-    unless `in_time`. In a row with viscosity the structure is rigid.
+    Without viscosity and without waves in the structure, the energy balance solves them, unless `in_time`
+    is true. In a row with viscosity the structure is rigid.
     """
     dry = dry_impact(profile, medium, mass, speed, imprint_depth, structure)
     interval, increase = dry.turning_point.live_interval, dry.plastic_depth_increase
     penetration = np.where(interval.upper < np.inf, interval.length + increase, np.inf)
     if profile.shape:
-        # Steps with a wrong g′, or beyond the end of a table, do not end: of one profile that is known.
+        # With a wrong g′, or beyond the end of a table, steps do not end. One profile was checked before.
         check_shape(profile, interval.upper)
     bodies = Bodies.of(profile, medium, mass, speed, imprint_depth, penetration, structure)
     moving = (bodies.relaxation_time.reshape(mass.shape) > 0) | in_time
     on_structure = np.broadcast_to(structure.is_plate | structure.is_support, mass.shape)
     motions = np.zeros((4, *mass.shape))
-    # One that is too deep is refused.
+    # An impact that is too deep raises an error later.
     balanced = ~moving & (penetration < np.inf)
     if balanced.any():
         remainder = dry[balanced]
@@ -80,7 +80,7 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID,
             try:
                 penetrations[rows], columns[:, rows] = _solved(bodies[rows], equations)
             except ConvergenceError as error:
-                # A shape or a law that is at fault is known at the depths without losses, which are larger.
+                # At the larger depths without losses, this check finds a faulty shape or law.
                 check_reached(profile, medium, interval.upper)
                 first = np.unravel_index(int(rows[error.rows][0]), mass.shape)
                 soft = _soft(profile, medium, mass, speed, structure, first)
@@ -93,7 +93,7 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID,
     if np.any(on_structure & moving) and np.all(interval.upper < np.inf):
         force = np.where(on_structure, largest_force(rule, turning_point, increase), force)
         plastic_work = 2 * medium.E_star * rule.plastic_integral(imprint_depth, increase)
-        # All that is left to a body that never leaves goes into the waves.
+        # The remaining energy of a body that never leaves goes into the waves.
         work = np.where(np.isinf(end_time), mass * speed**2 / 2 - plastic_work, work)
     return ViscousImpact(
         mass=mass[()],
@@ -110,9 +110,9 @@ def viscous_impact(profile, medium, mass, speed, imprint_depth, structure=RIGID,
 
 
 def _soft(profile, medium, mass, speed, structure, index):
-    """Words on a plate that only follows the body at an index; empty if it does not.
+    """Return words on a plate that only follows the body at an index; empty if it does not.
 
-    Λ = F₀/(Z v) compares the elastic force on a rigid body with that of a plate under the body's speed.
+    Λ = F₀/(Z v) compares the elastic force on a rigid body with the force of a plate at the body's speed.
     """
     shape = mass.shape
     profile, medium, structure = (each.entries(index, shape) for each in (profile, medium, structure))
@@ -131,9 +131,10 @@ def _soft(profile, medium, mass, speed, structure, index):
 
 
 def _refuse_unsolved(error, rows, speed, profile, depth, soft):
-    """Refuses the impacts at some rows of the flattened ensemble, which have not been solved.
+    """Raise an error for the unsolved impacts at some rows of the flattened ensemble.
 
-    `depth` (m) is that without viscosity, `soft` has words on a plate that only follows the first body.
+    `depth` (m) is the depth without viscosity; `soft` has words on a plate that only follows the first
+    body.
     """
     bad = np.zeros(speed.size, bool)
     bad[rows] = True
@@ -143,21 +144,21 @@ def _refuse_unsolved(error, rows, speed, profile, depth, soft):
     elif soft:
         bound, advice = (
             f"has no solution: {soft}",
-            "take the structure by its modes, or check its impedance",
+            "give the modes of the structure, or check its impedance",
         )
     else:
         bound = f"has no solution: {error}"
-        advice = "check mass, eta and the structure, and the functions of a shape or a law of your own"
+        advice = "check mass, eta and the structure, and the functions of a custom shape or law"
     raise check.InvalidEntries("speed", speed, bad.reshape(speed.shape), bound, "m/s", advice) from error
 
 
 def _solved(bodies, equations):
-    """Penetrations (m); restitution, contact time, work over 2E*, largest deceleration on no structure."""
+    """Return penetrations (m); restitution, contact time, work over 2E*, largest deceleration (or 0)."""
     solution = solve(bodies, _TOLERANCE[equations], equations)
     end, endless = solution.end, solution.endless
     restitution = np.where(endless, 0.0, -end.velocity / bodies.speed)
     time = np.where(endless, np.inf, end.time)
-    # On a structure the deceleration of the body is not that of the equation.
+    # On a structure, the equation does not give the deceleration of the body.
     deceleration = solution.max_deceleration if equations is ON_MEDIUM else np.zeros(len(time))
     values = restitution, time, end.work, deceleration[:, None]
     return solution.turning_point.depth[:, 0], np.hstack(values).T

@@ -1,1 +1,1 @@
-"""What is indented: the medium, its laws of hardness, the structure behind it."""
+"""The indented medium, its laws of hardness, and the structure behind it."""

@@ -1,4 +1,4 @@
-"""Laws of hardness: the mean pressure σ_c(a) under a contact of radius a that has yielded throughout."""
+"""Laws of hardness: the mean pressure σ_c(a) under a fully yielded contact of radius a."""
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, fields
@@ -16,17 +16,17 @@ _TINY = np.finfo(float).tiny
 class HardnessLaw(check.Parameters, ABC):
     """Base class of laws of hardness σ_c(a), for `Medium(E_star, hardness=law)`.
 
-    A law is a frozen dataclass with two functions of arrays of contact radii a > 0 (m), smooth in a, which
-    do not change these arrays:
-    `at(a)`, the hardness σ_c (Pa), and `rate(a)`, its derivative dσ_c/da (Pa/m). The base class makes the
-    other three of them; a law may override these where its limits for a → 0 and a → ∞ need it.
+    A law is a frozen dataclass with two functions of arrays of contact radii a > 0 (m): `at(a)`, the
+    hardness σ_c (Pa), and `rate(a)`, its derivative dσ_c/da (Pa/m). Both must be smooth in a, and must not
+    change these arrays. The base class derives three other functions from them. A law may override these
+    if its limits for a → 0 and a → ∞ require it.
 
     Under an indenter with the reduced profile g the elements are compressed elastically by at most
     u_c = π a σ_c(a)/(2E*), Popov (2015), Eqs. (11), (12). A law is valid while σ_c is finite and above 0
-    and a σ_c/g(a) does not grow with a: otherwise elements that have yielded would become elastic again on
-    loading. Every calculation checks this at 200 radii, from 10⁻⁶ of its largest contact radius up to it,
-    and that `rate` is the derivative of `at`. Dips narrower than 7 % of the radius, and jumps of less than
-    10⁻⁵ of σ_c, are not seen.
+    and a σ_c/g(a) does not grow with a. Otherwise elements that have yielded would become elastic again on
+    loading. Every calculation checks this at 200 radii, from 10⁻⁶ of its largest contact radius up to it.
+    It also checks that `rate` is the derivative of `at`. It does not detect dips narrower than 7 % of the
+    radius, and jumps of less than 10⁻⁵ of σ_c.
 
     Parameters may be arrays, which broadcast like the parameters of a `Medium`; give a table as a tuple.
     Laws are evaluated at radii of 10⁻³⁰ m and more.
@@ -63,33 +63,33 @@ class HardnessLaw(check.Parameters, ABC):
 
     @abstractmethod
     def at(self, a: Any) -> Any:
-        """Hardness σ_c (Pa) at contact radii a (m)."""
+        """Return the hardness σ_c (Pa) at contact radii a (m)."""
 
     @abstractmethod
     def rate(self, a: Any) -> Any:
-        """dσ_c/da (Pa/m) at contact radii a (m)."""
+        """Return dσ_c/da (Pa/m) at contact radii a (m)."""
 
     def line_load(self, a: Any) -> Any:
-        """a σ_c (N/m): 2/π times the largest line load of an element, Popov (2015), Eq. (12)."""
+        """Return a σ_c (N/m), 2/π times the largest line load of an element, Popov (2015), Eq. (12)."""
         return a * self.at(a)
 
     def line_load_rate(self, a: Any) -> Any:
-        """d(a σ_c)/da (Pa)."""
+        """Return d(a σ_c)/da (Pa)."""
         return self.at(a) + a * self.rate(a)
 
     def wall_load(self, a: Any) -> Any:
-        """a² σ_c (N): 1/π of the force of a contact that has yielded throughout, as behind a wall."""
+        """Return a² σ_c (N), 1/π times the force of a fully yielded contact, such as at a wall."""
         return a * self.line_load(a)
 
     def scaled(self, factor: ArrayLike, length: ArrayLike) -> Any:
-        """The law of radii in units of a `length` (m), with line loads times a `factor`."""
+        """Return the law for radii in units of a `length` (m), with line loads times a `factor`."""
         return lazy.law.ScaledLaw(self, factor, length)
 
     def stored(self) -> "HardnessLaw":
-        """The law as a medium keeps it: with copies of its arrays. Refused if it may change."""
+        """Return the law for a medium, with copies of its arrays; raise an error if it is mutable."""
         kind, arrays = type(self), {}
         name, own = kind.__name__, {each.name for each in fields(self)}
-        # Values that are computed once, by functools.cached_property, belong to the class.
+        # Cached values, by functools.cached_property, have a name in the class.
         if any(key not in own and not hasattr(kind, key) for key in vars(self)):
             raise TypeError(f"{name} must not change: declare it with @dataclass(frozen=True)")
         for each in fields(self):
@@ -102,7 +102,7 @@ class HardnessLaw(check.Parameters, ABC):
         return self._with(self.__getstate__() | arrays) if arrays else self
 
     def _with(self, values):
-        # Not by the constructor: values that it derives from others are among these.
+        # Without the constructor, because `values` include the values that it derives.
         new = object.__new__(type(self))
         check.store(new, **values)
         return new
@@ -125,7 +125,7 @@ class SumOfClasses(HardnessLaw):
     def rate(self, a):
         return -(self.q_c + 2 * np.asarray(self.f_c) / a) / a / a
 
-    # Searches ask at any radius, also 0 and ∞: a H is 0 there for H = 0, and f_c/a² for f_c = 0.
+    # Searches use any radius, including 0 and ∞: a H must be 0 for H = 0, and f_c/a² for f_c = 0.
     def line_load(self, a):
         with np.errstate(over="ignore", invalid="ignore"):
             return self.hardness * a + self.q_c + self.f_c / np.maximum(a, _TINY)
@@ -135,7 +135,7 @@ class SumOfClasses(HardnessLaw):
             return self.hardness - self.f_c / a / a
 
     def wall_load(self, a):
-        # The limit for a → ∞ is f_c without the two others.
+        # The limit for a → ∞ is f_c if the two other constants are 0.
         parts = (self.hardness * a if np.any(self.hardness) else 0.0) + self.q_c
         return (parts * a if np.any(parts) else 0.0) + self.f_c
 
@@ -146,7 +146,7 @@ class SumOfClasses(HardnessLaw):
 
 
 def hardness_constants(q_c, hardness, f_c):
-    """The three constants of a `Medium`, checked; 0 where not given, and an infinite q_c without any."""
+    """Return the three checked constants of a `Medium`: 0 if not given, and q_c = ∞ without any."""
     if isinstance(hardness, HardnessLaw):
         return _law_alone(q_c, hardness, f_c)
     if callable(hardness):
@@ -170,20 +170,23 @@ def hardness_constants(q_c, hardness, f_c):
 
 
 def _law_alone(q_c, law, f_c):
-    """The constants beside a law of hardness: none, where an infinite q_c means that none is given."""
+    """Return the constants of a medium with a law of hardness; raise an error if q_c or f_c is given.
+
+    An infinite q_c counts as not given.
+    """
     law = law.stored()
     for name, value, unit, term in (("q_c", q_c, "N/m", "q_c/a"), ("f_c", f_c, "N", "f_c/a²")):
         quantity, value = f"yield constant {name}", 0.0 if value is None else value
         value = check.positive(quantity, value, unit=unit, zero=True, infinite=name == "q_c")
         beside = (np.asarray(value) > 0) & (np.asarray(value) < np.inf)
         bound = f"cannot be combined with the law of hardness {shown(law)}"
-        advice = f"write {term} into its at(a), or take hardness = 0 beside {name}"
+        advice = f"write {term} into its at(a), or take hardness = 0 with {name}"
         check.raise_if(quantity, np.asarray(value), beside, bound, unit=unit, advice=advice)
     return {"q_c": 0.0, "hardness": law, "f_c": 0.0}
 
 
 def refuse_sum(medium):
-    """Refuses a `Medium` whose hardness is 0, or has an infinite q_c beside another class."""
+    """Raise an error if the hardness of a `Medium` is 0, or has an infinite q_c with another class."""
     if isinstance(medium.hardness, HardnessLaw):
         return
     q_c, others = medium.q_c, medium.hardness + medium.f_c
@@ -191,28 +194,28 @@ def refuse_sum(medium):
         (
             (q_c == 0) & (others == 0),
             "leaves no hardness, because the other constants are 0",
-            "give one above 0",
+            "give a constant above 0",
         ),
         (
             (q_c == np.inf) & (others > 0),
             "means that nothing yields, which contradicts a hardness or f_c above 0",
-            "give q_c = 0 or a finite one",
+            "give q_c = 0 or a finite q_c",
         ),
     ):
         check.raise_if("yield constant q_c", q_c, bad, bound, unit="N/m", advice=advice)
 
 
 def refuse_beside_adhesion(medium):
-    """Refuses a `Medium` with adhesion and a law, viscosity, H or f_c, also in different entries.
+    """Raise an error if a `Medium` has adhesion and a law, viscosity, H or f_c, also in different entries.
 
-    All entries of an ensemble are solved by one method, and that of adhesion has none of these.
+    One method solves all entries of an ensemble, and the method for adhesion supports none of these.
     """
     sticks = medium.work_of_adhesion > 0
     if not np.count_nonzero(sticks):
         return
     if isinstance(medium.hardness, HardnessLaw):
         raise check.MDRError(
-            "adhesion is modelled for the hardness q_c/a only, not for the law "
+            "adhesion supports only the hardness q_c/a, not the law "
             f"{shown(medium.hardness)}; set the work of adhesion work_of_adhesion to 0, or give q_c"
         )
     for quantity, value, unit in (
@@ -221,7 +224,8 @@ def refuse_beside_adhesion(medium):
         ("yield constant f_c", medium.f_c, "N"),
     ):
         value, sticks = (np.broadcast_to(each, medium.shape) for each in (value, sticks))
-        bound, advice = "is not modelled with adhesion", "set it or work_of_adhesion to 0"
+        bound, advice = "is not supported with adhesion", "set it or work_of_adhesion to 0"
         check.raise_if(quantity, value, (value > 0) & sticks, bound, unit=unit, advice=advice)
-        bound, advice = "is not solved together with entries that have adhesion", "solve these apart"
+        bound = "is not supported together with entries that have adhesion"
+        advice = "solve these separately"
         check.raise_if(quantity, value, value > 0, bound, unit=unit, advice=advice)

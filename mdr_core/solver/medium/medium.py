@@ -18,33 +18,33 @@ from .transverse_isotropy import effective_modulus
 
 
 def refuse_other_classes(medium, what, instead):
-    """Refuses a medium of another hardness than q_c/a for a quantity `what` of class (b)."""
+    """Raise an error unless the hardness is q_c/a, for a quantity `what` of class (b)."""
     if not medium.inverse_to_radius:
         law = f", not the law {shown(medium.hardness)}" if medium.has_own_law else ""
         raise check.MDRError(f"{what} supports only the hardness q_c/a, class (b){law}; {instead}")
 
 
 def refuse_transversely_isotropic(medium, what):
-    """Refuses a medium without a Poisson ratio for something, `what`, that needs more than E*."""
+    """Raise an error if the medium has no Poisson ratio, for `what`, which needs more than E*."""
     if medium.poisson is None:
         raise check.MDRError(
-            f"{what} needs more elastic constants than E*: it is not computed for a transversely isotropic "
-            "medium (poisson = None). As an estimate take an isotropic one, Medium(E_star, poisson=0.3)"
+            f"{what} needs more elastic constants than E*, and does not support a transversely isotropic "
+            "medium (poisson = None). For an estimate take an isotropic medium, Medium(E_star, poisson=0.3)"
         )
 
 
 def critical_depth(E_star, q_c):
-    """Depth d_c = π q_c/(2E*) (m) at which yield starts, Popov (2015), Eq. (19)."""
+    """Return the depth d_c = π q_c/(2E*) (m) at which yield starts, Popov (2015), Eq. (19)."""
     return np.pi / 2 * (q_c / E_star)
 
 
 def yield_constant(E_star, critical_depth):
-    """Yield constant q_c = 2E* d_c/π (N/m), the inverse of `critical_depth`."""
+    """Return the yield constant q_c = 2E* d_c/π (N/m), the inverse of `critical_depth`."""
     return 2 / np.pi * E_star * critical_depth
 
 
 def poisson_ratio(quantity, ratio):
-    """A Poisson ratio as a float array."""
+    """Return a Poisson ratio as a float array, −1 < ν ≤ 1/2; raise an error otherwise."""
     ratio = check.finite_array(quantity, ratio)
     return check.raise_if(quantity, ratio, (ratio <= -1) | (ratio > 0.5), "must lie in −1 < ν ≤ 0.5")
 
@@ -53,13 +53,13 @@ def poisson_ratio(quantity, ratio):
 class Medium(check.Parameters):
     """A half-space: elastic or viscoelastic, with a hardness that is a function of the contact radius.
 
-    The mean pressure under a contact of radius a that has yielded throughout is the hardness
+    The mean pressure under a fully yielded contact of radius a is the hardness
 
         σ_c(a) = hardness + q_c/a + f_c/a²
 
-    the sum of the three classes of Popov (2015), section 1: (a) constant, (b) inversely proportional to the
-    radius, which the paper treats, (c) inversely proportional to the area. Of the three constants those
-    that are not given are 0; if none is given nothing yields.
+    This is the sum of the three classes of Popov (2015), section 1: (a) constant, (b) inversely
+    proportional to the radius, which the paper treats, (c) inversely proportional to the area. Omitted
+    constants are 0. If all are omitted, nothing yields.
 
     Parameters
     ----------
@@ -67,20 +67,20 @@ class Medium(check.Parameters):
         Effective modulus E* (Pa), positive. A rigid indenter on a body of modulus E and
         Poisson ratio ν has E* = E/(1 − ν²).
     q_c : float, optional
-        Yield constant of class (b) (N/m = J/m²), not negative. Infinite, the default where neither
-        `hardness` nor `f_c` is given, means that nothing yields.
+        Yield constant of class (b) (N/m = J/m²), not negative. Infinite means that nothing yields; this is
+        the default if neither `hardness` nor `f_c` is given.
     eta : float, optional
         Dynamic viscosity η (Pa·s), not negative; 0 (the default) means rate-independent.
     poisson : float or None, optional
         Poisson ratio ν of the half-space, −1 < ν ≤ 1/2, for the stress below the surface and for friction.
         The dashpots are exact for 1/2. None is a transversely isotropic half-space
-        (`from_transversely_isotropic`), for which neither is computed.
+        (`from_transversely_isotropic`), which supports neither.
     work_of_adhesion : float, optional
         Work of adhesion w (J/m²), not negative: the energy that separates a unit area of the surfaces.
-        0 (the default) means no adhesion. It excludes viscosity, and yield of another class than (b), in
-        all entries of an ensemble.
+        0 (the default) means no adhesion. Adhesion excludes viscosity, and yield of classes other than (b),
+        in all entries of an ensemble.
     hardness : float or HardnessLaw, optional
-        Constant hardness H of class (a) (Pa), finite and not negative: glass, metals, ceramics. Or your own
+        Constant hardness H of class (a) (Pa), finite and not negative: glass, metals, ceramics. Or a custom
         law σ_c(a), a `HardnessLaw`, without `q_c`, `f_c` and adhesion.
     f_c : float, optional
         Yield constant of class (c) (N = J/m), finite and not negative.
@@ -90,10 +90,10 @@ class Medium(check.Parameters):
     Raises
     ------
     ValueError
-        If a parameter is not a number or out of its range, arrays do not broadcast, the hardness is 0,
-        `q_c` is infinite and `hardness` or `f_c` positive, `q_c` or `f_c` is given with a law, or
-        `work_of_adhesion` is positive and one of `eta`, `hardness` and `f_c`, too, also in other entries.
-        A calculation refuses a law that is not admissible at its contact radii.
+        If a parameter is not a number or out of its range, arrays do not broadcast, or the hardness is 0.
+        If `q_c` is infinite and `hardness` or `f_c` positive, or `q_c` or `f_c` is given with a law. If
+        `work_of_adhesion` is positive and one of `eta`, `hardness` and `f_c` is also positive, even in
+        other entries. A calculation raises an error if a law is not valid at its contact radii.
 
     Examples
     --------
@@ -155,9 +155,9 @@ class Medium(check.Parameters):
     def from_hardness(
         cls, E_star: ArrayLike, hardness: ArrayLike, radius: ArrayLike, **other: ArrayLike
     ) -> "Medium":
-        """The medium of class (b) with a hardness that was measured at one contact radius: q_c = σ_c a.
+        """Make a medium of class (b) from a hardness measured at one contact radius: q_c = σ_c a.
 
-        For a hardness that is the same at every radius take `Medium(E_star, hardness=…)`.
+        For a hardness that is the same at every radius, take `Medium(E_star, hardness=…)`.
 
         Parameters
         ----------
@@ -166,14 +166,14 @@ class Medium(check.Parameters):
         hardness : float
             Mean pressure σ_c (Pa) under a fully yielded contact, Popov (2015), Eq. (11).
         radius : float
-            Contact radius a (m) at which it was measured.
+            Contact radius a (m) of the measurement.
         **other
             `eta`, `poisson` and `work_of_adhesion`, as in `Medium`.
 
         Raises
         ------
         ValueError
-            If a parameter is out of its range, or `q_c` or `f_c` is given too.
+            If a parameter is out of its range, or `q_c` or `f_c` is also given.
 
         Examples
         --------
@@ -183,7 +183,7 @@ class Medium(check.Parameters):
         """
         if "q_c" in other or "f_c" in other:
             raise check.MDRError(
-                "q_c or f_c and hardness both determine where yield starts; give one of them"
+                "q_c or f_c and hardness both determine the onset of yield; give one of them"
             )
         hardness = check.positive("hardness", hardness, unit="Pa")
         radius = check.positive("radius of the hardness", radius, unit="m")
@@ -195,21 +195,21 @@ class Medium(check.Parameters):
     def from_critical_depth(
         cls, E_star: ArrayLike, critical_depth: ArrayLike, **other: ArrayLike
     ) -> "Medium":
-        """The medium of class (b) in which yield starts at a given depth: q_c = 2E* d_c/π, Eq. (19).
+        """Make a medium of class (b) in which yield starts at a given depth: q_c = 2E* d_c/π, Eq. (19).
 
         Parameters
         ----------
         E_star : float
             Effective modulus E* (Pa).
         critical_depth : float
-            Indentation depth d_c (m) at which yield starts; also the depth that is recovered on unloading.
+            Indentation depth d_c (m) at which yield starts; also the recovered depth on unloading.
         **other
             `eta`, `poisson` and `work_of_adhesion`, as in `Medium`.
 
         Raises
         ------
         ValueError
-            If a parameter is out of its range, or `q_c`, `hardness` or `f_c` is given too.
+            If a parameter is out of its range, or `q_c`, `hardness` or `f_c` is also given.
 
         Examples
         --------
@@ -220,7 +220,7 @@ class Medium(check.Parameters):
         """
         if {"q_c", "hardness", "f_c"} & other.keys():
             raise check.MDRError(
-                "q_c, hardness or f_c and critical_depth both determine where yield starts; give one"
+                "q_c, hardness or f_c and critical_depth both determine the onset of yield; give one"
             )
         E_star = check.positive("effective modulus E_star", E_star, unit="Pa")
         depth = check.positive("critical depth", critical_depth, unit="m")
@@ -242,7 +242,7 @@ class Medium(check.Parameters):
         hardness: "ArrayLike | HardnessLaw | None" = None,
         f_c: ArrayLike | None = None,
     ) -> "Medium":
-        """The medium equivalent to two elastic bodies in contact.
+        """Make the medium that is equivalent to two elastic bodies in contact.
 
         1/E* = (1 − ν₁²)/E₁ + (1 − ν₂²)/E₂, Popov (2015), Eq. (2).
 
@@ -293,12 +293,12 @@ class Medium(check.Parameters):
         eta: ArrayLike = 0.0,
         work_of_adhesion: ArrayLike = 0.0,
     ) -> "Medium":
-        """The medium of a laminate, a ply, wood or a crystal that is isotropic in the plane of its surface.
+        """Make the medium of a laminate, a ply, wood or a crystal that is isotropic in its surface plane.
 
-        It is pressed along its axis of symmetry by a rigid indenter, and has the exact
+        A rigid indenter presses it along its axis of symmetry. It has the exact
         E* = 2 √((C₁₁C₃₃ − C₁₃²)/C₁₁ / (1/C₄₄ + 2/(√(C₁₁C₃₃) + C₁₃))) with its stiffnesses C (Hanson 1992;
         Delafargue and Ulm 2004). Its `poisson` is None: the stress below the surface and friction need more
-        constants than E*, and are refused.
+        constants than E*, and raise an error.
 
         Parameters
         ----------
@@ -320,7 +320,7 @@ class Medium(check.Parameters):
         Raises
         ------
         ValueError
-            If a parameter is out of its range, or no material has these constants together.
+            If a parameter is out of its range, or no material can have these constants together.
 
         Examples
         --------
@@ -342,19 +342,19 @@ class Medium(check.Parameters):
 
     @property
     def has_own_law(self) -> bool:
-        """Whether `hardness` is a `HardnessLaw`, and no constant."""
+        """Whether `hardness` is a `HardnessLaw` instead of a constant."""
         return isinstance(self.hardness, HardnessLaw)
 
     @property
     def law(self) -> HardnessLaw:
-        """The law of hardness σ_c(a): the `hardness` where it is one, else the sum of the three classes."""
+        """The law of hardness σ_c(a): `hardness` if it is a law, else the sum of the three classes."""
         return self.hardness if self.has_own_law else SumOfClasses(self.hardness, self.q_c, self.f_c)
 
     @property
     def critical_depth(self) -> Array:
         """Indentation depth d_c = π q_c/(2E*) (m) at which yield starts, Popov (2015), Eq. (19).
 
-        Of class (b) alone; of any class `mdr_core.yield_depth(profile, medium)`.
+        For class (b) only. For any class, use `mdr_core.yield_depth(profile, medium)`.
         """
         refuse_other_classes(self, "the critical depth", "take yield_depth(profile, medium)")
         return critical_depth(self.E_star, self.q_c)
@@ -363,16 +363,16 @@ class Medium(check.Parameters):
     def yield_line_load(self) -> Array:
         """Largest line load π q_c/2 (N/m) that a 1D element carries, Popov (2015), Eq. (12).
 
-        Of class (b) alone; of any class it is π a σ_c(a)/2 in a contact of radius a, by `hardness_at`.
+        For class (b) only. For any class it is π a σ_c(a)/2 in a contact of radius a, with `hardness_at`.
         """
         refuse_other_classes(self, "the largest line load", "it is π a σ_c(a)/2 by hardness_at(a)")
         return np.pi / 2 * self.q_c
 
     def hardness_at(self, radius: ArrayLike) -> Array:
-        """Hardness σ_c = H + q_c/a + f_c/a² (Pa) of a contact of radius a (m), Popov (2015), section 1.
+        """Return the hardness σ_c = H + q_c/a + f_c/a² (Pa) at a contact radius a (m).
 
-        With a law of hardness it is its value. The mean pressure under a contact that has yielded
-        throughout; infinite where nothing yields.
+        See Popov (2015), section 1. With a law of hardness it is the value of the law. It is the mean
+        pressure under a fully yielded contact; infinite if nothing yields.
 
         Examples
         --------
@@ -395,6 +395,6 @@ class Medium(check.Parameters):
 
     @property
     def tangential_ratio(self) -> Array:
-        """Tangential stiffness over the normal one, Mindlin's κ = 2(1 − ν)/(2 − ν): 2/3 for ν = 1/2."""
+        """Tangential over normal stiffness, Mindlin's κ = 2(1 − ν)/(2 − ν): 2/3 for ν = 1/2."""
         refuse_transversely_isotropic(self, "the tangential stiffness")
         return 2 * (1 - self.poisson) / (2 - self.poisson)

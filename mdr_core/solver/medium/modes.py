@@ -1,11 +1,11 @@
-"""Modes of structures with edges: what moves under a contact, and how fast.
+"""Modes of structures with edges: frequencies and modal masses at a contact.
 
 A structure under the force F of a contact moves there by w = Σ q_k + r F, with
 
     q_k″ + 2 ζ_k ω_k q_k′ + ω_k² q_k = F/M_k
 
-The modal mass M_k = M/φ² has the displacement φ of the mode at the contact. r is the compliance of the
-modes that are left out.
+The modal mass is M_k = M/φ², with the displacement φ of the mode at the contact. r is the compliance of the
+omitted modes.
 """
 
 from dataclasses import dataclass
@@ -14,13 +14,13 @@ import numpy as np
 
 from ...base import check
 
-#: Displacement of a mode at the contact, over its largest one, below which the contact is on its node.
+#: Displacement of a mode at the contact, over its largest displacement, below which the contact is a node.
 _NODE = 1e-9
-#: Largest modal mass (kg). Its mode does not move at the contact.
+#: Largest modal mass (kg). A mode with this mass does not move at the contact.
 _HEAVIEST = 1e30
-#: Terms of the series of the compliance of a plate. The rest of it decreases as their third power.
+#: Terms of the series of the compliance of a plate. The error decreases as the third power of their number.
 _TERMS = 4000
-#: Relative distance of two roots below which their divided difference is integrated.
+#: Relative distance of two roots below which an integral gives their divided difference.
 _NEAR = 0.1
 
 
@@ -46,14 +46,14 @@ class Modes:
         frequency = check.positive("frequency", np.atleast_1d(self.frequency), unit="Hz", zero=True)
         mass = np.atleast_1d(self.mass)
         mass = check.positive("modal mass", mass, unit="kg", infinite=True, within=(1e-60, 1e300))
-        bound, advice = "is that of a mode with a node at the contact", "leave the mode out"
+        bound, advice = "belongs to a mode with a node at the contact", "leave the mode out"
         check.raise_if("modal mass", mass, mass > _HEAVIEST, bound, unit="kg", advice=advice)
         damping = check.positive("damping ratio", np.atleast_1d(self.damping), zero=True)
         check.raise_if("damping ratio", damping, damping >= 1, "must be below 1")
         shape = check.common_shape("modes", frequency=frequency, mass=mass, damping=damping)
         if len(shape) != 1 or not shape[0]:
             raise check.MDRError(
-                f"modes have shape {shape}: give one number, or a list of them, for each mode"
+                f"modes have shape {shape}, which must be one-dimensional: give a number, or one per mode"
             )
         values = {"frequency": frequency, "mass": mass, "damping": damping}
         each = {name: tuple(np.broadcast_to(value, shape).tolist()) for name, value in values.items()}
@@ -71,13 +71,13 @@ class Modes:
 
 
 def modes_of_plate(sides, stiffness, mass_per_area, at, count):
-    """Frequencies (Hz) and modal masses (kg) of the lowest modes of a simply supported rectangle.
+    """Return frequencies (Hz) and modal masses (kg) of the lowest modes of a simply supported rectangle.
 
-    `stiffness` is D₁₁, D₁₂ + 2 D₆₆ and D₂₂ (N·m), `at` the contact as shares of the sides (m). They are
-    Navier's, sin(π i x/a) sin(π j y/b); those with a node at the contact are left out.
+    `stiffness` is D₁₁, D₁₂ + 2 D₆₆ and D₂₂ (N·m), `at` the contact as shares of the sides (m). The modes
+    are Navier's, sin(π i x/a) sin(π j y/b). Modes with a node at the contact are left out.
     """
     (a, b), (D11, H, D22) = sides, stiffness
-    # For given i the lowest ω² is D₁₁ (1 − H²/D₁₁D₂₂) (π i/a)⁴ where H < 0, and no less else.
+    # For given i the lowest ω² is D₁₁ (1 − H²/D₁₁D₂₂) (π i/a)⁴ if H < 0, else at least D₁₁ (π i/a)⁴.
     least = 1 - min(H, 0.0) ** 2 / (D11 * D22)
     numbers = np.array([4, 4])
     while True:
@@ -97,7 +97,7 @@ def modes_of_plate(sides, stiffness, mass_per_area, at, count):
 
 
 def modes_of_beam(length, bending_stiffness, mass_per_length, at, count):
-    """Frequencies (Hz) and modal masses (kg) of the lowest modes of a simply supported beam."""
+    """Return frequencies (Hz) and modal masses (kg) of the lowest modes of a simply supported beam."""
     k = np.arange(1, 2 * count + 2)
     while np.count_nonzero(np.abs(np.sin(np.pi * at * k)) > _NODE) < count:
         k = np.arange(1, 2 * k.size)
@@ -108,22 +108,22 @@ def modes_of_beam(length, bending_stiffness, mass_per_length, at, count):
 
 
 def compliance_of_plate(sides, stiffness, at):
-    """Static compliance (m/N) of a simply supported rectangle at a point, by Lévy's series.
+    """Return the static compliance (m/N) of a simply supported rectangle at a point, by Lévy's series.
 
-    Navier's double series is summed over one direction in closed form. With β = π j/b and the roots −s of
-    D₂₂ β⁴ + 2 H α² β² + D₁₁ α⁴ in β² it is, for each α = π i/a, the divided difference of
+    Navier's double series is summed over one direction in closed form. Let β = π j/b, and −s the roots of
+    D₂₂ β⁴ + 2 H α² β² + D₁₁ α⁴ in β². For each α = π i/a the sum is the divided difference of
 
         g(s) = (2/b) Σ sin²(β y)/(β² + s) = sinh(√s y) sinh(√s (b − y))/(√s sinh(√s b))
     """
     sides, at = np.asarray(sides), np.asarray(at)
     if sides[0] * (stiffness[0] / stiffness[2]) ** -0.25 > sides[1]:
-        # In the other direction √s b is 3 at least, and nothing cancels.
+        # In the other direction √s b is at least 3, and nothing cancels.
         sides, at, stiffness = sides[::-1], at[::-1], stiffness[::-1]
     (a, b), (D11, H, D22) = sides, stiffness
     i = np.arange(1, _TERMS + 1)
     unit = np.sqrt(complex(H * H - D11 * D22))
     low, high = H - unit, H + unit
-    # Of two roots that are nearly 0 and H, the smaller one is the product over the larger one.
+    # For the accuracy of a root near 0: the smaller root is the product of the roots over the larger root.
     if abs(high) > abs(low):
         low = D11 * D22 / high
     else:
@@ -131,13 +131,13 @@ def compliance_of_plate(sides, stiffness, at):
     square = (np.pi * i / a) ** 2 / D22
     part = -_divided(low * square, high * square, b, at[1]) / D22
     terms = 2 / a * np.sin(np.pi * at[0] * i) ** 2 * part.real
-    # Far terms go as 1/i³ times the square of the sine, whose mean is a half.
+    # Far terms go as 1/i³ times the square of the sine, with the mean 1/2.
     rest = terms.size**3 * part.real[-1] / a / (2 * (terms.size + 0.5) ** 2)
     return float(np.sum(terms[::-1]) + rest)
 
 
 def _divided(first, second, b, at):
-    """(g(s₂) − g(s₁))/(s₂ − s₁) of `compliance_of_plate` at complex numbers."""
+    """Return (g(s₂) − g(s₁))/(s₂ − s₁) of `compliance_of_plate` at complex numbers."""
     if abs(second[0] - first[0]) > _NEAR * abs(first[0]):
         return (_green(second, b, at)[0] - _green(first, b, at)[0]) / (second - first)
     node, weight = np.polynomial.legendre.leggauss(12)
@@ -146,7 +146,7 @@ def _divided(first, second, b, at):
 
 
 def _green(s, b, at):
-    """g(s) of `compliance_of_plate`, and its derivative."""
+    """Return g(s) of `compliance_of_plate`, and its derivative."""
     p = np.sqrt(s)
     lengths = 2 * b * np.array([at, 1 - at, 1.0])
     decays = [np.exp(-p * length) for length in lengths]

@@ -1,16 +1,15 @@
-"""The structure behind the medium, which gives way under the contact: a plate, a rod, a support, or modes.
+"""The structure behind the medium, which deflects under the contact: a plate, a rod, a support, or modes.
 
-A body presses the medium by d = y − w, where y is its way and w the deflection of the structure under the
-contact. With the contact force F there are three models, one at a time.
+A body indents the medium by d = y − w, with the displacement y of the body and the deflection w of the
+structure under the contact. With the contact force F there are three models, one at a time.
 
 A plate without edges, and the end of a long rod, carry waves away that do not come back:
 
     dw/dt = F/Z        energy carried away ∫F²/Z dt
 
 with the impedance Z (N·s/m). A thin plate of bending stiffness D (N·m) and mass ρh per area (kg/m²) has
-Z = 8√(D ρh) (Boussinesq; Zener 1941), a rod of cross-section A has Z = A√(Eρ). A support whose mass does
-not matter has a stiffness K (N/m): w = F/K. A structure with edges has modes (`modes`), whose waves come
-back.
+Z = 8√(D ρh) (Boussinesq; Zener 1941). A rod of cross-section A has Z = A√(Eρ). A support with a negligible
+mass has a stiffness K (N/m): w = F/K. A structure with edges has modes (`modes`), and its waves come back.
 """
 
 from dataclasses import KW_ONLY, dataclass, replace
@@ -26,12 +25,12 @@ from .modes import Modes, compliance_of_plate, modes_of_beam, modes_of_plate
 
 @dataclass(frozen=True, eq=False)
 class Structure(check.Parameters):
-    """What carries the medium: a plate without edges, a support without mass, or a structure by its modes.
+    """Structure that carries the medium: a plate without edges, a support without mass, or modes.
 
-    Two of them are limits. A plate without edges (or a rod) is right for a light and fast body, whose
-    contact is over before the waves are back from the edges; a support without mass is right where the
-    contact is slow or yields. The general case is a structure by its modes: `modal`, `supported_plate`,
-    `supported_isotropic_plate`, `beam`. `hit.limits` says where a limit does not hold.
+    The first two are limits. A plate without edges (or a rod) is right for a light and fast body: its
+    contact ends before the waves return from the edges. A support without mass is right if the contact is
+    slow or yields. The general case is a structure with modes: `modal`, `supported_plate`,
+    `supported_isotropic_plate`, `beam`. `hit.limits` reports if a limit does not hold.
 
     Parameters
     ----------
@@ -40,30 +39,30 @@ class Structure(check.Parameters):
         rigid. `plate`, `laminate` and `rod` compute it.
     stiffness : float, optional
         Static stiffness K (N/m) of a support under the contact, positive; infinite, the default, is rigid.
-        A clamped disc of radius R in its middle has 16π D/R², a simply supported square D/(0.0116 L²), a
-        simply supported beam 48 E I/L³. Beside modes it is that of the whole structure.
+        In its middle, a clamped disc of radius R has 16π D/R², a simply supported square D/(0.0116 L²), and
+        a simply supported beam 48 E I/L³. With modes it is the stiffness of the whole structure.
     modes : Modes, optional
-        Modes of a structure with edges, as `modal` makes them.
+        Modes of a structure with edges, made by `modal`.
     mass : float, optional
-        Mass (kg) that moves with a support: a quarter of that of a plate, half of that of a beam.
+        Mass (kg) that moves with a support: a quarter of the mass of a plate, half of the mass of a beam.
     edge : float, optional
         Distance (m) from the point of contact to the nearest edge of the plate.
     thickness : float, optional
         Thickness h (m) of the plate.
     wave_spread : float, optional
-        √(D/ρh) (m²/s) of the plate: bending waves are back from the edge after (2 edge)²/(7.70 √(D/ρh)).
+        √(D/ρh) (m²/s) of the plate: bending waves return from the edge after (2 edge)²/(7.70 √(D/ρh)).
     shear_speed : float, optional
         Speed (m/s) of shear waves in the plate.
 
-    The last five change no number of an impact. `hit.limits` compares with them what the model neglects:
-    the mass of a support, the edges, and the thickness. None means that a value is not known. Parameters
-    may be arrays that broadcast; modes are those of one structure.
+    The last five parameters do not change the results of an impact. `hit.limits` uses them for effects that
+    the model neglects: the mass of a support, the edges, and the thickness. None means an unknown value.
+    Parameters may be arrays that broadcast; modes belong to one structure.
 
     Raises
     ------
     ValueError
-        If a parameter is not a positive number, `impedance` is finite beside `stiffness` or `modes`, the
-        stiffness is above that of the modes alone, or arrays do not broadcast.
+        If a parameter is not a positive number, `impedance` is finite together with `stiffness` or `modes`,
+        the stiffness is above the stiffness of the modes alone, or arrays do not broadcast.
 
     Examples
     --------
@@ -113,34 +112,32 @@ class Structure(check.Parameters):
         stiffness = np.broadcast_to(self.stiffness, shape)
         both = np.isfinite(self.impedance) & np.isfinite(stiffness)
         bound = (
-            "is finite beside a finite impedance: in series they are not a plate on its support, because "
-            "an endless plate goes on for ever under a constant force"
+            "must be infinite with a finite impedance: in series they do not model a plate on its support, "
+            "because an endless plate moves forever under a constant force"
         )
-        advice = "take the structure by its modes, as Structure.supported_plate or Structure.modal"
+        advice = "give modes, by Structure.supported_plate or Structure.modal"
         check.raise_if("stiffness", stiffness, both, bound, unit="N/m", advice=advice)
         if self.modes is not None:
             self._check_modes(shape)
 
     def _check_modes(self, shape):
-        """Refuses modes with arrays, beside an impedance, or that alone are softer than the stiffness."""
+        """Raise an error for modes with arrays or an impedance, or modes softer than the stiffness."""
         if not isinstance(self.modes, Modes):
             raise TypeError(f"modes must be made by Structure.modal, got {check.shown(self.modes)}")
         if shape:
             raise check.MDRError(
-                f"a structure with modes is one: its parameters have shape {shape}; give numbers"
+                f"a structure with modes needs numbers, not parameters of shape {shape}; give numbers"
             )
         impedance = np.asarray(self.impedance)
-        bound, advice = "is finite beside modes, which carry the waves", "leave it out"
+        bound, advice = "must be infinite with modes, which carry the waves", "leave it out"
         check.raise_if("impedance", impedance, np.isfinite(impedance), bound, unit="N·s/m", advice=advice)
         if self.stiffness < np.inf and self.residual_compliance < -1e-9 / self.stiffness:
             soft = 1 / self.modes.compliance
-            bound = (
-                f"is above the stiffness of the given modes alone, {soft:g} N/m: one mode more is softer"
-            )
+            bound = f"must not exceed {soft:g} N/m, the stiffness of the given modes: more modes are softer"
             advice = "check modal masses and frequencies, or leave the stiffness out"
             if not soft:
                 bound, advice = (
-                    "belongs to no structure with a rigid motion, of frequency 0",
+                    "must be infinite with a rigid motion, a mode of frequency 0",
                     "leave it out",
                 )
             stiffness = np.asarray(self.stiffness)
@@ -157,7 +154,7 @@ class Structure(check.Parameters):
         *,
         edge: ArrayLike | None = None,
     ) -> "Structure":
-        """A thin isotropic plate without edges: Z = 8√(D ρh) with D = E h³/(12 (1 − ν²)).
+        """Make a thin isotropic plate without edges: Z = 8√(D ρh) with D = E h³/(12 (1 − ν²)).
 
         Parameters
         ----------
@@ -206,15 +203,17 @@ class Structure(check.Parameters):
         edge: ArrayLike | None = None,
         thickness: ArrayLike | None = None,
     ) -> "Structure":
-        """A thin orthotropic plate without edges, by its bending stiffnesses; exact without D₁₆ and D₂₆.
+        """Make a thin orthotropic plate without edges from its bending stiffnesses.
+
+        It is exact without D₁₆ and D₂₆.
 
         Z = 8√(D m″) with the mass per area m″ and
 
             √D = (D₁₁ D₂₂)^(1/4) (π/2)/K((1 − A)/2)        A = (D₁₂ + 2 D₆₆)/√(D₁₁ D₂₂)
 
-        where K is the complete elliptic integral of a parameter. 1/√D is the mean over all directions θ of
-        1/√D(θ), D(θ) = D₁₁ cos⁴θ + 2 (D₁₂ + 2 D₆₆) cos²θ sin²θ + D₂₂ sin⁴θ. D₁₆ and D₂₆, which couple
-        bending with twist, are left out: they are 0 in cross-ply laminates and small where layers
+        where K is the complete elliptic integral as a function of the parameter. 1/√D is the mean over all
+        directions θ of 1/√D(θ), D(θ) = D₁₁ cos⁴θ + 2 (D₁₂ + 2 D₆₆) cos²θ sin²θ + D₂₂ sin⁴θ. D₁₆ and D₂₆,
+        which couple bending with twist, are left out. They are 0 in cross-ply laminates and small if layers
         alternate.
 
         Parameters
@@ -240,14 +239,14 @@ class Structure(check.Parameters):
             8 * np.sqrt(mass) * mean,
             edge=edge,
             thickness=thickness,
-            # Of the faster of both waves along the axes.
+            # The faster of both waves along the axes.
             wave_spread=np.sqrt(np.maximum(D11, D22) / mass),
         )
 
     @classmethod
     @check.keywords_explained
     def rod(cls, area: ArrayLike, E: ArrayLike, density: ArrayLike) -> "Structure":
-        """The end of a long rod that is hit along its axis: Z = A√(E ρ).
+        """Make the end of a long rod, hit along its axis: Z = A√(E ρ).
 
         Parameters
         ----------
@@ -281,20 +280,20 @@ class Structure(check.Parameters):
         stiffness: float | None = None,
         thickness: float | None = None,
     ) -> "Structure":
-        """A structure by its modes, computed or measured, as a finite-element program lists them.
+        """Make a structure from computed or measured modes, such as the list of a finite-element program.
 
         Parameters
         ----------
         frequency : array_like
-            Natural frequencies (Hz); 0 is a rigid motion, as of a plate that hangs on threads.
+            Natural frequencies (Hz); 0 is a rigid motion, for example of a plate that hangs on threads.
         mass : array_like
-            Modal masses (kg) at the contact: M/φ² of a mode of modal mass M with the displacement φ there,
-            so 1/φ² of a mode that is normalized by mass.
+            Modal masses (kg) at the contact: M/φ² for a mode of modal mass M with the displacement φ there,
+            and 1/φ² for a mode normalized by mass.
         damping : array_like, optional
             Damping ratios, 0 ≤ ζ < 1.
         stiffness : float, optional
-            Static stiffness K (N/m) at the contact. The compliance that the given modes lack of 1/K acts
-            without delay: nine modes are then as good as a thousand without it.
+            Static stiffness K (N/m) at the contact. The difference of 1/K and the compliance of the given
+            modes acts without delay. Nine modes with K are as good as a thousand modes without K.
         thickness : float, optional
             Thickness (m), for `hit.limits`.
 
@@ -329,14 +328,16 @@ class Structure(check.Parameters):
         modes: int = 100,
         thickness: float | None = None,
     ) -> "Structure":
-        """A rectangular orthotropic plate, simply supported at its edges: Navier's modes, Lévy's stiffness.
+        """Make a rectangular orthotropic plate, simply supported at its edges.
+
+        It has Navier's modes and Lévy's stiffness.
 
         Parameters
         ----------
         width, length : float
             Sides a and b (m), along the first and the second axis of the laminate.
         D11, D12, D22, D66 : float
-            Bending stiffnesses (N·m) as of `laminate`.
+            Bending stiffnesses (N·m), as for `laminate`.
         mass_per_area : float
             Mass per area (kg/m²).
         at : tuple of float, optional
@@ -344,8 +345,8 @@ class Structure(check.Parameters):
         damping : float, optional
             Damping ratio of all modes.
         modes : int, optional
-            Number of modes that move, the lowest ones without a node at the contact. The others act
-            without delay.
+            Number of modes with inertia: the lowest modes without a node at the contact. The other modes
+            act without delay.
         thickness : float, optional
             Thickness (m), for `hit.limits`.
 
@@ -360,10 +361,10 @@ class Structure(check.Parameters):
         mass = check.positive_number("mass_per_area", mass_per_area, unit="kg/m²")
         D11, D12, D22, D66 = _of_laminate(D11, D12, D22, D66)
         if np.shape(D12):
-            raise check.MDRError("a structure with modes is one: give numbers for its bending stiffnesses")
+            raise check.MDRError("a structure with modes needs numbers: give single bending stiffnesses")
         if np.shape(at) != (2,):
             raise check.MDRError(
-                f"at must be two shares of the sides, as (0.5, 0.5), got {check.shown(at)}"
+                f"at must be two shares of the sides, such as (0.5, 0.5), got {check.shown(at)}"
             )
         at = [_inside("at", share) for share in at]
         stiffness = float(D11), float(D12 + 2 * D66), float(D22)
@@ -386,7 +387,7 @@ class Structure(check.Parameters):
         damping: float = 0.0,
         modes: int = 100,
     ) -> "Structure":
-        """A rectangular isotropic plate, simply supported at its edges: `supported_plate` of one material.
+        """Make a rectangular isotropic plate, simply supported at its edges, by `supported_plate`.
 
         Parameters
         ----------
@@ -395,7 +396,7 @@ class Structure(check.Parameters):
         E, nu, density : float
             Young's modulus (Pa), Poisson ratio, density (kg/m³).
         at, damping, modes : optional
-            As those of `supported_plate`.
+            As for `supported_plate`.
 
         Examples
         --------
@@ -426,7 +427,7 @@ class Structure(check.Parameters):
         modes: int = 50,
         thickness: float | None = None,
     ) -> "Structure":
-        """A simply supported beam, with the static stiffness K = 3 E I L/(x (L − x))².
+        """Make a simply supported beam, with the static stiffness K = 3 E I L/(x (L − x))².
 
         Parameters
         ----------
@@ -439,7 +440,7 @@ class Structure(check.Parameters):
         at : float, optional
             Point of contact x/L, between 0 and 1.
         damping, modes, thickness : optional
-            As those of `supported_plate`.
+            As for `supported_plate`.
 
         Examples
         --------
@@ -459,54 +460,55 @@ class Structure(check.Parameters):
 
     @property
     def residual_compliance(self) -> float:
-        """Compliance r (m/N) of the modes that are not given: 1/K less that of the given ones."""
+        """Compliance r (m/N) of the omitted modes: 1/K minus the compliance of the given modes."""
         return 1 / float(self.stiffness) - self.modes.compliance if self.stiffness < np.inf else 0.0
 
     @property
     def is_plate(self) -> Any:
-        """Whether it carries waves away, as a plate or a rod does; an array for an ensemble."""
+        """Whether it carries waves away, like a plate or a rod; an array for an ensemble."""
         return np.isfinite(self.impedance)
 
     @property
     def is_support(self) -> Any:
-        """Whether it is a support without mass that gives way; an array for an ensemble."""
+        """Whether it is an elastic support without mass; an array for an ensemble."""
         return np.isfinite(self.stiffness) & (self.modes is None)
 
     @property
     def rigid(self) -> bool:
-        """Whether nothing gives way, in no row of an ensemble: it is as if there were no structure."""
+        """Whether all entries of an ensemble are rigid, which means no structure."""
         return self.modes is None and not (np.any(self.is_plate) or np.any(self.is_support))
 
 
 def _poisson(nu):
-    """A Poisson ratio that a material may have."""
+    """Return a Poisson ratio, −1 < ν < 1/2; raise an error otherwise."""
     nu = check.finite_array("Poisson ratio nu", nu)
     check.raise_if("Poisson ratio nu", nu, (nu <= -1) | (nu >= 0.5), "must lie in −1 < ν < 0.5")
     return nu
 
 
 def _of_laminate(D11, D12, D22, D66, **beside):
-    """Bending stiffnesses (N·m) that a laminate may have, and that broadcast with what is beside them."""
+    """Return valid bending stiffnesses (N·m) of a laminate, which broadcast with the other arguments."""
     D11 = check.positive("bending stiffness D11", D11, unit="N·m")
     D22 = check.positive("bending stiffness D22", D22, unit="N·m")
     D66 = check.positive("bending stiffness D66", D66, unit="N·m")
     D12 = check.finite_array("bending stiffness D12", D12, unit="N·m")
     shape = check.common_shape("laminate", D11=D11, D12=D12, D22=D22, D66=D66, **beside)
-    bound = "is not below √(D11 D22): no laminate has such stiffnesses"
+    bound = "must be below √(D11 D22) in size: no laminate has such stiffnesses"
     bad, D12 = np.abs(D12) >= np.sqrt(D11) * np.sqrt(D22), np.broadcast_to(D12, shape)
     check.raise_if("bending stiffness D12", D12, bad, bound, unit="N·m", advice="check it")
     return D11, D12, D22, D66
 
 
 def _inside(name, share):
-    """A share of a side that is inside."""
+    """Return a share of a side between 0 and 1; raise an error otherwise."""
     share = check.positive_number(name, share)
-    check.raise_if(name, np.asarray(share), share >= 1, "must lie between 0 and 1, as 0.5 in the middle")
+    bound = "must lie between 0 and 1; 0.5 is the middle"
+    check.raise_if(name, np.asarray(share), share >= 1, bound)
     return share
 
 
 def _count(modes):
-    """A number of modes."""
+    """Return a valid number of modes."""
     if isinstance(modes, bool) or not isinstance(modes, int | np.integer) or not 1 <= modes <= 10_000:
         raise check.MDRError(f"modes = {check.shown(modes)} must be a whole number from 1 to 10,000")
     return int(modes)
@@ -517,7 +519,7 @@ RIGID = Structure()
 
 
 def structure_of(structure: Structure | None) -> Structure:
-    """The structure of an impact, a rigid one where none is given; with an error on anything else."""
+    """Return the structure of an impact, rigid for None; raise an error on anything else."""
     if structure is None:
         return RIGID
     if not isinstance(structure, Structure):

@@ -1,4 +1,4 @@
-"""Effective modulus of a half-space that is pressed along its axis of elastic symmetry."""
+"""Effective modulus of a half-space pressed along its axis of elastic symmetry."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ _ROUNDING = 1e-14
 
 
 def effective_modulus(E_in_plane, E_axial, nu_in_plane, nu_axial, G_axial):
-    """Effective modulus E* (Pa) from the five constants of a transversely isotropic half-space.
+    """Return the effective modulus E* (Pa) from the five constants of a transversely isotropic half-space.
 
     Its surface is the plane of isotropy. With ν = ν_zp and the stiffnesses C of the medium (Elliott 1948;
     Hanson 1992; Delafargue and Ulm 2004)
@@ -20,8 +20,8 @@ def effective_modulus(E_in_plane, E_axial, nu_in_plane, nu_axial, G_axial):
 
         C₁₁ = E_p (1 − nν²)/((1 + ν_p) Δ)      C₃₃ = E_z (1 − ν_p)/Δ      C₁₃ = E_p ν/Δ      C₄₄ = G_z
 
-    so that the first quotient is E_z/(1 − nν²), and the last one is finite for Δ → 0. The arguments are
-    those of `Medium.from_transversely_isotropic`.
+    The first quotient is then E_z/(1 − nν²), and the last quotient is finite for Δ → 0. The arguments are
+    the same as in `Medium.from_transversely_isotropic`.
     """
     given = {"E_in_plane": E_in_plane, "E_axial": E_axial, "G_axial": G_axial}
     E_p, E_z, G_z = (check.positive(f"modulus {name}", value, unit="Pa") for name, value in given.items())
@@ -36,7 +36,7 @@ def effective_modulus(E_in_plane, E_axial, nu_in_plane, nu_axial, G_axial):
 
 
 def _stable(n, nu_p, nu):
-    """Δ = 1 − ν_p − 2nν², if the elastic energy of every strain is positive; 0 if incompressible."""
+    """Return Δ = 1 − ν_p − 2nν² if the elastic energy of every strain is positive; 0 if incompressible."""
     bound = "must lie in −1 < ν < 1"
     check.raise_if("Poisson ratio nu_in_plane", nu_p, np.abs(nu_p) >= 1, bound, advice="check it")
     delta = 1 - nu_p - 2 * n * nu**2

@@ -14,17 +14,17 @@ from .blocks import chunks
 from .gauss import tanh_sinh
 from .stable import root
 
-# Steps of the quadrature, tried in this order, and largest relative difference between two of them: the
-# error of the finer rule is about the square of that of the coarser.
+# Steps of the quadrature in the order of trial, and largest relative difference of two results. The error
+# of the finer rule is about the square of the error of the coarser rule.
 _STEPS = (1 / 14, 1 / 28, 1 / 56, 1 / 112)
 _MAX_DIFFERENCE = 1e-9
 
 
 def reduce_slope(slope: Callable[[Array], Array], x: ArrayLike) -> Array:
-    """Reduced profile g(x) (m) of the profile with slope dz/dr.
+    """Compute the reduced profile g(x) (m) of the profile with slope dz/dr.
 
-    Popov (2015), Eq. (3): g(x) = x ∫ z′(x sin t) dt over 0 < t < π/2, by a tanh-sinh rule that is refined
-    until it converges. The accuracy is spectral for smooth slopes, and for any power of r at r = 0.
+    Popov (2015), Eq. (3): g(x) = x ∫ z′(x sin t) dt over 0 < t < π/2, by a tanh-sinh rule, refined until it
+    converges. The accuracy is spectral for smooth slopes, and for any power of r at r = 0.
 
     Parameters
     ----------
@@ -54,12 +54,12 @@ def reduce_slope(slope: Callable[[Array], Array], x: ArrayLike) -> Array:
 
 
 def height_from_slope(slope: Callable[[Array], Array], r: Array) -> Array:
-    """Height z(r) = r ∫ z′(r sin t) cos t dt (m) of the profile with slope dz/dr, as `reduce_slope`."""
+    """Compute the height z(r) = r ∫ z′(r sin t) cos t dt (m) from the slope dz/dr, like `reduce_slope`."""
     return (r * _slope_integral(slope, r, np.cos))[()]
 
 
 def kappa(n: ArrayLike) -> Array:
-    """Coefficient κₙ = √π n Γ(n/2)/(2 Γ((n+1)/2)) of a reduced power law, for exponents n up to 100.
+    """Return the coefficient κₙ = √π n Γ(n/2)/(2 Γ((n+1)/2)) of a reduced power law, for n up to 100.
 
     Popov (2015), Eq. (7).
 
@@ -75,12 +75,12 @@ def kappa(n: ArrayLike) -> Array:
 
 
 def _refused(what, advice):
-    """The error of a slope that gives no numbers."""
+    """Return the error for a slope that gives no numbers."""
     return check.InvalidArgument(f"{what}; {advice}", "slope dz/dr", None, what, "", advice)
 
 
 def _slope_integral(slope, x, factor):
-    """∫ slope(x sin t) factor(t) dt over 0 < t < π/2, for an array of x."""
+    """Return ∫ slope(x sin t) factor(t) dt over 0 < t < π/2, for an array of x."""
     slope = read_only.read_only(slope, "slope dz/dr")
     previous = None
     for step in _STEPS:
@@ -106,13 +106,13 @@ def _slope_integral(slope, x, factor):
 
 
 def stress_from_line_load(x: ArrayLike, q: ArrayLike, r: ArrayLike) -> Array:
-    """Normal stress σ_zz(r) (Pa) from samples of the line load q(x).
+    """Compute the normal stress σ_zz(r) (Pa) from samples of the line load q(x).
 
-    Popov (2015), Eq. (10): σ_zz = (1/π) ∫ q′(x)/√(x² − r²) dx over x > r, exact for a q that is linear
-    between the samples, constant before the first and 0 after the last one. A coordinate given twice is a
-    jump; so is a last q that is not 0. Between x = 0 and the next sample q is an even parabola, with a
-    finite stress on the axis, if the first two slopes extrapolate to zero there within 5 % of the second
-    one.
+    Popov (2015), Eq. (10): σ_zz = (1/π) ∫ q′(x)/√(x² − r²) dx over x > r. It is exact for a q that is
+    linear between the samples, constant before the first sample and 0 after the last sample. A coordinate
+    given twice is a jump; a last q other than 0 is also a jump. If the first two slopes extrapolate to zero
+    at the axis within 5 % of the second slope, q is an even parabola between x = 0 and the next sample. The
+    stress on the axis is then finite.
 
     Parameters
     ----------
@@ -124,8 +124,8 @@ def stress_from_line_load(x: ArrayLike, q: ArrayLike, r: ArrayLike) -> Array:
     Returns
     -------
     float or ndarray
-        σ_zz (Pa), negative in compression, of the shape of `r`; the contact pressure is −σ_zz. Infinite
-        at jumps, and on the axis where q has a kink there.
+        σ_zz (Pa), negative in compression, of the shape of `r`; the contact pressure is −σ_zz. It is
+        infinite at jumps, and on the axis if q has a kink there.
 
     Raises
     ------
@@ -135,7 +135,7 @@ def stress_from_line_load(x: ArrayLike, q: ArrayLike, r: ArrayLike) -> Array:
     Notes
     -----
     The error for a smooth load decreases as the power 1.5 of the spacing. The time is proportional to the
-    number of samples times that of radii.
+    number of samples times the number of radii.
 
     Examples
     --------
@@ -148,7 +148,7 @@ def stress_from_line_load(x: ArrayLike, q: ArrayLike, r: ArrayLike) -> Array:
     x, q = _samples(x, q)
     r = _lengths("radius r", np.abs(check.finite_array("radius r", r, unit="m")))
     if x[-1] == 0:
-        # A load on the axis alone has no width.
+        # A load only on the axis has no width.
         return np.zeros_like(r)[()]
     slope, jump = _slopes(x, q)
     positive = x > 0
@@ -158,15 +158,15 @@ def stress_from_line_load(x: ArrayLike, q: ArrayLike, r: ArrayLike) -> Array:
 
 
 def surface_displacement(x: ArrayLike, u: ArrayLike, r: ArrayLike) -> Array:
-    """Elastic displacement of the surface (m) from samples of the compression u(x) of the foundation.
+    """Compute the elastic surface displacement (m) from samples of the foundation's compression u(x).
 
-    (2/π) ∫ u(x)/√(r² − x²) dx over x < r, exact for a u that is linear between the samples and 0 after the
-    last one.
+    It is (2/π) ∫ u(x)/√(r² − x²) dx over x < r, exact for a u that is linear between the samples and 0
+    after the last sample.
 
     Parameters
     ----------
     x, u : array_like, shape (N,)
-        Coordinates (m), from 0 on in ascending order, and compression (m).
+        Coordinates (m) in ascending order from 0, and compression (m).
     r : array_like
         Radii (m).
 
@@ -186,7 +186,7 @@ def surface_displacement(x: ArrayLike, u: ArrayLike, r: ArrayLike) -> Array:
     x, u = _samples(x, u)
     r = np.abs(check.finite_array("radius r", r, unit="m"))[..., None]
     inside, slope = np.minimum(x, r), np.diff(u) / np.diff(x)
-    # On the axis the displacement is that of its own spring.
+    # On the axis the displacement is the compression of the spring there.
     ratio = np.divide(inside, r, out=np.ones_like(inside), where=r > 0)
     angle = np.where(r > 0, np.diff(np.arcsin(ratio)), 0.0)
     root = np.diff(np.sqrt((r - inside) * (r + inside)))
@@ -195,7 +195,7 @@ def surface_displacement(x: ArrayLike, u: ArrayLike, r: ArrayLike) -> Array:
 
 
 def _polygon_stress(x, slope, even, r):
-    """∫ q′/√(x² − r²) dx (N/m²) for constant slopes; if even, of a parabola in the first interval."""
+    """Return ∫ q′/√(x² − r²) dx (N/m²) for constant slopes; if even, with a parabola in interval 0."""
     curvature = 0.0
     if even:
         curvature, slope[0] = 2 * slope[0] / x[1], 0.0
@@ -211,7 +211,7 @@ def _polygon_stress(x, slope, even, r):
 
 
 def _superpose(kernel, x, weight, r):
-    """Σ weight_j kernel(x_j, r) over all x_j > r, and x_j = r where it is infinite; 0 for r = 0."""
+    """Return Σ weight_j kernel(x_j, r) over all x_j > r, and x_j = r if it is infinite; 0 for r = 0."""
     used = weight != 0
     x, weight, flat = x[used], weight[used], r.ravel()
     total = np.zeros(r.size)
@@ -225,12 +225,12 @@ def _superpose(kernel, x, weight, r):
 
 
 def _arcosh(x, r):
-    """arcosh(x/r) = ∫ dx/√(x² − r²) from r to x."""
+    """Return arcosh(x/r) = ∫ dx/√(x² − r²) from r to x."""
     return np.log1p((x - r + root(x, r)) / r)
 
 
 def _samples(x, q):
-    """Coordinates (m) and line load (N/m) as arrays, if they are valid samples."""
+    """Return coordinates (m) and line load (N/m) as arrays if they are valid samples."""
     x = check.finite_array("coordinate", x, unit="m")
     q = check.finite_array("line load q", q, unit="N/m", most=check.LARGEST)
     if x.ndim != 1 or x.shape != q.shape or not x.size:
@@ -239,19 +239,20 @@ def _samples(x, q):
         )
     check.raise_if("coordinate", x, x < 0, "is negative", unit="m", advice="give x ≥ 0; the load is even")
     back = np.append(False, np.diff(_lengths("coordinate", x)) < 0)
-    check.raise_if("coordinate", x, back, "comes after a larger one", unit="m", advice="sort the samples")
+    bound = "comes after a larger coordinate"
+    check.raise_if("coordinate", x, back, bound, unit="m", advice="sort the samples")
     return x, q
 
 
 def _lengths(quantity, x):
-    """Coordinates or radii (m), if their squares and quotients are double precision."""
+    """Return coordinates or radii (m) if their squares and quotients are within double precision."""
     outside = (x > 0) & (x < check.SMALLEST) | (x > check.LONGEST)
     bound = f"must be 0 or lie between {check.SMALLEST:g} and {check.LONGEST:g}"
     return check.raise_if(quantity, x, outside, bound, unit="m", advice="give it in SI units")
 
 
 def _slopes(x, q):
-    """Slope of each interval, and jump at each coordinate: between equal ones, and to 0 at the last."""
+    """Return the slope of each interval and the jump at each coordinate; the last jump is to 0."""
     step, rise = np.diff(x), np.diff(q)
     slope = np.divide(rise, step, out=np.zeros_like(step), where=step > 0)
     jump = np.append(np.where(step == 0, rise, 0.0), -q[-1])
@@ -263,7 +264,7 @@ def _slopes(x, q):
 
 
 def _is_even(x, slope, jump):
-    """Whether the first interval, from the axis, is taken as an even parabola."""
+    """Whether the first interval, from the axis, is an even parabola."""
     if len(x) < 3 or x[0] > 0 or x[1] == 0 or jump[1] or x[2] == x[1]:
         return False
     # The mean slopes of an even parabola are in the ratio x₁ : (x₁ + x₂).

@@ -6,11 +6,11 @@ from ...base import check
 
 
 def largest_value(function, low, high, grids=2):
-    """Largest value of a function with one maximum between `low` and `high` (N, 1), one a row.
+    """Return the largest value of a function with one maximum between `low` and `high` (N, 1), by rows.
 
-    `function` takes arguments of shape (N, K). Grids, and the vertex of the parabola through the best three
-    points. The value of the function at the vertex counts, not that of the parabola, which is too large on
-    a plateau and next to a kink.
+    `function` takes arguments of shape (N, K). The search uses grids, and then the vertex of the parabola
+    through the best three points. The result is the value of the function at the vertex, because the
+    parabola is too large on a plateau and next to a kink.
     """
     rows = np.arange(len(low))
     for _ in range(grids):
@@ -28,23 +28,24 @@ def largest_value(function, low, high, grids=2):
 
 
 def increasing_root(function, target, start, highest=np.inf, *, largest=check.LARGEST, quantity="depth"):
-    """Positive x with function(x) = target, elementwise, for a function that grows about as a power.
+    """Find the positive x with function(x) = target, elementwise, if the function grows about as a power.
 
-    Newton's method on ln f against ln x inside a bracket, with bisection where a step leaves it and, after
-    a dozen steps, at every other one: Newton's method alone may alternate between both sides of a kink.
+    Newton's method solves for ln f over ln x inside a bracket. If a step leaves the bracket, it is replaced
+    by bisection. After a dozen steps every other step is a bisection, because Newton's method alone may
+    alternate between both sides of a kink.
 
     Parameters
     ----------
     function : callable
         Values and derivatives at an array x > 0, up to `highest`.
     target, start : array_like
-        Values to be reached, and first guesses of x.
+        Target values, and first guesses of x.
     highest : float or ndarray
-        Largest x at which the function is known; the result is infinite where the target is not reached.
+        Largest x at which the function is known; the result is infinite if the target is not reached.
     largest : float
-        The result is infinite where it would be larger.
+        The result is infinite if it would be larger.
     quantity : str
-        Name of x, for the error that is raised if the iteration does not converge.
+        Name of x, for the error if the iteration does not converge.
     """
     target = np.asarray(target, dtype=float)
     x = np.zeros(target.shape) + np.minimum(start, highest)
@@ -57,41 +58,41 @@ def increasing_root(function, target, start, highest=np.inf, *, largest=check.LA
     best, least, stalled = x.copy(), np.full(x.shape, np.inf), np.zeros(x.shape, int)
     for iteration in range(200):
         value, slope = function(x)
-        # No number counts as too large: there a function ends.
+        # NaN counts as too large: a function ends there.
         high, low = np.where(value < target, high, x), np.where(value <= target, x, low)
-        # Far from the root values may leave double precision, and 0 is not sought.
+        # Far from the root, values may overflow; targets of 0 need no search.
         with np.errstate(all="ignore"):
             miss = np.log(target / value)
             # The slope is infinite at the edge of a flat face and at some kinks, and a step there is 0.
             step = np.where(slope < np.inf, miss * value / (slope * x), np.nan)
-            # Short steps first, which miss less from a bad start; 200 of them would end at 10⁻²⁶¹ of it.
+            # Short steps first, which are safer after a bad start; 200 of them would reach 10⁻²⁶¹ of it.
             longest = 3.0 if iteration < 24 else 50.0
             step = np.clip(step, -longest, longest)
             new, middle = x * np.exp(step), np.where(low > 0, np.sqrt(low) * np.sqrt(high), high / 16)
-            # The root of a product may be a rounding above both factors.
+            # By rounding, the root of a product may be above both factors.
             middle = np.where(high < np.inf, np.minimum(middle, high), 16 * x)
             inside = (new > low) & (new < high) & (iteration < 12 or iteration % 2 == 0)
             new = np.where(inside, new, middle)
-            # Neither the step nor the bracket is more than rounding.
+            # The step or the bracket is only rounding.
             settled = (np.abs(new - x) <= 4 * eps * x) | (high - low <= 4 * eps * low)
         stalled = np.where(np.abs(miss) < least, 0, stalled + 1)
         best, least = np.where(stalled == 0, x, best), np.fmin(np.abs(miss), least)
-        # Rounding of f ends the iteration where no step comes closer any more.
+        # The iteration ends when, by rounding of f, no step comes closer.
         settled |= least <= 8 * eps
         settled |= (stalled > 0) & (least <= 1e-14) | (stalled > 1) & (least <= 1e-13)
         reachable &= low < largest
         if np.all(settled | ~sought | ~reachable):
             return np.where(reachable, np.where(target > 0, best, 0.0), np.inf)
-        # Beyond the largest length an entry waits for the others.
+        # An entry beyond the largest length waits for the others.
         x = np.where(sought & reachable, new, x)
     raise check.MDRError(f"no {quantity} was found in 200 steps; check that all quantities are in SI units")
 
 
 def change_between(answer, low, high, at_low):
-    """Neighbouring numbers between which an answer changes from what it is at `low`, by halving.
+    """Return neighbouring numbers between which an answer changes from its value at `low`, by bisection.
 
-    `answer` gives a truth for each of an array of numbers, and changes once between `low` and `high`, of
-    shape (M,). All changes are halved at once: on samples there is one at every vertex, and a call costs as
+    `answer` returns a bool for each of an array of numbers, and changes once between `low` and `high`, of
+    shape (M,). All changes are found at once: samples have a change at every vertex, and a call costs as
     much for one number as for many.
     """
     while np.any(high - low > 4e-16 * high):
@@ -104,9 +105,10 @@ def change_between(answer, low, high, at_low):
 
 
 def crossing(function, x, low, high):
-    """Root x of a function that is negative at `low`, elementwise, by Newton's method inside a bracket.
+    """Find the root x of a function that is negative at `low`, by Newton's method inside a bracket.
 
-    `function` gives values and slopes. NaN where there is no root up to the largest length.
+    It works elementwise. `function` returns values and slopes. The result is NaN if there is no root up to
+    the largest length.
     """
     for _ in range(200):
         value, slope = function(x)
@@ -115,7 +117,7 @@ def crossing(function, x, low, high):
             step = value / slope
             new = x - step
             inside = (slope > 0) & (new >= low) & (new <= high)
-            # After a step of 10⁻⁹ the next one is rounding.
+            # After a step of 10⁻⁹ the next step is rounding.
             settled = inside & (np.abs(step) <= 1e-9 * np.abs(x)) | (high - low <= 4e-16 * np.abs(x))
             middle = np.where(high < np.inf, (low + high) / 2, 2 * np.maximum(x, low))
         x = np.where(inside, new, middle)
@@ -125,9 +127,9 @@ def crossing(function, x, low, high):
 
 
 def root_in_bracket(function, x, low, high, close):
-    """Result at the root of an increasing function, by Newton's method from x inside a bracket.
+    """Return the result at the root of an increasing function, by Newton's method from x in a bracket.
 
-    `function` gives its value, its slope and a result at x; the root is found to within `close`.
+    `function` returns its value, its slope and a result at x; the root is found to within `close`.
     """
     for count in range(80):
         value, slope, result = function(x)
@@ -136,20 +138,23 @@ def root_in_bracket(function, x, low, high, close):
             break
         low, high = (x, high) if miss < 0 else (low, x)
         x -= miss
-        # Bisection at every other step, where the function has a kink or jumps.
+        # Bisection at every other step, in case of a kink or a jump of the function.
         if not low < x < high or (count > 5 and count % 2 and high - low < np.inf):
             x = (low + high) / 2
     return result
 
 
 def sign_change(function, low, high):
-    """Place between `low` and `high` at which a number becomes positive, by secants and halving."""
+    """Return the place between `low` and `high` at which a function becomes positive.
+
+    The search uses secants and bisection.
+    """
     at_low, at_high = function(low), function(high)
     if at_low * at_high >= 0:
         # Rounding hides the change.
         return float(high)
     for count in range(200):
-        # Illinois' rule: an end that stays counts half, so that both move.
+        # Illinois rule: the value at an unchanged end is halved, so that both ends move.
         place = high - at_high * (high - low) / (at_high - at_low)
         place = place if low < place < high and count % 8 < 6 else (low + high) / 2
         value = function(place)

@@ -1,4 +1,4 @@
-"""Angles of incidence, and balls that spin, for oblique impacts."""
+"""Angles of incidence and spinning balls for oblique impacts."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -13,14 +13,14 @@ from .oblique_impact import ObliqueImpact
 def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
     """Compute the normal and the tangential speed of a body from its speed and its angle of incidence.
 
-    Use as in `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
+    For example: `oblique_impact(profile, medium, mass, *at_angle(speed, angle), friction)`.
 
     Parameters
     ----------
     speed : float or array_like
         Speed (m/s), positive.
     angle : float or array_like
-        Angle (rad) to the normal, between −π/2 and π/2. It is π/2 less the angle of attack.
+        Angle (rad) to the normal, between −π/2 and π/2. It is π/2 minus the angle of attack.
 
     Returns
     -------
@@ -31,7 +31,7 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
     Raises
     ------
     ValueError
-        If the speed is not positive, or the angle not within −π/2 … π/2, as for an angle in degrees.
+        If the speed is not positive, or the angle is not within −π/2 … π/2, for example in degrees.
 
     Examples
     --------
@@ -43,7 +43,7 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
     speed = check.positive("speed", speed, unit="m/s")
     angle = check.finite_array("angle", angle, unit="rad")
     outside = np.abs(angle) >= np.pi / 2
-    advice = "from degrees by numpy.radians"
+    advice = "convert degrees by numpy.radians"
     check.raise_if("angle", angle, outside, "must lie within −π/2 … π/2", unit="rad", advice=advice)
     check.common_shape("at_angle", speed=speed, angle=angle)
     return check.frozen(speed * np.cos(angle)), check.frozen(speed * np.sin(angle))
@@ -53,8 +53,8 @@ def at_angle(speed: ArrayLike, angle: ArrayLike) -> "tuple[Array, Array]":
 class Ball:
     """Ball that may spin, with the speed of its point of contact and the change of its spin in an impact.
 
-    With spin Ω (rad/s) and the speed V of the centre, the point of contact has the speed v_t = V + RΩ:
-    backspin is positive, and the ball rolls if V = −RΩ.
+    With spin Ω (rad/s) and the speed V of the centre, the point of contact has the speed v_t = V + RΩ.
+    Backspin is positive, and the ball rolls if V = −RΩ.
 
     Parameters
     ----------
@@ -96,14 +96,14 @@ class Ball:
         return 1 / (1 / self.mass + self.radius**2 / self.inertia)
 
     def contact_speed(self, tangential_speed: ArrayLike, spin: ArrayLike) -> Array:
-        """Speed v_t (m/s) of the point of contact, from that of the centre (m/s) and a spin (rad/s)."""
+        """Return the speed v_t (m/s) of the point of contact, from the centre's speed and the spin."""
         speed = check.finite_array("tangential_speed", tangential_speed, unit="m/s")
         return (speed + self.radius * check.finite_array("spin", spin, unit="rad/s"))[()]
 
     def rebound(
         self, hit: ObliqueImpact, tangential_speed: ArrayLike, spin: ArrayLike = 0.0
     ) -> "tuple[Array, Array]":
-        """Tangential speed of the centre (m/s) and spin (rad/s) after an impact, from those before.
+        """Return the tangential speed of the centre (m/s) and the spin (rad/s) after an impact.
 
         The same impulse m_t ΔW changes both: m ΔV = m_t ΔW, I ΔΩ = R m_t ΔW.
 

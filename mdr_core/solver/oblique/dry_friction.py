@@ -1,18 +1,18 @@
 """Friction along the surface without viscosity, for many impacts at a time: section 13 of the theory.
 
-Lengths along the surface are in units of μ/κ. An element at a depth g of the reduced profile that sticks at
-the origin O of the displacement U of the point of contact has the load Q = U − O, and |Q| ≤ B =
-d − max(g, p) with the depth d and the plastic depth p. Slip moves its origin until |Q| = B. With C =
-2κE*/m_t the velocity W = U̇ of the point of contact follows Ẇ = −C ∫Q dx.
+Lengths along the surface are in units of μ/κ. U is the displacement of the point of contact. An element at
+a depth g of the reduced profile that sticks with the origin O has the load Q = U − O. Its bound is |Q| ≤ B
+with B = d − max(g, p), the depth d and the plastic depth p. Slip moves its origin until |Q| = B. With
+C = 2κE*/m_t, the velocity W = U̇ of the point of contact follows Ẇ = −C ∫Q dx.
 
-1. Levels of depth are the edges of cells, with a pair of elements at Gauss's points in each. A step lies
-   between two instants at which the edge of the contact passes a level: it covers or releases one cell.
-2. A step is Nyström's, with F = ∫Q dx at its start, middle and end.
-3. The origin of an element is U at the instant at which it is covered, from a parabola in depth.
-4. At the middle and at the end of a step slip moves the origins.
-5. On unloading, the load of the cell at the edge is corrected for the ring in it that slips.
-6. Runs are repeated with twice the levels until the error, which is estimated as the change from one run to
-   the next, is within the tolerance.
+1. Levels of depth are the edges of cells, each with a pair of elements at Gauss points. A step is between
+   two instants at which the edge of the contact passes a level: it covers or releases one cell.
+2. A step is a Nyström step, with F = ∫Q dx at its start, middle and end.
+3. The origin of an element is U at the instant when it is covered, from a parabola in depth.
+4. At the middle and at the end of a step, slip moves the origins.
+5. On unloading, the load of the cell at the edge is corrected for the slipping ring in it.
+6. Runs are repeated with twice the levels until the error is within the tolerance. The change from one run
+   to the next estimates the error.
 
 Errors are of second order in the step.
 """
@@ -22,11 +22,11 @@ import numpy as np
 from ..numerics.blocks import chunks
 from .viscous_friction import largest_force
 
-#: Gauss's points of a cell, from its inner side (0) to its outer side (1).
+#: Gauss points of a cell, from its inner side (0) to its outer side (1).
 _POINTS = np.array([[0.5 - np.sqrt(1 / 12)], [0.5 + np.sqrt(1 / 12)]])
-#: Impacts times levels that are solved at a time.
+#: Number of impacts times levels solved at a time.
 _BLOCK = 32768
-#: Largest number of halvings of the steps, and of levels of a run.
+#: Largest numbers of halvings of the steps, and of levels of a run.
 _HALVINGS = 7
 _MOST = 2048
 
@@ -34,27 +34,27 @@ _MOST = 2048
 class DryRun:
     """One run of impacts: C = `inertia` (1/(m s²)), and the velocity κv_t0/μ (m/s) at first contact.
 
-    Records are velocities W (m/s) and forces ∫Q dx (m²), with a row for each instant of `levels`, forces
-    also with one for each middle of a step; `element_states` are loads of elements and their bounds (m), by
+    Records are velocities W (m/s) and forces ∫Q dx (m²), with one row per instant of `levels`. Forces also
+    have a row for the middle of each step. `element_states` are loads of elements and their bounds (m), by
     the numbers of the `recorded` instants.
 
-    Every array has a column for each impact. Those of the elements have a row for each, from the axis
-    outward: element 0 is the flat face, of no width where there is none; then come two for each of the
-    n = `levels.turn` cells. Cell k, counted from 0, has the elements 2k + 1 and 2k + 2. Its inner side, the
-    one towards the axis, is the edge of the contact at instant k of loading, its outer side that at instant
-    k + 1. In contact are always the first ones, so many as `count` says.
+    Every array has one column per impact. Arrays of the elements have one row per element, from the axis
+    outward. Element 0 is the flat face, with the width 0 if there is no face. Two elements follow for each
+    of the n = `levels.turn` cells. Cell k, counted from 0, has the elements 2k + 1 and 2k + 2. Its inner
+    side (towards the axis) is the edge of the contact at instant k of loading, its outer side the edge at
+    instant k + 1. The first `count` elements are in contact.
 
     Attributes
     ----------
     width, depth : ndarray, shape (2n + 1, N)
         Width (m) and depth g (m) of each element.
     reach : ndarray, shape (2n + 1, N)
-        Width (m) of each element and of all inside it.
+        Width (m) of each element and of all elements inside it.
     origin, zero : ndarray, shape (2n + 1, N)
-        Origin O of each element, and the depth max(g, p) (m) at which its bound is zero. Changed by each
-        step for the elements that are in contact; elements that were released keep their last values.
+        Origin O of each element, and the depth max(g, p) (m) at which its bound is zero. Each step changes
+        them for the elements in contact; released elements keep their last values.
     displacement, velocity, force : ndarray, shape (N,)
-        U, W and F = ∫Q dx at the instant that is reached.
+        U, W and F = ∫Q dx at the present instant.
     """
 
     def __init__(self, motions, inertia, velocity, counts, depths=()):
@@ -65,13 +65,13 @@ class DryRun:
         x = (edge[:-1, None] + width[:, None] * _POINTS).reshape(-1, velocity.size)
         depth = motions.profile.reduced_at(x)
         self.width = np.vstack([edge[:1], np.repeat(width / 2, 2, axis=0)])
-        # There are no elements behind a wall.
+        # There are no elements outside a wall.
         self.depth = np.where(self.width > 0, np.vstack([0 * edge[:1], depth]), 0.0)
         self.reach = np.cumsum(self.width, axis=0)
         self.origin = np.zeros_like(self.width)
         self.zero = np.zeros_like(self.width)
-        # Beyond some 10⁵ d_c steps are too long for the oscillation of elements that stick. A smaller κ, in
-        # this ratio, makes it slower, and leaves slip as it is.
+        # Beyond some 10⁵ d_c, steps are too long for the oscillation of sticking elements. A κ reduced by
+        # this ratio makes it slower, and does not change slip.
         longest = self.levels.step.max(axis=0)
         self.softness = 1 / np.maximum(inertia * edge[-1] * longest**2 / 2, 1.0)
         self.inertia = self.softness * inertia
@@ -80,7 +80,7 @@ class DryRun:
         self.velocity = self.softness * velocity
 
     def solve(self, recorded=()):
-        """Takes all steps of the run, and returns it."""
+        """Take all steps of the run, and return it."""
         self.velocities, self.forces = [self.velocity], [self.force]
         self.element_states = {0: (self.origin[:0], self.origin[:0])}
         for i in range(len(self.levels.step)):
@@ -93,18 +93,18 @@ class DryRun:
         return self
 
     def _load(self, i):
-        """The step from instant i to i + 1 of loading, in which the edge of the contact moves over cell i.
+        """Take the step from instant i to i + 1 of loading; the contact edge moves outward over cell i.
 
-        From its inner to its outer side. An element that is covered has for its origin the U of the instant
-        at which the depth d is its g: from a line in d through U at the start and the middle of the step,
-        which is enough for the force at the middle; then from the parabola in d through all three.
+        The origin of a covered element is U at the instant when the depth d is its g. At first U is a line
+        in d through its values at the start and the middle of the step, which is enough for the force at
+        the middle. Then it is the parabola in d through start, middle and end.
 
-        Returns the number of elements in contact, this cell included.
+        Return the number of elements in contact, including this cell.
         """
         levels, start_U = self.levels, self.displacement
         start, middle, end = levels.depth[i], levels.middle[i], levels.depth[i + 1]
         cell = _cell(i)
-        # Shares of the change of depth in this step: up to its middle, and up to where d = g.
+        # Shares of the change of depth in this step: up to its middle, and up to d = g.
         half = _ratio(middle - start, end - start)
         covered = _ratio(self.depth[cell] - start, end - start)
         middle_U = self._middle_displacement(i)
@@ -117,20 +117,20 @@ class DryRun:
         return cell.stop
 
     def _unload(self, i):
-        """The step from instant i to i + 1 of unloading, in which one cell is released.
+        """Take the step from instant i to i + 1 of unloading, in which one cell is released.
 
-        The edge of the contact moves inward: at the start of the step it is at the outer side of the cell,
-        at the end at the inner one, from which on the next cell towards the axis is at the edge, all of it
-        in contact. At the turning point, instant n, all n cells are in contact.
+        The edge of the contact moves inward, from the outer side of the cell at the start of the step to
+        its inner side at the end. Then the next cell towards the axis is at the edge, and all of it is in
+        contact. At the turning point, instant n, all n cells are in contact.
 
-        Returns the number of elements in contact at the start, those of the released cell included; at the
-        end their bounds and loads are zero.
+        Return the number of elements in contact at the start, including the released cell. At the end, the
+        bounds and loads of this cell are zero.
         """
         levels = self.levels
         start, middle, end = levels.depth[i], levels.middle[i], levels.depth[i + 1]
         released = 2 * levels.turn - 1 - i
         count = _cell(released).stop
-        # Share of the change of depth in this step that is still to come at its middle.
+        # Remaining share of the change of depth at the middle of this step.
         rest = 1 - _ratio(middle - start, end - start)
         middle_U = self._middle_displacement(i)
         middle_F = self._slip(count, middle_U, middle, levels.middle_plastic_depth[i])
@@ -143,18 +143,18 @@ class DryRun:
         return count
 
     def _middle_displacement(self, i):
-        """U(h/2) = U + h W/2 − h² C F/8 of Nyström's step i, of the time h."""
+        """Return U(h/2) = U + h W/2 − h² C F/8 of Nyström step i, of the time h."""
         h = self.levels.step[i]
         return self.displacement + h / 2 * self.velocity - h**2 / 8 * self.inertia * self.force
 
     def _end_displacement(self, i, middle_F):
-        """U(h) = U + h W − h² C (F + 2 F(h/2))/6."""
+        """Return U(h) = U + h W − h² C (F + 2 F(h/2))/6."""
         h = self.levels.step[i]
         mean = self.force + 2 * middle_F
         return self.displacement + h * self.velocity - h**2 / 6 * self.inertia * mean
 
     def _finish(self, i, end_U, middle_F, end_F):
-        """Goes on to the end of step i, with W(h) = W − h C (F + 4 F(h/2) + F(h))/6, and records it."""
+        """Go to the end of step i, with W(h) = W − h C (F + 4 F(h/2) + F(h))/6, and record it."""
         total = self.force + 4 * middle_F + end_F
         self.velocity = self.velocity - self.levels.step[i] / 6 * self.inertia * total
         self.displacement = end_U
@@ -163,11 +163,11 @@ class DryRun:
         self.forces += [middle_F, end_F]
 
     def _slip(self, count, U, depth, plastic_depth):
-        """F (m²) of the first `count` elements at U, a depth d and a plastic depth p (m), after slip.
+        """Return F (m²) of the first `count` elements after slip, at U, a depth d and a plastic depth p.
 
-        Slip moves origins O until |U − O| ≤ B, with the bound B = d − `zero` and `zero` = max(g, p). In the
-        last two elements, those of the cell over which the edge of the contact moves, `zero` is at most d,
-        so that B is not negative.
+        Slip moves origins O until |U − O| ≤ B, with the bound B = d − `zero` and `zero` = max(g, p). The
+        last two elements are the cell at the moving edge of the contact. Their `zero` is at most d, so that
+        B is not negative.
         """
         zero = np.maximum(self.depth[:count], plastic_depth, out=self.zero[:count])
         np.minimum(zero[-2:], depth, out=zero[-2:])
@@ -177,17 +177,17 @@ class DryRun:
         return self.reach[count - 1] * U - np.einsum("ij,ij->j", self.width[:count], origin)
 
     def _excess(self, cell, U, depth, inner_depth, share):
-        """By how much the load (m²) of a cell on unloading exceeds that of its two elements.
+        """Return the excess (m²) of the load of a cell on unloading over the load of its two elements.
 
-        The edge of the contact is in this cell: from the inner side up to it a `share` of the width is in
-        contact, and over this the bound falls from B_i = d − `inner_depth` to zero, with the g (m) of the
-        inner side. If the inner element sticks with the load Q, so does all of the cell but for the ring at
-        the edge in which B < |Q|: the mean load is Q (1 − |Q|/(2 B_i)). If it slips, so does all of the
-        cell, with the mean ±B_i/2.
+        The edge of the contact is in this cell. From the inner side, a `share` of the width is in contact.
+        Over this share the bound falls from B_i = d − `inner_depth` to zero, with `inner_depth` the g (m)
+        of the inner side. If the inner element sticks with the load Q, all of the cell sticks except the
+        ring at the edge with B < |Q|. The mean load is then Q (1 − |Q|/(2 B_i)). If the inner element
+        slips, all of the cell slips, with the mean ±B_i/2.
         """
         inner, outer = self._pair_loads(cell, U)
         number = _cell(cell).start
-        # The width of one element, half of that of the cell.
+        # The width of one element is half of the width of the cell.
         width = self.width[number]
         most = np.maximum(depth - inner_depth, 1e-300)
         sticks = np.abs(inner) < (depth - self.zero[number]) * (1 - 1e-9)
@@ -195,36 +195,36 @@ class DryRun:
         return width * (2 * share * mean - inner - outer)
 
     def _pair_loads(self, cell, U):
-        """Loads Q = U − O of the inner and the outer element of a cell."""
+        """Return the loads Q = U − O of the inner and the outer element of a cell."""
         return U - self.origin[_cell(cell)]
 
 
 def _cell(number):
-    """The two elements of a cell."""
+    """Return the slice of the two elements of a cell."""
     return slice(2 * number + 1, 2 * number + 3)
 
 
 def _parabola(share, half, start, middle, end):
-    """Values at shares of a step, of a parabola through those at its start, at the share `half`, and end.
+    """Return values at shares of a step, of the parabola through its start, the share `half`, and its end.
 
-    U(s) = U(0) + s (U(1) − U(0)) + s (1 − s) bend, with the bend for which U(half) is that of the middle.
+    U(s) = U(0) + s (U(1) − U(0)) + s (1 − s) bend, with the bend from U(half) = `middle`.
     """
     bend = _ratio(middle - start - half * (end - start), half * (1 - half))
     return start + share * (end - start) + share * (1 - share) * bend
 
 
 def _ratio(part, whole):
-    """part/whole, and `part` where a step has no length."""
+    """Return part/whole, or `part` if a step has no length."""
     return part / np.where(whole == 0, 1.0, whole)
 
 
 def solve_dry(motions, inertia, velocity, tolerance):
-    """Velocities (m/s) after impacts, largest forces ∫Q dx (m²), their relative errors, and halvings.
+    """Return velocities (m/s) after impacts, largest forces ∫Q dx (m²), relative errors, and halvings.
 
-    Errors are relative to the velocity at first contact, and to the force: what the last halving of the
-    steps changed, of velocity or force, whichever changed more. As runs may agree by chance, a change
-    counts for a sixth in the next halving, for a 36th in the one after that, and so on, and no error of a
-    run with n levels is less than 1/n².
+    Errors are relative to the velocity at first contact, and to the force. An error is the larger change of
+    velocity or force by the last halving of the steps. As runs may agree by chance, a change still counts
+    with 1/6 in the next halving, with 1/36 in the second next, and so on. No error of a run with n levels
+    is less than 1/n².
     """
     counts, result = first_counts(motions, inertia), np.empty((5, velocity.size))
     rows, coarse, change = np.arange(velocity.size), None, np.zeros(velocity.size)
@@ -244,9 +244,9 @@ def solve_dry(motions, inertia, velocity, tolerance):
 
 
 def first_counts(motions, inertia):
-    """Numbers of levels below and above the imprint to begin with, of few different values."""
+    """Return the first numbers of levels below and above the imprint, with few different values."""
     levels = motions.levels(8, 8)
-    # How far elements that all stick oscillate in a step (rad).
+    # Phase of the oscillation in a step (rad) if all elements stick.
     angle = np.sqrt(inertia * motions.profile.radius_at(levels.middle)) * levels.step
     imprint = 2 * levels.turn - len(angle)
     parts = angle[:imprint], angle[imprint : levels.turn], angle[levels.turn :]
@@ -258,7 +258,7 @@ def first_counts(motions, inertia):
 
 
 def _run(motions, inertia, velocity, counts):
-    """Velocities after impacts and largest forces of runs, and their least errors."""
+    """Return velocities after impacts and largest forces of runs, and their least errors."""
     values, least = np.empty((2, velocity.size)), np.zeros((2, velocity.size))
     pairs, numbers = np.unique(counts, axis=1, return_inverse=True)
     for number, pair in enumerate(pairs.T):
@@ -267,7 +267,7 @@ def _run(motions, inertia, velocity, counts):
             rows = members[block]
             run = DryRun(motions[rows], inertia[rows], velocity[rows], pair).solve()
             values[:, rows] = run.velocities[-1], largest_force(run.levels.time, run.forces)
-            # Where springs had to be softer, elements that stick leave with about this velocity.
+            # With softer springs, sticking elements leave with about this velocity.
             left = np.sqrt(inertia[rows] / motions.rate[rows]) * -run.levels.velocity[-1]
             least[:, rows] = np.where(run.softness < 1, [left / velocity[rows], 0 * left + 1], 0.0)
     return values, least

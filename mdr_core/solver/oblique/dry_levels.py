@@ -1,6 +1,6 @@
 """Normal motions without viscosity at levels of depth, for many impacts at a time: a grid for friction.
 
-Arrays have a row for each level or step, and a column for each impact.
+Arrays have one row per level or step, and one column per impact.
 """
 
 from dataclasses import dataclass
@@ -18,10 +18,11 @@ _NODES = 3
 
 
 class DryLevels(NamedTuple):
-    """Instants at which loading passes levels of depth, and unloading those that lie above the imprint.
+    """Instants at which loading passes levels of depth, and unloading passes levels above the imprint.
 
-    The turning point is that of number `turn`. At each instant: depth, plastic depth (m), velocity (m/s).
-    For the steps between them: time (s), and depth and plastic depth (m) when half of it has passed.
+    The turning point is instant number `turn`. `depth`, `plastic_depth` (m) and `velocity` (m/s) are at
+    each instant. `step` (s) is the time of the steps between them. `middle` and `middle_plastic_depth` (m)
+    are the depths after half of this time.
     """
 
     turn: int
@@ -34,9 +35,9 @@ class DryLevels(NamedTuple):
 
     @classmethod
     def of(cls, turn, depth, plastic_depth, velocity, acceleration, plastic_depth_at):
-        """Levels with steps of fourth order, Δd = h (v₀ + v₁)/2 + h² (a₀ − a₁)/12.
+        """Make levels with steps of fourth order, Δd = h (v₀ + v₁)/2 + h² (a₀ − a₁)/12.
 
-        `plastic_depth_at` gives the plastic depths that loading to depths in the middle of steps leaves.
+        `plastic_depth_at` returns the plastic depths after loading to depths in the middle of steps.
         """
         rise, mean = np.diff(depth, axis=0), (velocity[1:] + velocity[:-1]) / 2
         bend = -np.diff(acceleration, axis=0) / 12
@@ -57,10 +58,10 @@ class DryLevels(NamedTuple):
 
 @dataclass(frozen=True)
 class NormalMotions:
-    """Impacts without viscosity on a virgin medium, as what stays the same during each of them.
+    """Impacts without viscosity on a virgin medium: the quantities that are constant during each impact.
 
-    Rule of yield, plastic depth at the end, live depth at the turning point (m), speed (m/s), and 2E*/m
-    (1/(m s²)), which makes an acceleration of ∫a ds.
+    They are the rule of yield, the plastic depth at the end (m), the live depth at the turning point (m)
+    and the speed (m/s). `rate` is 2E*/m (1/(m s²)), the ratio of acceleration and ∫a ds.
     """
 
     rule: YieldRule
@@ -71,7 +72,7 @@ class NormalMotions:
 
     @classmethod
     def of(cls, hit, rows):
-        """Those of the `Impact` at rows of its flattened shape."""
+        """Make the motions of an `Impact` at rows of its flattened shape."""
         turning, medium = hit.turning_point.live_interval, hit.medium
         given = turning.lower, turning.length, hit.speed, 2 * medium.E_star / hit.mass
         given = (np.broadcast_to(value, hit.shape).ravel()[rows] for value in given)
@@ -79,7 +80,7 @@ class NormalMotions:
 
     @property
     def profile(self):
-        """One indenter, or one for each impact."""
+        """One indenter, or one per impact."""
         return self.rule.profile
 
     def __getitem__(self, rows):
@@ -87,11 +88,11 @@ class NormalMotions:
         return NormalMotions(self.rule.flat_entries(rows, self.speed.shape), *values)
 
     def levels(self, below, above, depths=()):
-        """The `DryLevels` with so many steps of loading below the imprint, and so many above it.
+        """Return the `DryLevels`, with numbers of loading steps `below` and `above` the imprint.
 
-        Loading stops at levels from 0 to d_max = d_p + ℓ, and unloading from there at the same ones down to
-        d_p. Some `depths` (m) of all impacts are levels as well; so are the onset of yield, and the
-        depths at which either end of the live interval passes a kink.
+        Loading has levels from 0 to d_max = d_p + ℓ, and unloading has the same levels from d_max to d_p.
+        Other levels are `depths` (m) of all impacts, the onset of yield, and the depths at which either end
+        of the live interval passes a kink.
         """
         imprint, live_depth = self.plastic_depth, self.live_depth
         column = self.rule.entries((slice(None), None), imprint.shape)
@@ -99,7 +100,7 @@ class NormalMotions:
         known = [*breaks.onset.T, *breaks.upper.T, *breaks.lower.T, *depths]
         known = np.array([np.broadcast_to(depth, imprint.shape) for depth in known])
         deep = np.sort(np.vstack([self._even_below(below), np.minimum(known, imprint)]), axis=0)
-        # From here on in live depths: those that are not between 0 and ℓ are moved to 0.
+        # From here in live depths; depths that are not between 0 and ℓ are moved to 0.
         reached = np.where(known < imprint + live_depth, np.maximum(known - imprint, 0.0), 0.0)
         live = np.sort(np.vstack([self._even_above(above), reached]), axis=0)
 
@@ -114,21 +115,21 @@ class NormalMotions:
         )
 
     def _even_below(self, count):
-        """Levels (m) from 0 to d_p, in equal parts of √(d_max − d): about equal times."""
+        """Return levels (m) from 0 to d_p, in equal parts of √(d_max − d), with about equal times."""
         root, last_root = np.sqrt(self.plastic_depth + self.live_depth), np.sqrt(self.live_depth)
         # d = d_max − (√d_max − passed)².
         passed = np.linspace(0.0, 1.0, count + 1)[:-1, None] * (root - last_root)
         return np.vstack([passed * (2 * root - passed), self.plastic_depth])
 
     def _even_above(self, count):
-        """Live depths (m) from above 0 to ℓ, closer towards both ends."""
+        """Return live depths (m) from above 0 to ℓ, closer towards both ends."""
         share = np.linspace(0.0, 1.0, count + 1)[1:, None]
         return self.live_depth * np.sin(np.pi / 2 * share) ** 2
 
     def _moving(self, turn, depth, lower, length):
-        """`DryLevels` from depths and live intervals (m) at all instants."""
-        # Kinetic energy over 2E* (m³) is what the force does up to the turning point, or from there on. The
-        # sum over steps keeps its digits beside the turning point.
+        """Return `DryLevels` from depths and live intervals (m) at all instants."""
+        # Kinetic energy over 2E* (m³) is the work of the force up to the turning point, or since then. The
+        # sum over steps keeps its digits next to the turning point.
         loading = self._works(depth[:turn], np.diff(depth[: turn + 1], axis=0), self._loaded)
         unloading = self._works(length[turn + 1 :], -np.diff(length[turn:], axis=0), self._unloaded)
         work = np.vstack(
@@ -141,7 +142,7 @@ class NormalMotions:
         return DryLevels.of(turn, depth, lower, velocity, acceleration, self.rule.plastic_depth)
 
     def _works(self, start, rise, interval_at):
-        """Work over 2E* (m³) of the force in each step, by Gauss's rule."""
+        """Return the work over 2E* (m³) of the force in each step, by Gauss's rule."""
         parts = zip(*gauss_legendre(_NODES), strict=True)
         return rise * sum(weight * self._areas(interval_at(start + node * rise)) for node, weight in parts)
 

@@ -20,8 +20,8 @@ from .tangential_motion import EXACT, SurfaceSolution, solve_surface
 
 FRICTION = Model(
     "chain with friction",
-    "the normal motion does not feel the tangential one and is solved on its own; along the surface every "
-    "element sticks or slips for itself",
+    "the normal motion does not depend on the tangential motion and is solved separately; along the "
+    "surface every element sticks or slips independently",
 )
 
 
@@ -39,9 +39,9 @@ def oblique_impact(
 ) -> "ObliqueImpact":
     """Solve the impact of a body with a normal and a tangential speed under Coulomb's friction.
 
-    Every element of the foundation has one along the surface, κ = 2(1 − ν)/(2 − ν) times as stiff and as
+    Every element of the foundation has a tangential element, κ = 2(1 − ν)/(2 − ν) times as stiff and as
     viscous (Mindlin; outlook of Popov 2015). It sticks while its load is at most μ times the normal load of
-    spring and dashpot, and slips otherwise. Yield, of any hardness, limits the normal springs only. The
+    spring and dashpot, and slips otherwise. Yield, of any hardness, limits only the normal springs. The
     body behind the medium is at rest; the `structure` of `impact` is not supported.
 
     Parameters
@@ -51,17 +51,17 @@ def oblique_impact(
     mass, speed : float or array_like
         Mass m (kg) and normal speed v₀ (m/s) at first contact, positive.
     tangential_speed : float or array_like
-        Speed v_t0 (m/s) of the point of contact along the surface, of any sign: see `at_angle`, and for
-        bodies that spin `Ball.contact_speed`.
+        Speed v_t0 (m/s) of the point of contact along the surface, of any sign. See `at_angle`, and
+        `Ball.contact_speed` for spinning bodies.
     friction : float or array_like
         Coefficient of friction μ, the same for stick and slip; 0 and infinity are allowed.
     tangential_mass : float or array_like, optional
-        Effective mass m_t (kg) at the point of contact along the surface, 1/m_t = 1/m + R²/I, as by
-        `Ball.tangential_mass`; by default m, that of a body that cannot turn.
+        Effective mass m_t (kg) at the point of contact along the surface, 1/m_t = 1/m + R²/I, as in
+        `Ball.tangential_mass`. The default is m, for a body that cannot turn.
     tolerance : float, optional
-        Error allowed in the tangential velocity relative to the tangential speed and in the largest force
-        relative to itself; on a viscous medium in works, too, relative to themselves (or to a hundredth of
-        the tangential energy, where work is less). `limits` report where the tolerance is not met.
+        Largest error of the tangential velocity, relative to the tangential speed, and of the largest
+        force, relative to itself. On a viscous medium it also limits errors of works, relative to the work
+        or to a hundredth of the tangential energy, if the work is less. `limits` report a missed tolerance.
 
     Returns
     -------
@@ -71,7 +71,7 @@ def oblique_impact(
     Raises
     ------
     ValueError
-        If an argument is out of its range, or the indenter would go deeper than its profile is known.
+        If an argument is out of its range, or the indenter would go deeper than the known depth.
 
     Examples
     --------
@@ -109,8 +109,9 @@ def oblique_impact(
 class ObliqueErrors(NamedTuple):
     """Estimated relative errors of an `ObliqueImpact`.
 
-    Those of coefficients of restitution are relative to 1, of the velocity to v_t0, of the friction work to
-    ½ m_t v_t0², of the viscous work to the whole kinetic energy; all others to the quantity.
+    Errors of coefficients of restitution are relative to 1, of the velocity to v_t0, and of the friction
+    work to ½ m_t v_t0². The error of the viscous work is relative to the whole kinetic energy. All others
+    are relative to the quantity.
     """
 
     restitution: Array
@@ -127,7 +128,7 @@ class ObliqueErrors(NamedTuple):
 class ObliqueImpact(Entries, Result):
     """Results of one or many oblique impacts, returned by `oblique_impact`; `result[i]` selects one.
 
-    `normal` is the `Impact` along the normal, with all of its quantities.
+    `normal` is the `Impact` along the normal, with all its quantities.
 
     Examples
     --------
@@ -143,7 +144,7 @@ class ObliqueImpact(Entries, Result):
     friction: Array
     tangential_mass: Array
     _surface: SurfaceSolution
-    #: How the tangential motion was solved.
+    #: Method of solution of the tangential motion.
     model: ClassVar[Model] = FRICTION
     _quantities = (
         "mass", "speed", "tangential_speed", "friction", "tangential_mass", "restitution",
@@ -163,7 +164,7 @@ class ObliqueImpact(Entries, Result):
 
     @property
     def speed(self) -> Array:
-        """Normal speed v₀ (m/s) before."""
+        """Normal speed v₀ (m/s) before the impact."""
         return self.normal.speed
 
     @property
@@ -213,10 +214,10 @@ class ObliqueImpact(Entries, Result):
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """Where the model's assumptions end, as data: those of the normal impact, and those of friction.
+        """Limits of the model's assumptions, as data, for the normal impact and for friction.
 
-        Where elements stick, "tolerance" is whether it is met, and "depth" and "mass" are how far errors of
-        the tangential motion have been measured.
+        If elements stick, "tolerance" reports whether it is met. "depth" and "mass" limit the range in
+        which errors of the tangential motion were measured.
         """
         limits = (x for x in self.normal.limits if x.concerns == "result")
         return Limits((*limits, *lazy.limits.friction_limits(self.medium), *self._stick_limits()))
@@ -234,7 +235,7 @@ class ObliqueImpact(Entries, Result):
 
     @property
     def slips_throughout(self) -> Any:
-        """Whether all elements slip during the whole contact: then the velocity has a closed form."""
+        """Whether all elements slip during the whole contact; then the velocity has a closed form."""
         return self._surface.slips_throughout
 
     @property
@@ -244,7 +245,7 @@ class ObliqueImpact(Entries, Result):
 
     @property
     def tangential_velocity(self) -> Array:
-        """Velocity v_t′ (m/s) of the point of contact along the surface after, with its sign."""
+        """Velocity v_t′ (m/s) of the point of contact along the surface after the impact, with its sign."""
         return (self.tangential_speed + self.velocity_change)[()]
 
     @property
@@ -254,7 +255,7 @@ class ObliqueImpact(Entries, Result):
 
     @property
     def rebound_angle(self) -> Array:
-        """Angle (rad) to the normal at which the point of contact leaves, with the sign of its velocity."""
+        """Angle (rad) to the normal of the leaving point of contact, with the sign of its velocity."""
         return np.arctan2(self.tangential_velocity, self.normal.rebound_speed)[()]
 
     @property
@@ -264,7 +265,7 @@ class ObliqueImpact(Entries, Result):
 
     @property
     def errors(self) -> ObliqueErrors:
-        """Estimated relative errors by the name of the quantity, as in `errors.friction_work`."""
+        """Estimated relative errors by the name of the quantity, such as `errors.friction_work`."""
         surface, exact = self._surface, np.full(self.shape, EXACT)[()]
         energy = self.tangential_mass * self.tangential_speed**2 / 2
         viscous = surface.viscous_error * energy + EXACT * self.normal.viscous_work
@@ -280,7 +281,7 @@ class ObliqueImpact(Entries, Result):
         )
 
     def motion(self, n: int = 200) -> ObliqueMotion:
-        """The motion of one impact at n instants, normal and tangential, with stick and slip.
+        """Return the motion of one impact at n instants, normal and tangential, with stick and slip.
 
         Instants are equally spaced before the turning point, and again after it. The motion is the finest
         run of the solver.

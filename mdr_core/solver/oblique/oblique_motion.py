@@ -23,13 +23,13 @@ class ObliqueMotion(MotionResult):
     Attributes
     ----------
     time, depth, velocity, force, contact_radius, plastic_radius, plastic_work : ndarray
-        As of the normal `Motion`.
+        As in the normal `Motion`.
     tangential_velocity, tangential_force : ndarray
         Velocity v_t (m/s) of the point of contact along the surface, and the force (N) against it.
     stick_radius, slip_radius : ndarray
-        Outer and inner radius (m) of the region that sticks, to within an element; both 0 if all slips.
+        Outer and inner radius (m) of the sticking region, to within an element; both 0 if all slips.
     kinetic_energy, stored_energy, viscous_work, friction_work : ndarray
-        The ledger (J): ½mv² + ½m_t v_t², the energy of all springs, normal and tangential, and losses.
+        Energy balance (J): ½mv² + ½m_t v_t², the energy of all springs, normal and tangential, and losses.
     x : ndarray, shape (N,)
         Coordinates (m) of the elements of the foundation.
     tangential_line_load : ndarray, shape (n, N)
@@ -77,16 +77,16 @@ class ObliqueMotion(MotionResult):
 
 
 def oblique_motion(hit, normal, halvings):
-    """The `ObliqueMotion` of one `ObliqueImpact` at the instants of its normal `Motion`.
+    """Return the `ObliqueMotion` of one `ObliqueImpact` at the instants of its normal `Motion`.
 
-    From a run with so many halvings.
+    It comes from a run with the number `halvings` of halved steps.
     """
     surface = float(hit.tangential_speed), float(hit.friction), float(hit.tangential_mass)
     return along_surface(normal, *surface, halvings, hit)
 
 
 def along_surface(normal, speed, friction, mass, halvings, impact=None):
-    """The `ObliqueMotion` under a normal `Motion` from one run; errors are known of an `impact` only."""
+    """Return the `ObliqueMotion` under a normal `Motion` from one run; only an `impact` has errors."""
     hit = normal.impact
     same = "time", "depth", "velocity", "force", "contact_radius", "plastic_radius", "plastic_work"
     stiffness = 2 * float(hit.medium.tangential_ratio) * float(hit.medium.E_star)
@@ -97,13 +97,13 @@ def along_surface(normal, speed, friction, mass, halvings, impact=None):
     sticks = np.zeros(load.shape, bool)
     for row, (loads, sticking) in enumerate(states):
         load[row, : loads.size], sticks[row, : loads.size] = loads, sticking
-    # Where nothing sticks the load of an element is its bound to rounding only.
+    # If nothing sticks, the load of an element differs from its bound by rounding.
     given = (np.array([value]) for value in (abs(speed), friction, mass))
     sticks &= (width > 0) & ~slip_throughout(hit, *given)["slips_throughout"]
     stuck, first = sticks.any(axis=1), sticks.argmax(axis=1)
     last = width.size - sticks[:, ::-1].argmax(axis=1)
     velocity, energy = run.velocity * speed, stiffness * speed**2
-    # Rounding errors would be left at loss of contact.
+    # Otherwise rounding errors would remain at loss of contact.
     most = friction * np.abs(normal.force)
     return ObliqueMotion(
         **{name: getattr(normal, name) for name in same},
@@ -126,7 +126,7 @@ def along_surface(normal, speed, friction, mass, halvings, impact=None):
 class _Run(NamedTuple):
     """A run along the surface at the instants of a motion, for an initial speed of 1.
 
-    Velocity, force over 2κE* (m s), stored energy and works over 2κE* (m s²).
+    The force over 2κE* is in m s, stored energy and works over 2κE* in m s².
     """
 
     velocity: np.ndarray
@@ -137,7 +137,7 @@ class _Run(NamedTuple):
 
 
 def _viscous_run(hit, normal, inertia, ratio, halvings):
-    """The `_Run`, widths of elements (m), and at each instant their loads over κE* (s), and which stick."""
+    """Return the `_Run`, widths of elements (m), and at each instant loads over κE* (s) and stick flags."""
     run = slide(hit, levels(hit, inertia, halvings, normal.time), inertia, ratio, normal.time)
     quantities = run.velocities, run.forces, run.energies, run.viscous, run.friction
     states = [run.element_states[i] for i in run.instants]
@@ -145,10 +145,10 @@ def _viscous_run(hit, normal, inertia, ratio, halvings):
 
 
 def _dry_run(hit, normal, inertia, ratio, halvings):
-    """The same without viscosity."""
+    """Return the same as `_viscous_run`, without viscosity."""
     motions, inertia = NormalMotions.of(hit, np.array([0])), np.array([inertia])
     counts = first_counts(motions, inertia)[:, 0] * 2 ** int(halvings)
-    # At higher speeds all elements slip as well, with the same loads, but these would be lost to rounding.
+    # At higher speeds all elements also slip, with the same loads, but the loads would be lost to rounding.
     start = 1 / np.maximum(ratio, 1 / (2 * (1 + inertia / motions.rate) * motions.speed))
     run = DryRun(motions, inertia, start, counts, normal.depth)
     time, width = run.levels.time[::2, 0], run.width[:, 0]

@@ -1,8 +1,8 @@
 """Motion along the surface of one oblique impact.
 
-The normal motion does not depend on the tangential one, which has a closed form where all elements slip
-throughout. Else it is solved by runs, each with steps half as long as the last one: many impacts without
-viscosity at a time by `dry_friction`, viscous ones one by one by `viscous_friction`.
+The normal motion does not depend on the tangential motion. The tangential motion has a closed form if all
+elements slip throughout. Otherwise it is solved by runs, each with half the step size of the last run:
+`dry_friction` solves many impacts without viscosity at a time, `viscous_friction` one viscous impact.
 """
 
 from dataclasses import dataclass, fields
@@ -16,7 +16,7 @@ from .dry_friction import solve_dry
 from .dry_levels import NormalMotions
 from .viscous_friction import MOST_LEVELS, SLOWEST, RunQuantities, bound_ratio, levels, slide
 
-#: Relative error of the normal motion, and of closed forms that follow from it.
+#: Relative error of the normal motion, and of closed forms from it.
 EXACT = 1e-9
 
 
@@ -24,9 +24,9 @@ EXACT = 1e-9
 class SurfaceSolution(Entries):
     """Motion along the surface of one impact, or of many as arrays, with estimated errors.
 
-    Change of the velocity over v_t0, largest force (N), friction and viscous work (J) along the surface.
-    Errors of works are relative to ½ m_t v_t0², `tolerance` is that of the velocity. Closed forms have 0
-    `halvings` of the steps of the first run.
+    `relative_change` is the change of the velocity over v_t0. Force (N) and works (J) are along the
+    surface. Errors of works are relative to ½ m_t v_t0², and `tolerance` applies to the velocity.
+    `halvings` is the number of halvings of the steps, 0 for closed forms.
     """
 
     relative_change: Array
@@ -43,7 +43,7 @@ class SurfaceSolution(Entries):
 
 
 def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
-    """The `SurfaceSolution` of impacts, in closed form where all elements slip throughout.
+    """Return the `SurfaceSolution` of impacts, in closed form if all elements slip throughout.
 
     The arguments are arrays of the shape of the normal `Impact`.
     """
@@ -59,7 +59,7 @@ def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
         one = hit[np.unravel_index(row, shape)] if shape else hit
         values = _viscous(one, tolerance, speed[row], friction[row], tangential_mass[row])
         if slips[row]:
-            # Only how much of the work is viscous is not known in closed form.
+            # Only the viscous share of the work has no closed form.
             values = {name: values[name] for name in ("viscous_work", "viscous_error", "halvings")}
             both = columns["friction_work"][row] + columns["viscous_work"][row]
             values["friction_work"] = both - values["viscous_work"]
@@ -76,12 +76,12 @@ def solve_surface(hit, tolerance, tangential_speed, friction, tangential_mass):
 
 
 def _flat(hit, *values):
-    """Values of impacts as flat arrays."""
+    """Return values of impacts as flat arrays."""
     return (np.broadcast_to(value, hit.shape).ravel() for value in values)
 
 
 def slip_throughout(hit, speed, friction, tangential_mass):
-    """Fields of a `SurfaceSolution` as flat arrays, right where all elements slip throughout."""
+    """Return fields of a `SurfaceSolution` as flat arrays, valid if all elements slip throughout."""
     normal_speed, restitution, mass = _flat(hit, hit.speed, hit.restitution, hit.mass)
     given = hit.max_force, hit.viscous_work, hit.medium.tangential_ratio
     max_force, viscous_work, kappa = _flat(hit, *given)
@@ -108,16 +108,16 @@ def slip_throughout(hit, speed, friction, tangential_mass):
 
 
 def _dry(hit, rows, tolerance, speed, friction, tangential_mass):
-    """Fields of impacts at flat rows without viscosity, in which some elements stick."""
+    """Return fields of impacts at flat rows without viscosity, in which some elements stick."""
     given = hit.medium.tangential_ratio, hit.medium.E_star, hit.speed, hit.max_force
     kappa, E_star, normal_speed, max_force = (value[rows] for value in _flat(hit, *given))
     motions = NormalMotions.of(hit, rows)
-    # Without speed as with the friction at which everything sticks.
+    # Without speed, as for the friction at which everything sticks.
     slowest = SLOWEST * normal_speed
     velocity = np.maximum(kappa * speed / friction, slowest)
     inertia = 2 * kappa * E_star / tangential_mass
     after, force, change_error, force_error, halvings = solve_dry(motions, inertia, velocity, tolerance)
-    # Friction takes energy: no step may leave more than there was.
+    # Friction dissipates energy, so that no step may increase it.
     remaining = np.clip(after / velocity, -1.0, 1.0)
     change_error = np.minimum(change_error, 1 + np.abs(remaining))
     force = np.minimum(2 * kappa * E_star * speed / velocity * force, friction * max_force)
@@ -134,7 +134,7 @@ def _dry(hit, rows, tolerance, speed, friction, tangential_mass):
 
 
 def _viscous(hit, tolerance, speed, friction, tangential_mass):
-    """Fields of one viscous impact, in which some elements stick."""
+    """Return fields of one viscous impact, in which some elements stick."""
     stiffness = 2 * float(hit.medium.tangential_ratio) * float(hit.medium.E_star)
     inertia, ratio = stiffness / tangential_mass, bound_ratio(hit, speed, friction)
     limit, error, halvings = _limits(hit, inertia, ratio, tolerance)
@@ -155,7 +155,7 @@ def _viscous(hit, tolerance, speed, friction, tangential_mass):
 
 
 def _limits(hit, inertia, ratio, tolerance):
-    """Limits of `RunQuantities` for vanishing steps, their estimated errors, and the number of halvings."""
+    """Return limits of `RunQuantities` for vanishing steps, their estimated errors, and the halvings."""
     run = slide(hit, levels(hit, inertia, 1), inertia, ratio)
     for halvings in range(2, 8):
         grid, coarse = levels(hit, inertia, halvings), np.array(run.quantities)
@@ -163,7 +163,7 @@ def _limits(hit, inertia, ratio, tolerance):
         limit = run.quantities + (run.quantities - coarse) / 3
         errors = np.abs(limit - run.quantities)
         _, force, friction, viscous = limit
-        # Work counts relative to itself, or to a hundredth of the energy along the surface, 1/(2C).
+        # Errors of work are relative to it, or to a hundredth of the energy along the surface, 1/(2C).
         smallest = 0.005 / inertia
         scale = np.array([1.0, force, max(friction, smallest), max(friction + viscous, smallest)])
         errors = np.maximum(errors, tolerance / 2 * scale)

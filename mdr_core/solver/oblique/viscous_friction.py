@@ -2,16 +2,16 @@
 
 Quantities along the surface are divided by the initial tangential speed. An element with the displacement s
 has the load Q = s + τṡ, and |Q| ≤ B, where B is μ/κ times its normal load. It sticks with ṡ = W, the
-velocity of the point of contact, or slips with |Q| = B; once released, it relaxes with Q = 0. With
+velocity of the point of contact, or slips with |Q| = B. After its release it relaxes with Q = 0. With
 C = 2κE*/m_t the velocity follows Ẇ = −C ∫Q dx.
 
-1. Levels of depth are the edges of elements. A step lies between two instants at which the edge of the
+1. Levels of depth are the edges of elements. A step is between two instants at which the edge of the
    contact passes a level: it covers or releases one element.
 2. The depth of an element is the mean ∫g dx/Δx, so that the normal force is exact at every level.
-3. Over a step load and bound are linear in time until they meet, and s is then exact. The balance of
+3. Over a step, load and bound are linear in time until they meet, so that s is exact. The balance of
    momentum is solved for the velocity at the end.
-4. Work is the mean load times the displacement, friction work the mean load times the slip: the energies
-   sum to a constant for any step.
+4. Work is the mean load times the displacement, friction work the mean load times the slip. The sum of the
+   energies is constant for any step.
 
 Errors are of second order in the step.
 """
@@ -27,7 +27,7 @@ from ..contact.yielding import yield_rule
 from ..impacts.motion import dense_motion
 from ..numerics.roots import largest_value
 
-#: κv_t0/μ over the normal speed below which everything sticks.
+#: Value of κv_t0/μ over the normal speed below which everything sticks.
 SLOWEST = 1e-7
 #: Largest number of levels of a run.
 MOST_LEVELS = 6000
@@ -35,7 +35,7 @@ MOST_LEVELS = 6000
 
 @dataclass(frozen=True)
 class Levels:
-    """Levels: depths (m), times (s) and velocities (m/s) on loading, live depths and times on unloading."""
+    """Levels: depths (m), times (s), velocities (m/s) on loading; live depths and times on unloading."""
 
     depth: np.ndarray
     loading_time: np.ndarray
@@ -45,9 +45,10 @@ class Levels:
 
 
 def levels(hit, inertia, halvings, instants=()):
-    """The `Levels` of a run along the surface under one normal `Impact`, with C = 2κE*/m_t (1/(m s²)).
+    """Return the `Levels` of a run along the surface under one normal `Impact`.
 
-    Steps of loading are halved in time; depths at `instants` (s) are levels as well.
+    `inertia` is C = 2κE*/m_t (1/(m s²)). Steps of loading are halved in time. Depths at `instants` (s) are
+    also levels.
     """
     dense, max_depth, lower = dense_motion(hit), hit.max_depth, hit.plastic_depth
     loading, unloading, turn = dense.loading, dense.unloading, dense.turning_time
@@ -61,7 +62,7 @@ def levels(hit, inertia, halvings, instants=()):
     coarse, first = np.unique(np.clip(depth, 0.0, max_depth), return_index=True)
     time = np.concatenate([[0.0, turn], early, loading.when(inner)])[first]
     time = np.maximum.accumulate(np.minimum(time, turn))
-    # Each step of loading in equal parts.
+    # Equal parts of each step of loading.
     count = 2**halvings
     time = np.append(time[:-1, None] + np.diff(time)[:, None] * (np.arange(count) / count), time[-1])
     state = loading.at(time)
@@ -74,7 +75,7 @@ def levels(hit, inertia, halvings, instants=()):
 
 
 def _even_times(hit, branch, lower, inertia):
-    """Times (s) at equal shares of all change on a branch whose depths count from `lower` (m)."""
+    """Return times (s) at equal shares of all change on a branch; its depths count from `lower` (m)."""
     state = branch.nodes(25)
     radius = hit.profile.radius_at(np.clip(lower + state.depth, 0.0, hit.max_depth))
     # Stick relaxes on springs and dashpots at these rates (1/s).
@@ -90,9 +91,9 @@ def _even_times(hit, branch, lower, inertia):
 
 
 def bound_ratio(hit, speed, friction):
-    """(μ/κ)/v_t0 (s/m) at a tangential speed: the ratio of B to the normal load, for a speed of 1.
+    """Return (μ/κ)/v_t0 (s/m) at a tangential speed: the ratio of B to the normal load, for a speed of 1.
 
-    A body without speed has the largest ratio, at which everything sticks.
+    For a tangential speed of 0 it is the largest ratio, at which everything sticks.
     """
     largest = 1 / (SLOWEST * float(hit.speed))
     return min(friction / float(hit.medium.tangential_ratio) / abs(speed), largest) if speed else largest
@@ -108,21 +109,21 @@ class SurfaceElements(NamedTuple):
 
     @classmethod
     def of(cls, profile, depth):
-        """Elements with their edges at the contact radii of levels of depth (m)."""
+        """Make elements with their edges at the contact radii of levels of depth (m)."""
         edge = np.maximum.accumulate(profile.radius_at(depth))
         width, rise = np.diff(edge), np.diff(depth)
         area = integrals(profile).radius_integral(LiveInterval(depth[:-1], depth[1:], rise))
         with np.errstate(divide="ignore", invalid="ignore"):
             delay = np.where(width > 0, (edge[1:] - area / rise) / width, 0.5).clip(0.0, 1.0)
         mean_depth = np.append(0.0, depth[:-1] + delay * rise)
-        # There are no elements behind a wall.
+        # There are no elements outside a wall.
         count = 1 + int(np.max(np.flatnonzero(width), initial=-1) + 1)
         width, delay = np.append(edge[0], width), np.append(0.0, delay)
         return cls(edge[:count], width[:count], mean_depth[:count], delay[:count])
 
 
 def _partly_yielded(profile, elements, levels, plastic_depth):
-    """The element in which the plastic zone ends, at each level: its number, its mean (g − p)₊ (m)."""
+    """Return the element in which the plastic zone ends, at each level: its number, its mean (g − p)₊."""
     number = np.searchsorted(levels.depth, plastic_depth, side="right")
     top = np.maximum(levels.depth[np.minimum(number, levels.depth.size - 1)], plastic_depth)
     area = integrals(profile).radius_integral(LiveInterval(plastic_depth, top, top - plastic_depth))
@@ -142,9 +143,9 @@ class RunQuantities(NamedTuple):
 
 
 def largest_force(time, force):
-    """Largest |force| of each column, with a row for each instant; at a kink, where slip begins, as well.
+    """Return the largest |force| of each column with one row per instant, also at a kink (onset of slip).
 
-    Between two instants the force is the lesser of two parabolas, each through three instants on one side.
+    Between two instants the force is the smaller of two parabolas, each through three instants on one side.
     """
     force = np.abs(force)
     at, largest = np.argmax(force, axis=0), np.max(force, axis=0)
@@ -157,23 +158,26 @@ def largest_force(time, force):
             return np.minimum(_parabola(t[:3], f[:3], place), _parabola(t[3:], f[3:], place))
 
         with np.errstate(divide="ignore", invalid="ignore"):
-            # At a kink the last parabola exceeds it by an eighth of what the force gains in its step.
+            # At a kink the last parabola exceeds the force by an eighth of the force's gain in its step.
             top = largest_value(between, t[2], t[3], grids=5)
-        # Parabolas through uneven steps mean nothing.
+        # Parabolas through uneven steps are not meaningful.
         even = steps.min(axis=0) > 0.1 * steps.max(axis=0)
         largest = np.where(even, np.maximum(largest, top), largest)
     return largest
 
 
 def _parabola(t, f, place):
-    """Values at places of parabolas through three points each."""
+    """Return values at places of parabolas through three points each."""
     slope, last_slope = np.diff(f, axis=0) / np.diff(t, axis=0)
     bend = (last_slope - slope) / (t[2] - t[0])
     return f[0] + (place - t[0]) * (slope + (place - t[1]) * bend)
 
 
 def slide(hit, levels, inertia, ratio, instants=()):
-    """One `FrictionRun` of a body of speed 1: C = `inertia` (1/(m s²)), B = `ratio` × normal load."""
+    """Return the `FrictionRun` of a body of speed 1.
+
+    C is `inertia` (1/(m s²)), and B is `ratio` times the normal load.
+    """
     tau = float(hit.medium.relaxation_time)
     interval, _ = yield_rule(hit.profile, hit.medium).loading(levels.depth)
     elements = SurfaceElements.of(hit.profile, levels.depth)
@@ -188,7 +192,7 @@ def slide(hit, levels, inertia, ratio, instants=()):
         rise = np.maximum(elements.mean_depth[:count] - plastic_depth[i], 0.0)
         if plastic_depth[i] > 0 and number[i] < count:
             rise[number[i]] = partial[i]
-        # An element covered at a speed begins with the load of its dashpot.
+        # An element covered at a finite speed begins with the load of its dashpot.
         run.cover(old, count, ratio * tau * levels.velocity[max(i - 1, 0)])
         run.step(i, np.maximum(ratio * (load[i] - rise), 0.0), slice(old, count))
     rise = np.maximum(elements.mean_depth - hit.plastic_depth, 0.0)
@@ -205,7 +209,7 @@ class FrictionRun:
     """One run in units of the initial tangential speed: the elements during it, and its records.
 
     Each element in contact has a load Q and a displacement s (s). Records at every time (s) are velocity,
-    force over 2κE* (m s), stored, viscous and friction energy over 2κE* (m s²); `element_states` are
+    force over 2κE* (m s), and stored, viscous and friction energy over 2κE* (m s²). `element_states` are
     loads of elements, and whether they stick, by the numbers of the requested `instants`.
     """
 
@@ -225,13 +229,13 @@ class FrictionRun:
         return RunQuantities(self.velocities[-1] - 1.0, force, self.friction[-1], viscous)
 
     def cover(self, old, count, bound):
-        """Covers elements at a speed at which they carry at most `bound`."""
+        """Cover elements with loads limited to `bound`."""
         self.count = count
         self.load[old:count] = np.clip(self.tau * self.velocity, -bound, bound)
         self.bound[old:count] = bound
 
     def step(self, i, bound, changing):
-        """A step to the instant i, with bounds there; `changing` elements are covered or released."""
+        """Take a step to instant i, with bounds there; `changing` elements are covered or released."""
         h = self.time[i] - self.time[i - 1] if i else 0.0
         n, width = self.count, self.elements.width[: self.count]
         start_load, s = self.load[:n], self.s[:n]
@@ -259,15 +263,15 @@ class FrictionRun:
             self.element_states[i] = load, slip_share == 0
 
     def _balance(self, h, dt, width, start_load, s, bound):
-        """Velocity at the end of a step, loads if all stuck, shares of the step that slip, mean loads.
+        """Return velocity at the end of a step, loads if all stick, slipping shares, and mean loads.
 
-        Load and bound are linear in time until they meet: a stuck element with some `room` to its bound,
-        which stick would exceed by `excess`, then slips. W₁ − W + C ∫∫Q dx dt = 0 grows with W₁.
+        Load and bound are linear in time until they meet. A stuck element with some `room` to its bound,
+        which stick would exceed by `excess`, then slips. The residual W₁ − W + C ∫∫Q dx dt grows with W₁.
         """
         weight, reach = self.inertia * width * dt / 2, dt / 2 + self.tau
         base, known = s + dt * (self.velocity / 2), weight @ start_load - self.velocity
         stiffness, w, low, high = weight * reach, self.velocity + h * self.rate, -np.inf, np.inf
-        # Without any room the whole step slips, if it does.
+        # Without any room, a slipping element slips for the whole step.
         allowed = self.bound[: bound.size] * (1 + 1e-15) + 1e-290
         for _ in range(100):
             trial = base + reach * w
@@ -284,7 +288,7 @@ class FrictionRun:
         return w, trial, slip_share, (start_load + end_load) / 2
 
     def _relaxed(self, dt, s, displacement, slip_share, start_load, trial, load, gain):
-        """s after a step, and friction work: stick first, then τṡ + s = Q with a load linear in time."""
+        """Return s after a step, and friction work: first stick, then τṡ + s = Q with a linear load."""
         stuck = 1 - slip_share
         slip_s, slip_load = s + stuck * displacement, start_load + stuck * (trial - start_load)
         dt = np.maximum(slip_share * dt, 1e-300)
@@ -293,13 +297,13 @@ class FrictionRun:
         # 1 − (1 − e^(−z))/z, without cancellation.
         late = np.where(z > 1e-3, 1 - fade / z, z / 2 - z * z / 6)
         end_s = slip_s + fade * (slip_load - slip_s) + late * rise
-        # ∫Qṡ dt by parts, with ∫s dt known; the velocity of the surface is linear in time, too.
+        # ∫Qṡ dt by parts, with ∫s dt known; the velocity of the surface is also linear in time.
         elastic = load * end_s - slip_load * slip_s - rise * (mean - (end_s - slip_s) / z)
         slip_work = mean * slip_share * displacement + rise * slip_share * gain * dt / 12 - elastic
         return end_s, slip_work
 
     def release(self, count):
-        """Releases the elements from a number on; the energy that they store relaxes."""
+        """Release the elements from number `count`; their stored energy relaxes."""
         rows = slice(count, self.count)
         energy = self.elements.width[rows] @ self.s[rows] ** 2 / 2
         self.stored, self.released, self.count = self.stored - energy, self.released + energy, count

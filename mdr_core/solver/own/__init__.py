@@ -1,1 +1,1 @@
-"""What a user writes is admitted here: shapes, laws of hardness, and the cap of a law."""
+"""Users' classes: checks of shapes and laws of hardness, and the cap of a law."""

@@ -1,13 +1,12 @@
-"""Check of shapes that users write: g starts at 0 and does not fall, g′ is its slope, all are finite.
+"""Checks of users' shapes: g starts at 0 and does not fall, g′ is its slope, and all are finite.
 
-Shapes of the library are trusted. `sound_range` finds, once for a profile, where its functions end, which
-is its known depth. `check_shape` checks one profile, or each of an ensemble, at the radii of the contact
-that a calculation reaches.
+Shapes of the library are trusted. `sound_range` finds the end of a profile's functions once; this is its
+known depth. `check_shape` checks one profile, or each profile of an ensemble, at the radii of a contact.
 
-Between two radii that are near each other, the slope of g lies between the values of g′ at both, unless g′
-turns in between. At a kink, at a jump of g and in the first cells of a table it may lie outside. So g′ is
+Between two neighbouring radii, the slope of g lies between the values of g′ at both, unless g′ turns in
+between. At a kink, at a jump of g and in the first cells of a table it may lie outside. Therefore g′ is
 wrong only if it is too large, or too small, by more than 30 % at three quarters of the radii of a contact.
-A g′ that lacks a factor of 2 or π/2, or is z′, is wrong at all radii.
+A g′ with a missing factor of 2 or π/2, or z′ instead of g′, is wrong at all radii.
 """
 
 from typing import NamedTuple
@@ -21,39 +20,39 @@ from .rows import largest_in_blocks, refuse_first, refused, values_of
 
 #: Functions of a shape.
 _FUNCTIONS = "reduced_at", "reduced_slope_at", "height_at"
-#: What to do about what is wrong.
-_ENDS = "correct its functions, or give known_depth and known_radius, or wall, where the shape ends"
+#: Remedies for the faults of a shape.
+_ENDS = "correct its functions, or give known_depth and known_radius, or wall, at the end of the shape"
 _RADIUS = "correct radius_at(depth), or leave it out"
-_RISE = "correct reduced_at(x): g is 0 at the tip, and does not fall"
+_RISE = "correct reduced_at(x): g must be 0 at the tip, and must not fall"
 _SLOPE = "correct reduced_slope_at(x): it is the derivative of reduced_at(x), not of the height z"
-#: Radii (m) at which one profile is looked at: 33 in each decade, no two 8 % apart.
+#: Radii (m) at which one profile is evaluated: 33 per decade, neighbours less than 8 % apart.
 _RADII = np.append(0.0, np.geomspace(1e-27, 1e12, 1300))
-#: Over a contact that is less than a cell of a table wide, g′ may differ everywhere. It is wrong only if it
-#: is so up to this multiple of the contact radius, too, as far as the shape is known.
+#: In a contact narrower than a cell of a table, g′ may differ everywhere. It is wrong only if it also
+#: differs up to this multiple of the contact radius, within the known radius of the shape.
 _WIDER = 5.0
-#: Radii of a contact at which it is checked, and those of an indenter of an ensemble over its contact
-#: radius: so many inside, as near to each other as those of one profile, and others outside.
+#: Number of checked radii in a contact. Radii for an ensemble, over the contact radius: as many inside, as
+#: near to each other as the radii of one profile, and others outside.
 _COUNT = 200
 _SHARES = np.append(np.geomspace(1e-6, 1.0, _COUNT), np.geomspace(1.07, _WIDER, 22))
-#: Depths at which a contact radius is checked, over the largest one: the first alone if it is found from g;
-#: and share by which it may differ from that of g.
+#: Depths at which a contact radius is checked, over the largest depth; only the first one if the radius is
+#: found from g. Share by which the radius may differ from the radius by g.
 _DEPTHS, _SAME = 10.0 ** -np.arange(0.0, 6.0, 0.5), 1e-3
-#: Share of the depth by which g may fall: the rounding of a formula, as of √(x² + R²) − R next to the tip,
-#: is less. Heights g (m) that are no more than such a rounding.
+#: Share of the depth by which g may fall; the rounding of a formula such as √(x² + R²) − R next to the tip
+#: is smaller. Height g (m) that is not more than such a rounding.
 _ROUNDING, _LOWEST = 1e-6, 1e-12
 #: Factor by which g′ may differ from the slope of g, and share of the radii at which it may differ by more.
-#: Tables of powers of x up to the fourth, whose g is interpolated in another way than g′, differ by more at
-#: half of the radii of a contact that is three cells wide, at a quarter of those of ten cells.
+#: Tables of powers of x up to the fourth may interpolate g and g′ in different ways. They differ by more at
+#: half of the radii of a contact of three cells, and at a quarter of the radii for ten cells.
 _FACTOR, _SHARE = 1.3, 0.75
-#: Fewest pairs of radii that are compared, and relative distance of those in words.
+#: Fewest pairs of radii to compare, and relative distance of radii in messages.
 _FEWEST, _STEP = 4, 0.01
 
 
 class SoundRange(NamedTuple):
-    """Up to which radius and depth (m) one profile is valid, infinite without an end, and the fault there.
+    """Largest radius and depth (m) at which one profile is valid, infinite without an end, and the fault.
 
-    `values` are those of `_values` at ascending radii x (m) up to it, and `right` has the numbers of these
-    radii in contacts that have been found right.
+    `values` are the `_values` at ascending radii x (m) up to this radius. `right` has the numbers of these
+    radii in contacts that were found to be right.
     """
 
     radius: float
@@ -65,11 +64,11 @@ class SoundRange(NamedTuple):
 
 
 def sound_range(profile, end):
-    """The `SoundRange` of one profile that a user wrote, looked at up to the radius `end` (m).
+    """Return the `SoundRange` of a user's profile, evaluated up to the radius `end` (m).
 
-    It ends before the first radius at which a function fails, g or z is not finite or g′ not a number, or
-    from which on g never again exceeds a depth that it had. Refused if it is not valid at the tip, or if g′
-    is wrong in all contacts.
+    It ends before the first radius at which a function fails, g or z is not finite, or g′ is NaN. It also
+    ends at the largest g, if g is smaller at all larger radii. An error is raised if the profile is invalid
+    at the tip, or if g′ is wrong in all contacts.
     """
     check_tips(profile)
     x = np.append(_RADII[end > _RADII], end if end < _RADII[-1] else [])
@@ -77,13 +76,13 @@ def sound_range(profile, end):
     count = int(np.argmax(np.append(_bad(values), True)))
     reduced = values[0, :count]
     top = int(np.argmax(reduced))
-    # Behind a wall the contact goes on to any depth.
+    # At a wall the contact continues to any depth.
     ends_above = end < min(profile.wall, _RADII[-1])
     radius, depth, fault = np.inf, float(reduced[-1]) if ends_above else np.inf, ""
     if reduced[-1] < reduced[top] or top < count - 1 == _RADII.size - 1:
-        # The largest value of g is the last one that the edge of a contact reaches.
+        # The edge of a contact does not pass the largest value of g.
         radius, depth = float(x[top]), float(reduced[top])
-        fault = f"g(x) rises no more from {depth:g} m at x = {radius:g} m on"
+        fault = f"g(x) does not rise beyond {depth:g} m at x = {radius:g} m"
         if top == 0:
             raise refused(profile, fault, _RISE)
     elif count < x.size:
@@ -99,9 +98,9 @@ def sound_range(profile, end):
 
 
 def check_tips(profile):
-    """Refuses a shape whose functions fail for arrays of radii, or are not valid at the tip.
+    """Raise an error if a shape's functions fail for arrays of radii, or are invalid at the tip.
 
-    That of one profile is known from `sound_range`.
+    For one profile, `sound_range` calls this check.
     """
     x = np.zeros((2, *profile.shape))
     values = [values_of(profile, name, x) for name in _FUNCTIONS]
@@ -113,9 +112,9 @@ def check_tips(profile):
 
 
 def check_shape(profile, depth):
-    """Refuses a user's shape that is not valid in contacts with the largest of depths (m).
+    """Raise an error if a user's shape is invalid in the contact with the largest of depths (m).
 
-    For an ensemble these are the contacts of each indenter. Depths that are not finite are left out.
+    For an ensemble this is the contact of each indenter. Depths that are not finite are left out.
     """
     for rows, depths in largest_in_blocks(profile, depth, profile.shape):
         if profile.shape:
@@ -125,9 +124,9 @@ def check_shape(profile, depth):
 
 
 def _check_one(profile, depth):
-    """`check_shape` of one profile, at radii at which it has been looked at."""
+    """Check one profile, as in `check_shape`, at the radii of `sound_range`."""
     *_, x, values, right = profile.sound
-    # The edge of the contact passes the radii up to the first one at which g is larger.
+    # The edge of the contact passes the radii up to the first radius with a larger g.
     count = max(int(np.argmax(np.append(values[0] > depth, True))), 1)
     if count not in right:
         if _gives_radius(profile):
@@ -139,7 +138,7 @@ def _check_one(profile, depth):
 
 
 def _check_ensemble(profile, depth):
-    """`check_shape` of an ensemble, with one depth (m) for each indenter."""
+    """Check an ensemble, as in `check_shape`, with one depth (m) per indenter."""
     radius = _contact_radius(profile, depth)[:, None]
     profile = profile.entries((slice(None), None), depth.shape)
     x = np.minimum(_SHARES * radius, np.minimum(profile.wall, profile.known_radius))
@@ -149,12 +148,12 @@ def _check_ensemble(profile, depth):
 
 
 def _gives_radius(profile):
-    """Whether the contact radius is a function of a shape's own, and not found from g."""
+    """Whether a shape defines its contact radius, instead of the search from g."""
     return type(profile).radius_at is not Profile.radius_at
 
 
 def _contact_radius(profile, depth):
-    """Contact radii (m) at depths (m); refused if g is not that depth there."""
+    """Return contact radii (m) at depths (m); raise an error if g is not this depth there."""
     depth = np.multiply.outer(_DEPTHS if _gives_radius(profile) else _DEPTHS[:1], depth)
     radius = np.broadcast_to(profile.radius_at(depth), depth.shape)
     end = np.minimum(profile.wall, profile.known_radius)
@@ -171,9 +170,9 @@ def _contact_radius(profile, depth):
 
 
 def _check(profile, x, values, count, depth):
-    """Refuses what is wrong in contacts with depths (m), from `values` at ascending radii x (m).
+    """Raise an error for faults in contacts with depths (m), from `values` at ascending radii x (m).
 
-    The first `count` of these are in the contact.
+    The first `count` of these radii are in the contact.
     """
     reduced, slope, _ = values
     falls = np.maximum.accumulate(reduced, axis=-1) - reduced > _ROUNDING * depth
@@ -191,9 +190,10 @@ def _check(profile, x, values, count, depth):
 
 
 def _wrong_slopes(x, g, slope):
-    """Where g′ is not the slope of g (m), and whether it is wrong, and is judged, in contacts up to there.
+    """Return masks of the pairs of neighbouring radii x (m), which ascend: `off`, `wrong` and `judged`.
 
-    Between ascending radii x (m), for each but the first and the one before it.
+    `off` marks a g′ that is not the slope of g (m). `wrong` marks contacts up to this pair with a wrong g′,
+    and `judged` marks contacts with enough pairs for this decision.
     """
     step, before, after = np.diff(x), slope[..., :-1], slope[..., 1:]
     # At the tip g′ may be infinite, and outside the contact there may be no values.
@@ -202,16 +202,16 @@ def _wrong_slopes(x, g, slope):
         low, high = step * np.minimum(before, after), step * np.maximum(before, after)
     judged = (g[..., 1:] > _LOWEST) & (np.maximum(rise, low) > _ROUNDING * g[..., 1:])
     large, small = judged & (low > _FACTOR * rise), judged & (rise > _FACTOR * high)
-    # Each pair of radii stands for a width of the contact.
+    # Each pair of radii represents a width of the contact.
     widths = [np.cumsum(step * pairs, axis=-1) for pairs in (judged, large, small)]
     enough = np.cumsum(judged, axis=-1) >= _FEWEST
     return large | small, enough & (np.maximum(*widths[1:]) > _SHARE * widths[0]), enough
 
 
 def _values(profile, x):
-    """g (m), g′ and z (m) at radii x (m), NaN where they fail, as an interpolation beyond its table.
+    """Return g (m), g′ and z (m) at radii x (m); NaN if they fail, like an interpolation beyond its table.
 
-    Without warnings: also at radii that no solver reaches.
+    There are no warnings, because solvers may not reach these radii.
     """
     try:
         with np.errstate(all="ignore"):
@@ -225,17 +225,17 @@ def _values(profile, x):
 
 
 def _bad(values):
-    """Where g or z is not finite, or g′ not a number."""
+    """Whether g or z is not finite, or g′ is NaN."""
     return ~np.isfinite(values[::2]).all(axis=0) | np.isnan(values[1])
 
 
 def _refuse_bad(profile, x, values):
-    """Refuses a shape at the first of the radii (m) at which its values are `_bad`."""
+    """Raise an error at the first of the radii (m) at which the values of a shape are `_bad`."""
     refuse_first(profile, _bad(values), lambda i: _said(x[i], *values[(..., *i)]), _ENDS)
 
 
 def _said(x, reduced, slope, height):
-    """Words for values that are `_bad` at a radius x (m)."""
+    """Return words for values that are `_bad` at a radius x (m)."""
     if not np.isfinite(reduced):
         return f"g(x) is {reduced:g} m at x = {x:g} m"
     if np.isnan(slope):
@@ -244,7 +244,7 @@ def _said(x, reduced, slope, height):
 
 
 def _said_of_slope(profile, x):
-    """Words for a g′ that is not the slope of g at a radius (m), over a step of 1 %."""
+    """Return words for a g′ that is not the slope of g at a radius (m), over a step of 1 %."""
     x = np.array([(1 - _STEP) * x, x])
     reduced, slope, _ = _values(profile, x)
     own = (reduced[1] - reduced[0]) / (x[1] - x[0])

@@ -11,10 +11,10 @@ from ...base.check import Array, ArrayLike
 from ...base.remark import Remark
 from ..numerics.roots import increasing_root
 
-#: Relative distance of two radii whose heights give the slope of a search. It need not be exact.
+#: Relative distance of two radii for the slope in a search. The slope need not be exact.
 _APART = 1e-7
 
-#: Names that functions of a shape had before, and those that they have now.
+#: Former and present names of the functions of a shape.
 _FORMER = {
     "_height": "height_at",
     "_reduced": "reduced_at",
@@ -31,32 +31,33 @@ def is_own(profile):
 class Profile(check.Parameters, ABC):
     """Base class of shapes: rigid axisymmetric indenters, from the tip at the origin outward.
 
-    A profile of your own is a frozen dataclass with the first three functions below. They are not checked:
-    they take an array of lengths (m), none negative, which they must not change, and return an array of its
-    shape. Besides
-    its parameters solvers ask a profile for eleven names; a shape gives those that differ from the base::
+    A custom profile is a frozen dataclass with the first three functions below. They take an array of
+    lengths (m) ≥ 0, without checks, and return an array of its shape. They must not change their argument.
+    In addition to its parameters, solvers use eleven names of a profile. A shape defines the names that
+    differ from the base class::
 
         height_at(r)          height z (m) at radii r (m)
         reduced_at(x)         height g (m) of the equivalent 1D profile at x (m), which does not fall
-        reduced_slope_at(x)   its slope g′, without unit; on a kink, that of the outer side
-        radius_at(depth)      contact radius a (m) at depths (m), g(a) = depth; found from g if not given
-        radius_at_height(z)   radius r (m) at heights (m), z(r) = z; found from z if not given
-        face_radius           radius (m) of a flat face at the tip, 0 without one
-        wall                  radius (m) of a vertical wall, ∞ without one
+        reduced_slope_at(x)   its slope g′, without unit; on a kink, the slope of the outer side
+        radius_at(depth)      contact radius a (m) at depths (m), g(a) = depth; by default found from g
+        radius_at_height(z)   radius r (m) at heights (m), z(r) = z; by default found from z
+        face_radius           radius (m) of a flat face at the tip; 0 without a face
+        wall                  radius (m) of a vertical wall; ∞ without a wall
         kinks                 depths (m) at which the edge of the contact passes a kink of g, a tuple
-        known_depth           depth (m) to which the shape is known; found from g if not given
-        known_radius          radius (m) to which it is known; found from g if not given
-        too_deep()            words for depths beyond known_depth, in refusals
+        known_depth           depth (m) to which the shape is known; by default found from g
+        known_radius          radius (m) to which the shape is known; by default found from g
+        too_deep()            words for depths beyond known_depth, in errors
 
     The checked functions for users are `height`, `reduced`, `reduced_slope` and `contact_radius`.
     `body_radius` and `transition_depth` are for limits in words, and scales. Parameters may be arrays that
     broadcast with each other, with radii and with depths: an ensemble of indenters for `impact`.
 
-    Every calculation checks a shape of your own at 200 radii, from 10⁻⁶ of its largest contact radius up to
-    it: g is 0 at the tip, finite, and does not fall, z is finite and g′ a number. If it does not say where
-    it ends, one shape ends where a function has no value, or g rises no more. g′ that differs from the
-    slope of g by more than 30 % at three quarters of the radii is refused, and so is a contact radius that
-    differs from that of g by 0.1 %; kinks, jumps of g and coarse tables are not.
+    Every calculation checks a custom shape at 200 radii, from 10⁻⁶ of its largest contact radius up to it:
+    g is 0 at the tip, finite, and does not fall, z is finite, and g′ is a number. Without known_depth and
+    known_radius, a single shape ends where a function has no value, or g does not rise any more. An error
+    is raised if g′ differs from the slope of g by more than 30 % at three quarters of the radii, or if a
+    contact radius differs by 0.1 % from the radius that follows from g. Kinks, jumps of g and coarse tables
+    are allowed.
 
     Examples
     --------
@@ -84,19 +85,19 @@ class Profile(check.Parameters, ABC):
     a = 83.227 nm, F = 0.2538 µN
     """
 
-    #: Radius (m) of a vertical wall, where depth grows at constant contact radius.
+    #: Radius (m) of a vertical wall, at which depth grows at constant contact radius.
     wall = np.inf
     #: Radius (m) of a flat face at the tip: the contact radius at depth 0.
     face_radius = 0.0
-    #: Radius (m) of the body that ends in the tip; the half-space needs a contact that is small against it.
+    #: Radius (m) of the body behind the tip; the half-space needs a contact that is small compared with it.
     body_radius = np.inf
     #: Depths (m), ascending, at which the edge of the contact passes a kink of g, or reaches the wall.
     kinks = ()
-    #: Whether it is a polygon through samples, whose kinks are no edges of the body.
+    #: Whether it is a polygon through samples; its kinks are not edges of the body.
     polygonal = False
     #: Depth (m) at which g changes from one power of x to another, None if it is not known.
     transition_depth = None
-    #: Remarks on what was changed when the profile was made, as of a concave area function.
+    #: Remarks on changes to the input of the profile, such as a concave area function.
     remarks: tuple[Remark, ...] = ()
     #: Words for the end of the known depth.
     _last = "the shape is known"
@@ -105,16 +106,16 @@ class Profile(check.Parameters, ABC):
         super().__init_subclass__(**keywords)
         for name in ("known_depth", "known_radius"):
             if name in cls.__annotations__ and name not in vars(cls):
-                # A field without a default of its own has none that is found from g.
+                # A field without a default must not inherit the property from g.
                 setattr(cls, name, np.inf)
         for old, new in _FORMER.items():
             if old in vars(cls):
                 raise TypeError(
-                    f"{cls.__name__} gives {old}, a former name of a function of a shape: call it {new}; a "
-                    f"shape gives {', '.join(_FORMER.values())}, the last one only in closed form"
+                    f"{cls.__name__} defines {old}, a former name of a function of a shape: call it {new}; "
+                    f"a shape defines {', '.join(_FORMER.values())}, the last only in closed form"
                 )
         if "height_at" in vars(cls) and "radius_at_height" not in vars(cls):
-            # That of the class it is derived from would be the inverse of another height.
+            # The parent class's function would be the inverse of another height.
             cls.radius_at_height = Profile.radius_at_height
         read_only.guard_methods(cls, (*_FORMER.values(), "radius_at_height"))
 
@@ -130,45 +131,46 @@ class Profile(check.Parameters, ABC):
 
     @cached_property
     def sound(self):
-        """The `SoundRange` of a profile of a user's own."""
+        """The `SoundRange` of a user's profile."""
         given = type(self).known_radius is not Profile.known_radius
         return lazy.shape.sound_range(self, min(self.wall, self.known_radius if given else np.inf))
 
     @abstractmethod
     def height_at(self, r: np.ndarray) -> np.ndarray:
-        """Height z (m) at radii r ≥ 0 (m), an array; unchecked."""
+        """Return the height z (m) at radii r ≥ 0 (m), an array; unchecked."""
 
     @abstractmethod
     def reduced_at(self, x: np.ndarray) -> np.ndarray:
-        """Height g (m) of the equivalent 1D profile at x ≥ 0 (m), an array; unchecked."""
+        """Return the height g (m) of the equivalent 1D profile at x ≥ 0 (m), an array; unchecked."""
 
     @abstractmethod
     def reduced_slope_at(self, x: np.ndarray) -> np.ndarray:
-        """Slope g′ at x ≥ 0 (m), an array; unchecked."""
+        """Return the slope g′ at x ≥ 0 (m), an array; unchecked."""
 
     def height(self, r: ArrayLike) -> Array:
-        """Height z(r) (m) above the tip at radii r (m); even in r."""
+        """Return the height z(r) (m) above the tip at radii r (m); even in r."""
         return self._of_radius("radius r", r, self.height_at)
 
     def reduced(self, x: ArrayLike) -> Array:
-        """Height g(x) (m) of the equivalent 1D profile, Popov (2015), Eq. (3); even in x."""
+        """Return the height g(x) (m) of the equivalent 1D profile, Popov (2015), Eq. (3); even in x."""
         return self._of_radius("coordinate x", x, self.reduced_at)
 
     def reduced_slope(self, x: ArrayLike) -> Array:
-        """Slope g′(x) (dimensionless) of the equivalent 1D profile; on a kink, that of its outer side.
+        """Return the slope g′(x) (dimensionless) of the equivalent 1D profile, on a kink of its outer side.
 
-        Odd in x; infinite at the sharp edge of a flat face, and at the radius of a wall and outside.
+        It is odd in x, and infinite at the sharp edge of a flat face, and at the radius of a wall and
+        outside.
         """
         sign = np.where(check.finite_array("coordinate x", x, unit="m") < 0, -1.0, 1.0)
         slope = self._of_radius("coordinate x", x, self.reduced_slope_at)
         return (sign * np.where(np.abs(x) >= self.wall, np.inf, slope))[()]
 
     def contact_radius(self, depth: ArrayLike) -> Array:
-        """Contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
+        """Return the contact radius a (m) at indentation depth d (m): the largest x with g(x) ≤ d."""
         depth = self._places("depth", depth, most=check.LONGEST)
         check.raise_if("depth", depth, depth < 0, "is negative", unit="m", advice="it counts downward")
         depth = self._known(depth)
-        # At the known depth a search may end a rounding beyond the known radius.
+        # At the known depth, rounding in a search may lead beyond the known radius.
         radius = np.minimum(self.radius_at(depth), self.known_radius)
         bound, advice = "has a contact beyond double precision", "press less deep"
         check.raise_if("depth", depth, np.isinf(radius), bound, unit="m", advice=advice)
@@ -177,19 +179,19 @@ class Profile(check.Parameters, ABC):
         return radius[()]
 
     def radius_at(self, depth):
-        """Contact radius (m) at depths (m) from 0 to the known depth, an array; unchecked."""
+        """Return the contact radius (m) at depths (m) from 0 to the known depth, an array; unchecked."""
         root = increasing_root(
             lambda x: (self.reduced_at(x), self.reduced_slope_at(x)), depth, 1.0, self.known_radius
         )
-        # A search passes a wall at which g jumps.
+        # A search passes a wall, where g jumps.
         return np.minimum(np.maximum(root, self.face_radius), self.wall)
 
     def radius_at_height(self, height):
-        """Largest radius (m) with z(r) ≤ heights ≥ 0 (m), an array; ∞ where z is not known; unchecked."""
+        """Return the largest radius (m) with z(r) ≤ heights ≥ 0 (m), ∞ if z is not known; unchecked."""
 
         def height_and_slope(r):
             z, inside = self.height_at(r), r * (1 - _APART)
-            # Behind a wall z is infinite: no slope, for which the search halves its bracket.
+            # Outside a wall z is infinite: without a slope, the search halves its bracket.
             with np.errstate(invalid="ignore"):
                 return z, (z - self.height_at(inside)) / (r - inside)
 
@@ -198,10 +200,10 @@ class Profile(check.Parameters, ABC):
         return np.maximum(np.minimum(radius, self.wall), self.face_radius)
 
     def _of_radius(self, quantity, r, function):
-        """`function` at checked radii |r| (m)."""
+        """Return `function` at checked radii |r| (m)."""
         r = np.abs(self._places(quantity, r))
         known = np.min(self.known_radius, initial=np.inf)
-        bound = f"is beyond the radius up to which the shape is known, {known:g} m"
+        bound = f"must not exceed the known radius of the shape, {known:g} m"
         advice = "give a smaller radius"
         check.raise_if(quantity, r, r > self.known_radius, bound, unit="m", advice=advice)
         values = function(r)[()]
@@ -210,13 +212,13 @@ class Profile(check.Parameters, ABC):
         return values
 
     def _places(self, quantity, values, most=check.FARTHEST):
-        """Radii or depths (m), checked and broadcast to the ensemble."""
+        """Return radii or depths (m), checked and broadcast to the ensemble."""
         values = check.finite_array(quantity, values, unit="m", most=most)
         given = {quantity: values, "indenters": np.empty(self.shape)}
         return np.broadcast_to(values, check.common_shape(type(self).__name__, **given))
 
     def _known(self, depth):
-        """`depth` (m), if the profile is known to it; a shape without an end may have another bound."""
+        """Return `depth` (m) if it is within the known depth; a shape without an end may override it."""
         if np.all(self.known_depth == np.inf):
             return depth
         too_deep = depth > self.known_depth
@@ -224,12 +226,12 @@ class Profile(check.Parameters, ABC):
         return check.raise_if("depth", depth, too_deep, bound, unit="m", advice="press less deep")
 
     def too_deep(self):
-        """Words for depths beyond `known_depth`, in messages of errors."""
+        """Return words for depths beyond `known_depth`, for error messages."""
         end = self.sound if is_own(self) and not self.shape else None
         if end and end.fault and self.known_depth == end.depth:
             return (
-                f"deeper than {type(self).__name__} is valid, {end.depth:g} m, since {end.fault}: correct "
-                "its functions, or give known_depth and known_radius, or wall, where the shape ends"
+                f"deeper than {type(self).__name__} is valid, {end.depth:g} m, because {end.fault}: "
+                "correct its functions, or give known_depth and known_radius, or wall, at its end"
             )
         deepest = np.min(self.known_depth)
         if deepest > check.LONGEST:
@@ -238,5 +240,5 @@ class Profile(check.Parameters, ABC):
 
 
 def check_known(profile: Profile, depth: np.ndarray) -> np.ndarray:
-    """`depth` (m), if none of it exceeds what is known of the profile; else a refusal in its words."""
+    """Return `depth` (m) if it does not exceed the known depth; otherwise raise the profile's error."""
     return profile._known(depth)

@@ -1,8 +1,8 @@
 """The contact radius of a profile and its integrals over the depth, as piecewise polynomials.
 
-Ensembles of impacts need a(s), ∫ a ds and ∫∫ a ds ds. For profiles with one length and one depth of their
-own (`OneLength`) these are functions of one variable, tabulated once for the class; `Tabulated` has the
-table of one profile.
+Ensembles of impacts need a(s), ∫ a ds and ∫∫ a ds ds. For profiles with one characteristic length and depth
+(`OneLength`) these are functions of one variable, tabulated once for the class. `Tabulated` has the table
+of one profile.
 """
 
 from dataclasses import dataclass, fields
@@ -15,23 +15,22 @@ from ...base import check
 from ..numerics.roots import increasing_root
 from .profile import Profile
 
-#: Chebyshev points on [0, 1] in which a(s) is interpolated, and the matrix that takes values there to the
-#: last two Chebyshev coefficients.
+#: Chebyshev points on [0, 1] for the interpolation of a(s), and the matrix from values there to the last
+#: two Chebyshev coefficients.
 _COUNT = 10
 _NODE = (1 + np.cos(np.pi * (np.arange(_COUNT) + 0.5) / _COUNT)) / 2
 _TO_LAST = np.linalg.inv(np.polynomial.chebyshev.chebvander(2 * _NODE - 1, _COUNT - 1))[-2:]
 
 
 class RadiusTable:
-    """Contact radius a(s) (m) of one profile, ∫ a ds (m²) and ∫∫ a ds ds (m³) from depth 0 on.
+    """Contact radius a(s) (m) of one profile, ∫ a ds (m²) and ∫∫ a ds ds (m³) from depth 0.
 
-    Panels between the edges are halved until a polynomial of degree 9 is a(s) to rounding. From depth 0 to
-    the first edge a(s) is the radius of the face plus a power of s, for which the panel has a parabola with
-    the same integrals.
+    Panels between the edges are halved until a polynomial of degree 9 equals a(s) to rounding. From depth 0
+    to the first edge a(s) is the radius of the face plus a power of s. The panel has a parabola with the
+    same integrals.
 
-    `radius` is a(s) (m) at arrays of depths (m); `edges` are depths (m), ascending: the first and the last
-    one of the table, and all kinks between them. Powers of depths over `unit` (m) must stay within double
-    precision.
+    `radius` is a(s) (m) at arrays of depths (m). `edges` are ascending depths (m): both ends of the table,
+    and all kinks between them. Powers of depths over `unit` (m) must stay within double precision.
     """
 
     def __init__(self, radius, edges, unit=1.0):
@@ -42,17 +41,17 @@ class RadiusTable:
         self._radius = _Polynomials(
             np.column_stack([first, powers]), np.concatenate([[0.0], low, edges[-1:]])
         )
-        # These continue from panel to panel, from 0 at depth 0.
+        # Both are continuous from panel to panel, and 0 at depth 0.
         self._area = self._radius.antiderivative()
         self._volume = self._area.antiderivative()
 
     def covers(self, depth):
-        """Whether depths (m) are in the table: 0, and those from its first edge to its last one."""
+        """Whether depths (m) are in the table: 0, or between its first and its last edge."""
         depth = np.asarray(depth) / self.unit
         return ((depth >= self.start) | (depth == 0)) & (depth <= self.end)
 
     def radius(self, depth):
-        """a(s) (m) at any depths (m)."""
+        """Return a(s) (m) at any depths (m)."""
         covered = self.covers(depth)
         if covered.all():
             return self.covered_radius(depth)
@@ -62,49 +61,49 @@ class RadiusTable:
         return result
 
     def covered_radius(self, depth):
-        """a(s) (m) at depths (m) that the table covers."""
+        """Return a(s) (m) at depths (m) in the table."""
         return self._radius(depth / self.unit)
 
     def area(self, depth):
-        """∫ a ds (m²) from the tip to depths (m)."""
+        """Return ∫ a ds (m²) from the tip to depths (m)."""
         return self._area(depth / self.unit) * self.unit
 
     def volume(self, depth):
-        """∫∫ a ds ds (m³) from the tip to depths (m)."""
+        """Return ∫∫ a ds ds (m³) from the tip to depths (m)."""
         return self._volume(depth / self.unit) * self.unit**2
 
     def depth_of_area(self, area):
-        """Depth (m) at which ∫ a ds has a value (m²), to about 10⁻⁴ of it."""
+        """Return the depth (m) at which ∫ a ds has a value (m²), to about 10⁻⁴ of the depth."""
         with np.errstate(divide="ignore"):
             return np.exp(np.interp(np.log(area), *self._inverses[0]))
 
     def depth_of_volume(self, volume):
-        """Depth (m) at which ∫∫ a ds ds has a value (m³), to about 10⁻⁴ of it."""
+        """Return the depth (m) at which ∫∫ a ds ds has a value (m³), to about 10⁻⁴ of the depth."""
         with np.errstate(divide="ignore"):
             return np.exp(np.interp(np.log(volume), *self._inverses[1]))
 
-    # Kept, depths of 300 impacts of samples are 2.6 times as fast, single ones of a rounded cone 1.8 times.
+    # Cached, depths of 300 impacts of samples are 2.6 times as fast, single depths of a rounded cone 1.8.
     @cached_property
     def _inverses(self):
         """Logarithms of ∫ a ds (m²) and of depths (m), and of ∫∫ a ds ds (m³) and of depths."""
         edges = self._radius.x[1:]
         depth = np.append(np.linspace(edges[:-1], edges[1:], 4, endpoint=False).T, edges[-1])
         area, volume = (each.by_numpy(depth) for each in (self._area, self._volume))
-        # Far below the unit of depth rounding may leave an integral of less than 0, which is no guess.
+        # Far below the unit of depth, rounding may make an integral negative; it then gives no guess.
         with np.errstate(invalid="ignore", divide="ignore"):
             inverse = np.log(depth * self.unit)
             return [(np.log(area * self.unit), inverse), (np.log(volume * self.unit**2), inverse)]
 
 
-#: Depths from which on polynomials are evaluated by SciPy.
+#: Least number of depths for an evaluation of polynomials by SciPy.
 _MANY = 1000
 
 
 class _Polynomials:
     """Piecewise polynomials with coefficients by power, highest first, and panel.
 
-    As `scipy.interpolate.PPoly`, which is up to 1.6 times as fast for many depths, but takes half a second
-    to import.
+    They replace `scipy.interpolate.PPoly`, which is up to 1.6 times as fast for many depths, but takes half
+    a second to import.
     """
 
     def __init__(self, powers, x):
@@ -119,7 +118,7 @@ class _Polynomials:
         return self._of_scipy(depth) if depth.size >= _MANY else self.by_numpy(depth)
 
     def by_numpy(self, depth):
-        """Their values, without SciPy also for many depths."""
+        """Return their values without SciPy, even for many depths."""
         panel = self.x[1:-1].searchsorted(depth, side="right")
         above = depth - self.x[panel]
         value, *powers = self.powers[:, panel]
@@ -128,7 +127,7 @@ class _Polynomials:
         return value
 
     def antiderivative(self):
-        """Their integral from the first edge."""
+        """Return their integral from the first edge."""
         count, width = len(self.powers), np.diff(self.x)
         powers = np.vstack([self.powers / np.arange(count, 0, -1)[:, None], np.zeros(len(width))])
         whole = np.zeros(len(width))
@@ -139,11 +138,11 @@ class _Polynomials:
 
 
 def _tip_panel(radius, edge):
-    """Coefficients of the panel from the tip to the first edge (m), highest power first.
+    """Return coefficients of the panel from the tip to the first edge (m), highest power first.
 
     `radius` is a (m) at shares t of the edge. There a = face + (whole − face) tᵖ, with p from the middle.
-    Of this panel only the integrals at its end are used: it is the parabola face + b t + c t² that has the
-    same ∫ a dt and ∫ (1 − t) a dt.
+    Only the integrals at the end of this panel are used. It is therefore the parabola face + b t + c t²
+    with the same ∫ a dt and ∫ (1 − t) a dt.
     """
     face, half, whole = radius(np.array([0.0, 0.5, 1.0]))
     p = np.log2((whole - face) / (half - face)) if half > face else 1.0
@@ -153,13 +152,13 @@ def _tip_panel(radius, edge):
 
 
 def _panels(radius, edges):
-    """Lower edges of panels, ascending, and coefficients of their polynomials, highest power first."""
+    """Return ascending lower edges of panels, and polynomial coefficients, highest power first."""
     low, high, panels = edges[:-1], edges[1:], []
     while low.size:
         width = high - low
         values = radius(low[:, None] + width[:, None] * _NODE)
         rough = np.abs(values @ _TO_LAST.T).max(axis=1) > 1e-15 * values.min(axis=1)
-        # Panels that are limited by the rounding of a(s) or of the depth are not halved.
+        # Panels limited by the rounding of a(s) or of the depth are not halved.
         below = low - edges[np.searchsorted(edges, low, side="right") - 1]
         rough &= width > np.maximum(below / 8, 2.0**-44 * high)
         powers = np.linalg.solve(np.vander(_NODE), values.T) / width ** np.arange(_COUNT)[::-1, None]
@@ -174,14 +173,14 @@ def _panels(radius, edges):
 class OneLength(Profile):
     """Base class of profiles with one length L and one depth H: z = H Z(r/L), g = H G(x/L).
 
-    A subclass gives `_length` and `_depth` (L and H, m), and Z, G and G′ as functions of arrays u = r/L.
-    Both scales must be 1 where all parameters are 1. A parameter named `slope` has no unit, others are m.
+    A subclass defines `_length` and `_depth` (L and H, m), and Z, G and G′ as functions of arrays u = r/L.
+    Both scales must be 1 if all parameters are 1. A parameter named `slope` has no unit, others are in m.
     The inverse of G comes from a table, made once for the class at its first use.
     """
 
     _length: float
     _depth: float
-    #: u at which G starts to grow, 0, or 1 at the edge of a flat face; and the largest u.
+    #: u at which G starts to grow (0, or 1 at the edge of a flat face), and the largest u.
     _edge, _end = 0.0, np.inf
 
     def __post_init__(self):
@@ -214,17 +213,17 @@ class OneLength(Profile):
 
     @classmethod
     def _unit_radius(cls, depth):
-        """u with G(u) = `depth`, elementwise."""
+        """Return u with G(u) = `depth`, elementwise."""
         # The largest depth over the smallest unit of depth, s²R.
         limit = check.LONGEST**4
         u = increasing_root(lambda u: (cls._G(u), cls._G_slope(u)), depth, 1.0, cls._end, largest=limit)
         return np.maximum(np.where(u < np.inf, u, cls._end), cls._edge)
 
 
-# Kept, single states of a rounded cone are 1.5 times as fast, and with its table 230 times.
+# The cache makes single states of a rounded cone 1.5 times as fast, the cache of its table 230 times.
 @lru_cache
 def _unit(kind):
-    """The profile of a class with parameters of 1, which has the length and the depth 1."""
+    """Return the profile of a class with parameters of 1, which has the length and the depth 1."""
     unit = kind(*(1.0 for _ in fields(kind)))
     if (unit._length, unit._depth) != (1.0, 1.0):
         raise TypeError(
@@ -236,7 +235,7 @@ def _unit(kind):
 
 @lru_cache
 def _unit_table(kind):
-    """The `RadiusTable` of the unit profile of a class; the kinks of these are at the unit of depth."""
+    """Return the `RadiusTable` of the unit profile of a class; its kinks are at the unit of depth."""
     edges = np.ldexp(1.0, np.arange(-100, 101))
     end = min(_unit(kind).known_depth, edges[-1])
     return RadiusTable(kind._unit_radius, np.append(edges[edges < end], end))
@@ -244,7 +243,7 @@ def _unit_table(kind):
 
 @dataclass(frozen=True, eq=False)
 class Tabulated(Profile):
-    """A profile with the contact radius of another one from a table, down to a depth (m)."""
+    """A profile with the contact radius of another profile from a table, down to a depth (m)."""
 
     profile: Profile
     known_depth: float
@@ -260,7 +259,7 @@ class Tabulated(Profile):
     reduced_at = property(lambda self: self.profile.reduced_at)
     reduced_slope_at = property(lambda self: self.profile.reduced_slope_at)
 
-    # Kept, three contact times of samples are 12 times as fast.
+    # The cache makes three contact times of samples 12 times as fast.
     @cached_property
     def table(self):
         kinks = [kink for kink in self.kinks if kink < self.known_depth] + [self.known_depth]

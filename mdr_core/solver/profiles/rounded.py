@@ -34,9 +34,9 @@ class Sphere(OneLength):
         def __init__(self, radius: ArrayLike) -> None: ...
 
     _length = _depth = body_radius = property(lambda self: self.radius)
-    # At this depth a is R to rounding.
+    # At this depth a equals R to rounding.
     known_depth = property(lambda self: 100 * self.radius)
-    _last = "the equator, which the contact has reached at d = 100 R"
+    _last = "the equator, which the contact reaches at d = 100 R"
     _end = np.nextafter(1.0, 0.0)
 
     @staticmethod
@@ -183,7 +183,7 @@ class ParabolicPunch(OneLength):
     _G_slope = staticmethod(lambda u: np.where(u <= 1, 2 * u, np.inf))
 
     def radius_at(self, depth):
-        # At the wall the radius is exactly that of the cylinder.
+        # At the wall the radius is exactly the cylinder radius.
         return np.minimum(np.sqrt(self.radius * depth), self.cylinder_radius)
 
     def radius_at_height(self, height):

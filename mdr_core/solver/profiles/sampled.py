@@ -1,4 +1,4 @@
-"""A profile given by samples of its height, as of a measured tip."""
+"""Profile from height samples, such as a measured tip."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,7 +13,7 @@ from .profile import Profile
 from .samples import area_samples, axis_of_symmetry, convex_fit
 from .vertex_sums import VertexSums
 
-#: Largest number of samples: the time of an impact grows with it.
+#: Largest number of samples; the time of an impact grows with it.
 _MOST_SAMPLES = 5000
 
 
@@ -27,12 +27,12 @@ class Sampled(Profile):
     Parameters
     ----------
     r, z : array_like
-        Radii (m), strictly ascending from 0, at least two; and heights (m), which count from the first one.
+        Radii (m), strictly ascending from 0, at least two, and heights (m), counted from the first height.
 
     Raises
     ------
     ValueError
-        If the samples are not as above, or pressed deeper than they reach.
+        If the samples are not as above, or if the tip is pressed deeper than the samples.
 
     Examples
     --------
@@ -52,7 +52,7 @@ class Sampled(Profile):
     def __post_init__(self):
         r, z = _lists("Sampled", self.r, self.z, most=check.LONGEST)
         if r.size > _MOST_SAMPLES:
-            advice = "thin them out, as in r[::10]"
+            advice = "thin them out, for example r[::10]"
             raise check.MDRError(f"Sampled has {r.size} samples, more than {_MOST_SAMPLES}; {advice}")
         if r[0] != 0:
             raise check.MDRError(f"Sampled r[0] = {r[0]:g} m must be 0: add the sample at the tip")
@@ -82,16 +82,16 @@ class Sampled(Profile):
         Parameters
         ----------
         path : path-like
-            File with one sample a row, its numbers separated by commas, semicolons, tabs or blanks. The
-            decimal sign may be a comma where commas do not separate. Other columns, and lines that start
-            with #, are ignored. A header may name the units: ``r (nm), z (nm)`` or ``r/nm; z/nm``.
+            File with one sample per row; commas, semicolons, tabs or blanks separate the numbers. The
+            decimal sign may be a comma if commas do not separate numbers. Other columns, and lines that
+            start with #, are ignored. A header may name the units: ``r (nm), z (nm)`` or ``r/nm; z/nm``.
         unit : {"m", "mm", "um", "µm", "nm", "pm", "Å"}, optional
             Unit of both columns, if the header does not name them.
 
         Raises
         ------
         ValueError
-            If a row is not two numbers, or no unit is given, or two that differ.
+            If a row is not two numbers, or if no unit or two different units are given.
         """
         return cls(*lazy.tips.samples_in(path, unit, _MOST_SAMPLES))
 
@@ -100,13 +100,15 @@ class Sampled(Profile):
     def fit(cls, r: ArrayLike, z: ArrayLike) -> "Sampled":
         """Fit the convex profile nearest to noisy samples, by least squares in the height.
 
-        Samples may lie on both sides of the axis at r = 0, in any order; the height of the tip is fitted.
-        The fit is unbiased where the contact has many samples. Samples on one side that are missed by more
-        than 0.5 % of their height are refused if this is not noise: if eight samples or more are missed by
-        more than four times the noise between neighbours, or if the misfit of 50 samples or more is a wave,
-        which has about half of its variance or more. Noise of the heights makes the tip uncertain: with 400
-        heights with a noise of 2 nm at radii up to 0.5 µm, on a tip of 1 µm radius, forces at a depth of 20
-        nm scatter by 4 %.
+        Samples may be on both sides of the axis at r = 0, in any order; the height of the tip is fitted.
+        The fit is unbiased if the contact has many samples.
+
+        An error is raised if the misfit on one side exceeds 0.5 % of the height and is not noise. For eight
+        or more samples this is a misfit of more than four times the noise between neighbours. For 50 or
+        more samples it is also a wave with about half of the variance of the misfit or more.
+
+        Noise of the heights makes the tip uncertain. For 400 heights with a noise of 2 nm, at radii up to
+        0.5 µm on a tip of 1 µm radius, forces at a depth of 20 nm scatter by 4 %.
 
         Parameters
         ----------
@@ -116,7 +118,7 @@ class Sampled(Profile):
         Raises
         ------
         ValueError
-            If heights do not rise from the axis outward, or no convex profile is near the samples.
+            If heights do not rise outward from the axis, or no convex profile is near the samples.
 
         Examples
         --------
@@ -142,12 +144,12 @@ class Sampled(Profile):
         unit: str = "m",
         from_depth: float | None = None,
     ) -> "Sampled":
-        """Profile with the cross-section A(h) = C₀h² + C₁h + C₂h^(1/2) + C₃h^(1/4) + … at a height h.
+        """Make a profile with the cross-section A(h) = C₀h² + C₁h + C₂h^(1/2) + C₃h^(1/4) + … at height h.
 
-        The area function of instrumented indentation (Oliver and Pharr 1992). The profile is a polygon;
-        where it is slightly concave, as calibrated ones are, neighbouring slopes are averaged. Near the
-        tip, up to 5 % of the height, the function may fall or be negative: the profile is a cone there.
-        ``tip.remarks`` and the text of the tip give the largest change of the heights.
+        This is the area function of instrumented indentation (Oliver and Pharr 1992). The profile is a
+        polygon. If it is slightly concave, as calibrated functions are, neighbouring slopes are averaged.
+        Near the tip, up to 5 % of the height, the function may fall or be negative; there the profile is a
+        cone. ``tip.remarks`` and the text of the tip give the largest change of the heights.
 
         Parameters
         ----------
@@ -156,20 +158,20 @@ class Sampled(Profile):
         height : float
             Height (m) up to which the function was calibrated.
         samples : int, optional
-            Number of vertices, denser towards the tip, from 10⁻⁴ of the height on.
+            Number of vertices, denser towards the tip, from 10⁻⁴ of the height.
         unit : {"m", "mm", "um", "µm", "nm", "pm", "Å"}, optional
             Unit of the coefficients; instruments give them in nm. The height is in m.
         from_depth : float, optional
-            Contact depth (m) from which the function is used, at most half of the height. Below, the tip is
-            a cone. Functions with negative terms may be convex at larger depths alone.
+            Smallest contact depth (m) at which the function is used, at most half of the height. Below it,
+            the tip is a cone. Functions with negative terms may be convex only at larger depths.
 
         Raises
         ------
         ValueError
-            If the area does not grow, or the tip is concave by more than 3 %; if the radius there is
-            more than 100 times the height or less than a hundredth, as of coefficients in another unit;
-            if the height is above 10⁶ of a unit that is given, as a height that is not in m. The error
-            names the least `from_depth` that helps.
+            If the area does not grow, or the tip is concave by more than 3 %. The error then names the
+            least `from_depth` that helps. If the radius at the height is more than 100 times the height or
+            less than a hundredth, for example because of coefficients in another unit. If the height is
+            above 10⁶ of a given unit, for example because it is not in m.
 
         Examples
         --------
@@ -189,8 +191,8 @@ class Sampled(Profile):
     def _refuse_concave(self):
         slope, concave = self._slope, self._bend < 0
         if slope[0] < 0:
-            below = f"Sampled z[1] = {self.z[1]:g} m lies below the tip"
-            raise check.MDRError(f"{below}; order the samples from the tip out")
+            below = f"Sampled z[1] = {self.z[1]:g} m is below the tip"
+            raise check.MDRError(f"{below}; order the samples from the tip outward")
         if np.any(concave):
             i = int(np.argmax(concave))
             raise check.MDRError(
@@ -202,7 +204,7 @@ class Sampled(Profile):
             raise check.MDRError("Sampled z is flat throughout; use FlatPunch")
 
     # The polygon is a sum of truncated cones, one from each vertex with the change of slope there.
-    # Kept, the arrays make single states 2.3 times as fast, `_g` 17 times, and `_slope_inside` 3 times.
+    # Cached, the arrays make single states 2.3 times as fast, `_g` 17 times, and `_slope_inside` 3 times.
     _r = cached_property(lambda self: np.array(self.r))
     _z = cached_property(lambda self: np.array(self.z))
     _slope = cached_property(lambda self: np.diff(self._z) / np.diff(self._r))
@@ -212,7 +214,7 @@ class Sampled(Profile):
 
     @cached_property
     def _bend(self):
-        """Change of the slope at each vertex; 0 where it may be rounding of the heights."""
+        """Change of the slope at each vertex; 0 if it may be rounding of the heights."""
         z, bend = np.abs(self._z), np.diff(self._slope, prepend=0.0)
         noise = 4 * np.finfo(float).eps * (z[1:] + z[:-1]) / np.diff(self._r)
         straight = np.append(False, np.abs(bend[1:]) <= noise[1:] + noise[:-1])
@@ -227,13 +229,13 @@ class Sampled(Profile):
 
     @cached_property
     def kinks(self):
-        """Depths (m) of the vertices at which the slope changes, outside a flat face."""
+        """Depths (m) of the vertices with a change of slope, outside a flat face."""
         bent = (self._bend[1:] > 0) & (self._g[1:-1] > 0)
         return tuple(self._g[1:-1][bent].tolist())
 
     @property
     def transition_depth(self):
-        """Radius of a face times the slope at its edge (m); of a sharp tip the depth of the first kink."""
+        """Radius of a face times the slope at its edge (m); without a face, depth of the first kink."""
         if self._g[1] > 0:
             return self.kinks[0] if self.kinks else None
         return float(self._slope[np.argmax(self._slope > 0)] * self.face_radius)
@@ -258,7 +260,7 @@ class Sampled(Profile):
         return VertexSums(self._r[:-1][bent], self._bend[bent], self._r[-1])
 
     def radius_at(self, depth):
-        # Outside a vertex g starts as a square root, and is smooth in t = √(x − r).
+        # Outside a vertex, g starts as a square root, and is smooth in t = √(x − r).
         depth, shape = np.ravel(depth), np.shape(depth)
         zone, guess = self._first_guess(depth)
         vertex, end = self._r[zone], np.sqrt(np.diff(self._r))[zone]
@@ -277,7 +279,7 @@ class Sampled(Profile):
                 step = (reduced - depth[rows]) / (2 * old * slope)
             step = np.nan_to_num(step, posinf=0.0, neginf=0.0)
             t[rows] = new = np.clip(old - step, old / 8, end[rows])
-            # The square of the last step is rounding.
+            # The square of the last step is only rounding.
             close = (np.abs(new - old) <= 1e-8 * new) | (np.abs(new**2 - old**2) <= 8 * np.spacing(x))
             rows = rows[~close]
             if not rows.size:
@@ -286,11 +288,11 @@ class Sampled(Profile):
         return np.where(depth <= self.known_depth, radius, np.inf).reshape(shape)
 
     def _first_guess(self, depth):
-        """Number of the vertex inside the edge of the contact, and t = √(x − r) there to some digits.
+        """Return the number of the vertex inside the edge of the contact, and t = √(x − r) to some digits.
 
-        Between two vertices g rises about as a cubic of u, t over its value at the outer one: with the bend
-        β √(2r) t at the inner vertex, and with g and its rate at the outer one. `radius_at` then takes 2.5
-        evaluations of g for a depth, from a parabola 3.0.
+        Let u be t over its value at the outer vertex. Between two vertices g rises approximately as a cubic
+        of u, with the bend β √(2r) t at the inner vertex, and with g and its rate at the outer vertex.
+        `radius_at` then takes 2.5 evaluations of g per depth; from a parabola it takes 3.0.
         """
         zone = np.clip(np.searchsorted(self._g, depth, side="right") - 1, 0, len(self.r) - 2)
         end = np.sqrt(np.diff(self._r))
@@ -310,15 +312,15 @@ class Sampled(Profile):
 
     @cached_property
     def _slope_inside(self):
-        """g′ just inside each vertex but the first."""
+        """g′ just inside each vertex except the first."""
         return self.reduced_slope_at(np.nextafter(self._r[1:], 0))
 
 
 def bent_vertices(profile: Sampled) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Vertices between the facets of a polygon, from the tip outward; the samples without a bend are none.
+    """Return the vertices between the facets of a polygon, from the tip outward.
 
-    Radii r and reduced heights g (m) of the N facets' ends, shape (N + 1,), and the changes of the slope at
-    their inner ends, shape (N,).
+    Samples without a bend are not vertices. The result has the radii r and reduced heights g (m) of the N
+    facets' ends, shape (N + 1,), and the changes of the slope at their inner ends, shape (N,).
     """
     bent = profile._bend != 0
     ends = np.append(bent, True)
@@ -326,11 +328,11 @@ def bent_vertices(profile: Sampled) -> tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def tip_through(r, z, most, averages):
-    """Profile through measured radii r (m) and heights z (m), and the scatter (m) of these about it.
+    """Return the profile through measured radii r (m) and heights z (m), and their scatter (m) about it.
 
-    Convex samples, at most `most`, are taken as they are, and the scatter is None. Others, which are more,
-    noisy or on both sides of an axis that need not be at r = 0, give the nearest convex profile of at most
-    `most` samples, fitted to at most `averages` means.
+    At most `most` convex samples are used unchanged, and the scatter is None. Other samples are more, are
+    noisy, or are on both sides of an axis that need not be at r = 0. They give the nearest convex profile
+    of at most `most` samples, fitted to at most `averages` means.
     """
     try:
         if len(r) <= most:
@@ -342,7 +344,7 @@ def tip_through(r, z, most, averages):
         r = r - axis_of_symmetry(r, z)
     parts = np.array_split(np.argsort(r, kind="stable"), min(len(r), averages))
     profile = Sampled.fit(*(np.array([np.mean(of[part]) for part in parts]) for of in (r, z)))
-    # On a convex polygon every other one of its vertices is convex too.
+    # A polygon through some vertices of a convex polygon is also convex.
     subset = np.unique(np.linspace(0, len(profile.r) - 1, most).round().astype(int))
     profile = Sampled(np.array(profile.r)[subset], np.array(profile.z)[subset])
     return profile, float(np.std(z - np.interp(np.abs(r), profile.r, profile.z)))

@@ -13,12 +13,12 @@ from ..numerics import abel
 from ..numerics.roots import increasing_root
 from .profile import Profile
 
-#: Values of ln x between which the mean slope g/x is interpolated: half an octave each, between 10⁻¹⁸ and
+#: Values of ln x between which the mean slope g/x is interpolated, in steps of half an octave from 10⁻¹⁸ to
 #: 10⁶ m. In such a panel a function without structure smaller than x is a polynomial of this degree to
-#: rounding; its last coefficients must be smaller than this share of the largest.
+#: rounding. Its last coefficients must be smaller than this share of the largest coefficient.
 _EDGES = np.log(2.0) * np.arange(-60, 20.5, 0.5)
 _DEGREE, _RESOLVED = 11, 1e-12
-#: g ∝ x^(1 + this) next to the axis is the least power of a tip that is not sharp.
+#: Least excess of the power of x in g over 1, next to the axis, for a tip that is not sharp.
 _ROUNDED = 1e-6
 
 
@@ -26,14 +26,14 @@ _ROUNDED = 1e-6
 class Smooth(Profile):
     """A smooth profile given by its slope dz/dr.
 
-    The reduced height is Popov (2015), Eq. (3), by quadrature; the contact radius and the slope g′ are from
-    piecewise polynomials through it, up to 10⁶ m or to the end of the slope.
+    The reduced height is Popov (2015), Eq. (3), by quadrature. The contact radius and the slope g′ come
+    from piecewise polynomials through it, up to 10⁶ m or to the end of the slope.
 
     Parameters
     ----------
     slope_function : callable
         dz/dr (dimensionless) as a vectorised function of the radius r ≥ 0 (m): smooth, with a growing g.
-        Fractional powers of r belong to `PowerLaw`, kinks to `Sampled`.
+        Use `PowerLaw` for fractional powers of r, and `Sampled` for kinks.
     radius : float, optional
         Largest radius (m) at which the slope is known; infinite by default.
 
@@ -52,7 +52,7 @@ class Smooth(Profile):
             given = check.shown(self.slope_function)
             raise check.MDRError(f"Smooth slope_function must be a function of the radius, got {given}")
         if not isinstance(self.slope_function, Hashable):
-            # As those of NumPy's polynomials, whose methods are hashable.
+            # For example NumPy's polynomials; their methods are hashable.
             check.store(self, slope_function=self.slope_function.__call__)
         radius = check.positive_number("Smooth radius", self.radius, unit="m", infinite=True)
         check.store(self, radius=radius)
@@ -61,13 +61,13 @@ class Smooth(Profile):
 
     @property
     def known_radius(self):
-        """Radius (m) up to which the profile is known: where a valid slope ends, at most `radius`."""
+        """Largest radius (m) at which the profile is known: the end of a valid slope, at most `radius`."""
         end = self._mean_slope.x[-1]
         return float(np.exp(end)) if end < np.log(self.radius) else self.radius
 
     @property
     def known_depth(self):
-        """Depth (m) up to which the profile is known, to 10⁻³ of it."""
+        """Largest depth (m) at which the profile is known, to 10⁻³ of its value."""
         end = self._mean_slope.x[-1]
         return float(np.exp(end) * self._mean_slope(end))
 
@@ -78,7 +78,7 @@ class Smooth(Profile):
             "the slope ends, is not finite or smooth, or g falls, so that the contact would not be compact"
         )
 
-    # Kept, single states are 1700 times as fast.
+    # The cache makes single states 1700 times as fast.
     @cached_property
     def _mean_slope(self):
         """g/x as a piecewise polynomial of ln x, from the tip outward to the end of a valid slope."""
@@ -98,13 +98,13 @@ class Smooth(Profile):
             if edges[-1] < end:
                 break
         if not panels:
-            advice = "a fractional power of r belongs to PowerLaw, kinks to Sampled"
+            advice = "take PowerLaw for a fractional power of r, Sampled for kinks"
             bad = "is not finite, not smooth or not positive next to the axis"
             raise check.MDRError(f"Smooth slope_function {bad}; {advice}")
         return scipy.interpolate.PPoly(np.transpose(panels), np.array(edges))
 
     def _panel(self, low, high):
-        """Coefficients of g/x between two values of ln x; None if g is not smooth or does not grow."""
+        """Return coefficients of g/x between two values of ln x; None if g is not smooth and growing."""
 
         def mean_slope(logarithm):
             x = np.exp(logarithm)
@@ -133,14 +133,14 @@ class Smooth(Profile):
         return self._height_and_slope(x)[1]
 
     def _height_and_slope(self, x):
-        """g (m) and g′ from the piecewise polynomial."""
+        """Return g (m) and g′ from the piecewise polynomial."""
         mean = self._mean_slope
         logarithm = np.log(np.maximum(x, 1e-300))
         inside = np.maximum(logarithm, mean.x[0])
         value, rate = mean(inside), mean(inside, 1)
         # Between the tip and the first panel g is a power of x.
         power = 1 + rate / value
-        # On the axis the slope is that of a cone, whose power is 1 to rounding, or 0.
+        # On the axis the slope is 0, or the slope of a cone if the power is 1 to rounding.
         on_axis = np.where(power > 1 + _ROUNDED, 0.0, value * power)
         value = value * np.exp((logarithm - inside) * (power - 1))
         return x * value, np.where(x == 0, on_axis, value * power)

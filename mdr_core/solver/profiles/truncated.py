@@ -140,7 +140,7 @@ class RoundedPunch(_FlatFaced):
 
 
 def _tau(u):
-    """√(u² − 1) without cancellation, 0 for u < 1."""
+    """Return √(u² − 1) without cancellation, 0 for u < 1."""
     return np.sqrt(np.maximum(u - 1, 0.0) * (u + 1))
 
 
@@ -149,7 +149,7 @@ _GAP = (1 / np.arange(3, 55, 2) * (-1.0) ** np.arange(26))[::-1]
 
 
 def _arctan_gap(tau):
-    """τ − arctan τ without cancellation, for τ ≥ 0."""
+    """Return τ − arctan τ without cancellation, for τ ≥ 0."""
     small = np.minimum(tau, 0.5)
     square = small * small
     return np.where(tau < 0.5, np.polyval(_GAP, square) * square * small, tau - np.arctan(tau))

@@ -1,8 +1,9 @@
-"""Sums over the vertices of a polygon, each in a time that does not grow with their number.
+"""Sums over the vertices of a polygon, in a time that does not grow with their number.
 
 A polygon is a sum of truncated cones, one from each vertex: g is Σ β x arccos(r/x) over vertices at radii r
-with changes β of the slope. Twice its width away from a vertex such a term is a polynomial over a panel of
-lengths x, to rounding. Panels are halved until few vertices are nearer; the others share one polynomial.
+with changes β of the slope. Over a panel of lengths x, at least twice its width away from a vertex, such
+a term is a polynomial to rounding. Panels are halved until few vertices are nearer; the others share one
+polynomial.
 """
 
 import numpy as np
@@ -11,14 +12,14 @@ from numpy.polynomial import Chebyshev, Polynomial, chebyshev
 from ..numerics.blocks import chunks
 from ..numerics.stable import root
 
-#: Most vertices near a panel, and widths of a panel from which on a vertex is far.
+#: Largest number of vertices near a panel, and distance of a far vertex in widths of the panel.
 _NEAR, _FAR = 6, 2.0
-#: Chebyshev points of a panel. With 12 of them g′ has errors of 5·10⁻¹⁴, with 14 those of rounding.
+#: Chebyshev points of a panel. With 12 points g′ has errors of 5·10⁻¹⁴, with 14 only rounding errors.
 _COUNT = 14
-#: Width of a panel over its place, below which it is not halved: vertices may be neighbouring numbers.
+#: Width of a panel, over its position, below which it is not halved: vertices may be neighbouring numbers.
 _LEAST = 2.0**-45
-#: Places, and matrices from values there to Chebyshev coefficients and to values in both halves. Powers
-#: come from the coefficients: straight from values they would lose five digits.
+#: Nodes, and matrices from values there to Chebyshev coefficients and to values in both halves. Powers are
+#: computed from the coefficients; directly from values they would lose five digits.
 _NODE = np.cos(np.pi * (np.arange(_COUNT) + 0.5) / _COUNT)
 _TO_CHEBYSHEV = np.linalg.inv(chebyshev.chebvander(_NODE, _COUNT - 1)).T
 _HALVES = [_TO_CHEBYSHEV @ chebyshev.chebvander((_NODE + side) / 2, _COUNT - 1).T for side in (-1, 1)]
@@ -43,7 +44,7 @@ class VertexSums:
         self._bend = np.append(bend, np.zeros(self._places))
 
     def __call__(self, x):
-        """∫ g dx, g and g′ at lengths x ≥ 0 (m), shape (3, *x.shape); on a vertex of its outer side."""
+        """Return ∫ g dx, g and g′ at lengths x ≥ 0 (m), (3, *x.shape); on a vertex, of its outer side."""
         flat = np.ravel(x)
         sums = self._cone * np.array([flat * flat / 2, flat, np.ones_like(flat)])
         known = flat <= self._end
@@ -67,7 +68,7 @@ class VertexSums:
 
 
 def _direct(x, r, bend):
-    """Sums beyond the end of the polygon, all terms one by one."""
+    """Return sums beyond the end of the polygon, from all terms one by one."""
     sums = np.empty((3, x.size))
     for rows in chunks(x.size, max(1, 2**15 // max(r.size, 1))):
         sums[:, rows] = _terms(x[rows, None], r) @ bend
@@ -75,7 +76,7 @@ def _direct(x, r, bend):
 
 
 def _terms(x, r):
-    """∫ g dx, g and g′ at x (m) of vertices r > 0 (m) with a bend of 1, that broadcast; 0 inside r."""
+    """Return ∫ g dx, g and g′ at x (m) of vertices r > 0 (m) with bend 1, broadcast; 0 inside r."""
     distance = root(x, r)
     angle = np.arctan2(distance, r)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -84,7 +85,7 @@ def _terms(x, r):
 
 
 def _panels(r, bend, end):
-    """Panels as lower edges, widths, sums over far vertices at nodes, first near ones, their numbers."""
+    """Yield panels: lower edges, widths, sums over far vertices at nodes, first and number of near ones."""
     lower, width, far, first = np.zeros(1), np.array([end]), np.zeros((1, 3, _COUNT)), np.zeros(1, int)
     while lower.size:
         count = r.searchsorted(lower + width) - first
@@ -98,7 +99,7 @@ def _panels(r, bend, end):
 
 
 def _add_ranges(far, middle, half, r, bend, start, stop):
-    """Add to sums at the nodes of panels the terms of vertices from number `start` to `stop` of each."""
+    """Add the terms of vertices from number `start` to `stop` to the sums at the nodes of each panel."""
     count = stop - start
     begin, panel = np.cumsum(count) - count, np.repeat(np.arange(count.size), count)
     vertex = np.arange(panel.size) + (start - begin)[panel]

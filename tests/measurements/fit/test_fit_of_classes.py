@@ -180,7 +180,7 @@ class TestConstants:
 
     def test_shapes_that_are_not_convex(self):
         profile = mdr.PowerLaw(coefficient=1e-4, exponent=0.5)
-        with pytest.raises(ValueError, match="not convex"):
+        with pytest.raises(ValueError, match="set hardness = 0, or take a convex shape"):
             mdr.fit_indentation(profile, OUT, np.maximum(OUT, 0.0), hardness=None)
 
 

@@ -83,9 +83,9 @@ def test_a_remark_stays_one():
 
 def test_a_kind_or_an_action_that_is_none_is_refused():
     """A word that the page does not know would be said by nobody."""
-    with pytest.raises(ValueError, match="kind is 'missfit'"):
+    with pytest.raises(ValueError, match="kind = 'missfit'"):
         mdr.Remark("", "missfit")
-    with pytest.raises(ValueError, match="action is 'fix'"):
+    with pytest.raises(ValueError, match="action = 'fix'"):
         mdr.Remedy("fix", "eta")
 
 

@@ -344,7 +344,7 @@ def test_a_rim_that_jumps_from_facet_to_facet_names_the_way_out():
         lambda tip: mdr.capture_speeds(tip, ELASTIC, 1e-15)[0],
         lambda tip: mdr.indent_to_force(tip, ELASTIC, 1e-9).depth,
     ):
-        with pytest.raises(ValueError, match="from facet to facet: take Smooth"):
+        with pytest.raises(ValueError, match=r"Sampled .* Smooth"):
             call(samples)
         assert call(smooth) == approx(call(mdr.Paraboloid(R)), rel=1e-9)
 

@@ -314,7 +314,7 @@ def test_a_punch_of_a_metal_flows_beyond_its_hardness():
 
 def test_what_it_does_not_compute_is_said():
     time, cone = [0.0, TAU], mdr.Cone(0.3)
-    with pytest.raises(ValueError, match=r"f_c above 0: the force may fall .* indent_in_time"):
+    with pytest.raises(ValueError, match=r"f_c above 0: .* indent_in_time"):
         mdr.creep(cone, viscous({"f_c": 1e-6}), [0.0, 1e-6], time)
     with pytest.raises(ValueError, match="not computed with adhesion"):
         mdr.creep(cone, mdr.Medium(E, work_of_adhesion=0.1), [0.0, 1e-6], time)

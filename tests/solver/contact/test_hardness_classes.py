@@ -139,7 +139,7 @@ def test_states_against_elements_in_45_digits(shape, mixture):
 def test_the_plastic_depth_grows_with_depth(shape, mixture):
     """So that the largest depth stands for the largest plastic depth of the whole loading."""
     if isinstance(shape, mdr.PowerLaw) and shape.exponent < 1 and medium_of(mixture).hardness:
-        with pytest.raises(ValueError, match="not convex"):
+        with pytest.raises(ValueError, match="set hardness = 0, or take a convex shape"):
             mdr.indent(shape, medium_of(mixture), 1e-9)
         return
     depth = np.geomspace(1e-10, 1e-5, 2000)
@@ -360,7 +360,7 @@ def test_onset_deeper_than_the_known_shape_is_refused():
         ),
         (
             lambda cone, glass: mdr.Medium(E, hardness=1e9, work_of_adhesion=0.1),
-            "hardness = .* is not modelled with adhesion",
+            "hardness = 1e\\+09 Pa .* work_of_adhesion to 0",
         ),
     ],
 )
@@ -380,7 +380,7 @@ def test_other_classes_have_no_limit_of_the_fast_impact():
 
 def test_smooth_shapes_are_checked_to_be_convex():
     glass = mdr.Medium(E, hardness=1e9)
-    with pytest.raises(ValueError, match="not convex"):
+    with pytest.raises(ValueError, match="set hardness = 0, or take a convex shape"):
         mdr.indent(mdr.Smooth(lambda r: 1 / (1 + r / 1e-6)), glass, 1e-9)
     smooth = mdr.indent(mdr.Smooth(lambda r: r / 1e-5), glass, 1e-8)
     assert smooth.force == approx(mdr.indent(mdr.Paraboloid(1e-5), glass, 1e-8).force, rel=1e-10)

@@ -393,14 +393,14 @@ class TestStructures:
     @pytest.mark.parametrize(
         ("make", "message"),
         [
-            (lambda: mdr.Structure(346.0, 1e7), "stiffness = .* by its modes"),
+            (lambda: mdr.Structure(346.0, 1e7), r"stiffness = 1e\+07 N/m .* Structure\.modal"),
             (lambda: mdr.Structure(0.0), "impedance = 0 N·s/m must be positive"),
             (lambda: mdr.Structure(stiffness=np.nan), "stiffness = nan"),
             (lambda: mdr.Structure("346"), "impedance must be one real number"),
             (lambda: mdr.Structure(346.0, edge=-1.0), "edge = -1 m"),
             (lambda: mdr.Structure.plate(-4e-3, 50e9, 0.3, 1600.0), "thickness = -0.004 m"),
             (lambda: mdr.Structure.plate(4e-3, 50e9, 0.5, 1600.0), "nu = 0.5 must lie"),
-            (lambda: mdr.Structure.laminate(1.0, 1.1, 1.0, 1.0, 1.0), "D12 = 1.1 N·m is not below"),
+            (lambda: mdr.Structure.laminate(1.0, 1.1, 1.0, 1.0, 1.0), "D12 = 1.1 N·m must be below"),
             (lambda: mdr.Structure.laminate(1.0, 0.1, 1.0, 0.0, 1.0), "D66 = 0 N·m"),
             (lambda: mdr.Structure.rod(1e-4, 0.0, 8000.0), "modulus E = 0 Pa"),
             (lambda: mdr.Structure([1.0, 2.0], edge=[1.0, 2.0, 3.0]), "do not broadcast"),
@@ -431,9 +431,7 @@ class TestWhatIsRefused:
             mdr.impact(BALL, medium, MASS, SPEED, structure=mdr.Structure([346.0, np.inf]))
 
     def test_adhesion(self):
-        with pytest.raises(
-            ValueError, match=r"work_of_adhesion.* is not computed together with a structure"
-        ):
+        with pytest.raises(ValueError, match=r"work_of_adhesion = 1 J/m² .* set work_of_adhesion = 0"):
             mdr.impact(BALL, mdr.Medium(E, work_of_adhesion=1.0), MASS, SPEED, structure=self.PLATE)
 
     def test_another_thing(self):
@@ -443,7 +441,7 @@ class TestWhatIsRefused:
     def test_the_fast_limit(self):
         hit = mdr.impact(BALL, mdr.Medium(E, q_c=1e4), MASS, SPEED, structure=self.PLATE)
         assert "fast limit" not in [limit.what for limit in hit.limits]
-        with pytest.raises(ValueError, match="fast limit is not for impacts on a structure"):
+        with pytest.raises(ValueError, match=r"fast limit .*; leave the structure out"):
             _ = hit.fast_limit
 
 

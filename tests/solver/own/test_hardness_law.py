@@ -375,7 +375,7 @@ class TestWhatIsNoLaw:
 
     def test_an_ensemble_is_looked_at_one_by_one(self):
         medium = mdr.Medium(E, hardness=NixGao(np.array([1e9, -1e9]), 1e-6))
-        with pytest.raises(ValueError, match=r"NixGao\(H0=[^\[]*-1.*it must be a number, not negative"):
+        with pytest.raises(ValueError, match=r"NixGao\(H0=[^\[]*-1.*must be a number, not negative"):
             mdr.impact(BALL, medium, 1e-12, 1.0)
         # Under the slender one of two cones the law grows too much.
         rising = mdr.Medium(E, hardness=Power(1e9, 1e-6, 0.5))
@@ -386,7 +386,7 @@ class TestWhatIsNoLaw:
     def test_a_gap_between_the_radii_of_the_check_is_found_by_a_contact_in_it(self):
         """It is 3 nm wide at 1 µm, where the check looks at every 70th nanometre."""
         radius = np.linspace(0.5e-6, 2e-6, 2000)
-        with pytest.raises(ValueError, match=r"line_load\(a\) is nan at a = 1\.00[3-6]\d*e-06 m"):
+        with pytest.raises(ValueError, match=r"line_load\(a\) = nan at a = 1\.00[3-6]\d*e-06 m"):
             mdr.indent(BALL, mdr.Medium(E, hardness=Gap(1e9)), radius**2 / BALL.radius)
 
     def test_each_of_several_punches_is_looked_at(self):
@@ -504,7 +504,7 @@ class TestTheMedium:
             lambda: mdr.Medium(E, hardness=self.law, **{name: [0.0, 5.0]}),
         ):
             with pytest.raises(
-                ValueError, match=rf"{name}.* = 5 N.* NixGao\(.*take hardness = 0 beside {name}"
+                ValueError, match=rf"{name}.* = 5 N.* NixGao\(.*take hardness = 0 with {name}"
             ):
                 call()
 
@@ -541,7 +541,7 @@ class TestTheMedium:
             def __init__(self):
                 self.H = 1e9
 
-        with pytest.raises(TypeError, match="Plain must not change: declare it with"):
+        with pytest.raises(TypeError, match=r"Plain .* @dataclass\(frozen=True\)"):
             mdr.Medium(E, hardness=Plain())
 
     def test_is_pickled_and_printed(self):

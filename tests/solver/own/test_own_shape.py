@@ -171,7 +171,7 @@ def test_a_shape_that_may_change_is_refused():
         lambda: mdr.impact(Loose(0.1), MEDIUM, 1e-9, 0.1),
         lambda: mdr.chain_impact(Loose(0.1), MEDIUM, 1e-9, 0.1),
     ):
-        with pytest.raises(TypeError, match=r"Loose must not change .* @dataclass\(frozen=True\)"):
+        with pytest.raises(TypeError, match=r"Loose .* @dataclass\(frozen=True\)"):
             use()
 
 
@@ -253,7 +253,7 @@ def test_scales_of_a_class_are_one_where_its_parameters_are():
     ],
 )
 def test_a_shape_with_a_former_name_is_told_the_new_one(former, name):
-    with pytest.raises(TypeError, match=f"Dull gives {former}, .*: call it {name}"):
+    with pytest.raises(TypeError, match=f"Dull .* {former}, .*: call it {name}"):
         type("Dull", (Pencil,), {former: lambda self, x: x})
 
 
