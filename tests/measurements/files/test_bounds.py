@@ -82,7 +82,7 @@ def sheet_with(folder, cell, name="run.xlsx"):
 
 
 def test_a_number_in_the_last_cell_is_refused_by_its_rows_and_columns(tmp_path):
-    with pytest.raises(ValueError, match="1048576 rows times 16384 columns .* 10000000 cells"):
+    with pytest.raises(ValueError, match=r"1048576 rows times 16384 columns .* 10000000 cells"):
         mdr.read_curves(sheet_with(tmp_path, "XFD1048576"))
 
 

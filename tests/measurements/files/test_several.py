@@ -163,7 +163,7 @@ def test_pairs_of_columns_are_a_curve_each(asked, write):
     assert_curve(first)
     assert_curve(second, DEPTH[:30], 2 * FORCE[:30])
     assert first.remarks == second.remarks == ()
-    with pytest.raises(ValueError, match="a list of columns is a curve each"):
+    with pytest.raises(ValueError, match="list of columns is a curve"):
         mdr.read_curves(write(text), **error.suggestion, by="restart")
 
 
