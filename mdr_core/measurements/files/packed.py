@@ -5,8 +5,7 @@ import zipfile
 
 from ...base.errors import MDRError
 
-#: Largest sizes (bytes) of a file and of its unpacked contents, and largest ratio of the two for larger
-#: ones.
+#: Largest sizes (bytes) of a file and of its unpacked contents, and largest ratio for larger contents.
 _BYTES, _UNPACKED, _RATIO = 2_000_000_000, 500_000_000, 20
 
 
