@@ -27,7 +27,8 @@ _LOW = 0.2
 _SLOPES = 500
 
 
-#: Words in the names of segments. "unload" contains "load", so the retract is before the approach.
+#: Words in the names of segments: the hold first, and the retract before the approach, as "unload" contains
+#: "load".
 _SEGMENTS = {
     "hold": "hold|dwell|pause|halte",
     "retract": "unload|retract|withdraw|entlast",

@@ -96,8 +96,8 @@ def read_curves(
 
     Many files are a folder, a list of paths, a pattern, or a zip of texts, which is read in memory. They
     are in the natural order of their names. `unread` lists files that cannot be read, with the reason; the
-    other files are read. One `UnknownColumns` covers all files with the same headers and units, and the
-    answer holds for these files. An answer given before any error holds for all files.
+    other files are read. One `UnknownColumns` covers all files with the same headers and units, and
+    `columns` and `by` apply to these files. If no file is ambiguous, they apply to all files.
 
     A table is read directly if it is unambiguous. Depth and force must each have one column with an exact
     name and a plain unit, such as "Depth (nm)" and "Load (mN)". No other column may match, and the depth

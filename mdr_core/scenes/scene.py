@@ -48,7 +48,7 @@ _EXPECTED = {
 
 @dataclass(frozen=True)
 class Scene:
-    """A whole calculation as one value: an indenter, a medium and a drive.
+    """Whole calculation as one value: an indenter, a medium and a drive.
 
     Parameters
     ----------

@@ -136,7 +136,7 @@ class Axis:
 
     @property
     def label(self):
-        """The title with the unit."""
+        """Title with the unit."""
         return f"{self.title} ({self.unit})" if self.unit else self.title
 
 

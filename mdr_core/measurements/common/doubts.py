@@ -103,7 +103,7 @@ def saturated(depth, force):
     before = force[top[0]] - force[np.argmax(depth >= depth.max() - 10 * width)]
     if rise > max(_RISES * np.ptp(force), before):
         share, place = 100 * rise / np.ptp(force), engineering(depth.max(), "m")
-        text = f"the force rises by {share:.2g} % while the depth stays at {place}, which no contact does"
+        text = f"the force rises by {share:.2g} % while the depth stays at {place}, unlike in a contact"
         yield Remark(
             f"{text}: the depth is at the limit of its sensor", "misfit", Remedy("part", "loading")
         )

@@ -43,7 +43,8 @@ def fit_hardness(
     The mean pressure p_m = F/(π a²) under load, `Indentation.mean_pressure` on a first loading, is less
     than the hardness σ_c(a) = hardness + q_c/a + f_c/a², because the outer ring of the contact is elastic.
     Thus σ_c at each radius is the root of F(σ_c) = π a² p_m at depth g(a). The constants minimize the
-    squares of ln σ_c for pressures of equal relative error. The class follows from the power of a in σ_c.
+    squared residuals of ln σ_c, for pressures of equal relative error. The class follows from the power of
+    a in σ_c.
 
     Parameters
     ----------

@@ -39,7 +39,7 @@ _TESTS = {
     "drag": _Test("drag", "a drag of {}", "N·s/m", 1.3, (Remedy("free", "drag"),)),
     # A medium that yields is too stiff for the drag of a liquid.
     "rate": _Test(
-        "unloading", f"a force that goes with the rate ({{}}), by {_CAUSES},", "N·s/m", 1.3, _LOADING
+        "unloading", f"a force that depends on the rate ({{}}), by {_CAUSES},", "N·s/m", 1.3, _LOADING
     ),
     "drift": _Test("drift", "a drift of {}, or a relaxation of the medium,", "m/s", 1.6),
     "unloading": _Test(
@@ -54,8 +54,8 @@ _LOWERED = 1.005
 #: Smallest number of samples with and without contact, and smallest misfit as a share of the range of
 #: force.
 _FEW, _SMALL = 10, 1e-5
-#: Smallest share of the samples in contact before and after the depth first comes within a share of its
-#: range of the largest depth.
+#: Smallest share of the samples in contact before and after the depth almost reaches its largest value, and
+#: the remaining distance as a share of the range of depth.
 _TURNS, _REACHED = 0.1, 0.02
 #: Largest deviation of the force in a hold, its smallest force and its duration, as shares of the curve.
 _HOLD_FORCE, _LEAST_FORCE, _HOLD_TIME = 0.005, 0.05, 0.05

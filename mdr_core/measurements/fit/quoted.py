@@ -62,7 +62,7 @@ class Quoted:
     remedy: tuple[Remedy, ...] = ()
 
     def sample_modulus(self, nu: float, tip: tuple[float, float] | None = None) -> SampleModulus:
-        """Young's modulus of the sample and its standard error (Pa), see `OliverPharr.sample_modulus`."""
+        """Compute Young's modulus of the sample and its error (Pa), see `OliverPharr.sample_modulus`."""
         if self.value is None:
             raise MDRError(f"there is no E* to quote: {self.reason}")
         return sample_modulus(self.value, self.standard_error, nu, tip)

@@ -25,8 +25,8 @@ _NOT_AT_ALL = 10.0
 _TOLD = 2.0
 #: Largest range of depth (m), and smallest share of the variance of the force explained by a contact.
 _LONGEST, _EXPLAINED = 1e-3, 0.75
-#: Smallest such share that exceeds noise, and smallest ratio of the unexplained shares that implies other
-#: columns.
+#: Smallest explained share that exceeds noise, and smallest ratio of the unexplained shares that implies
+#: other columns.
 _SEEN, _BENT = 0.25, 1.1
 #: Largest ranges of depth (m) of indentations, in general and usually in soft media, and largest modulus
 #: (Pa) of very soft media. Contact radius over the radius of the tip above which depths are in another

@@ -70,7 +70,7 @@ class Solution:
 
     @cached_property
     def orders(self):
-        """Indices that order samples by time or, in elastic media, depth: the more correlated residuals."""
+        """Indices in order of time, or of depth for elastic media whose residuals then correlate more."""
         residual = self.minimum.residual
         orders = np.broadcast_to(np.arange(residual.shape[1]), residual.shape).copy()
         if self.curves.held_elastic:
@@ -121,7 +121,7 @@ def problems(profile, measured, held, depth_noise):
 
 
 def table_depth(profile, depth, held):
-    """Return the depth (m) of the table of the profile, which the farthest first contact determines."""
+    """Return the largest depth (m) in the table of the profile, from the farthest first contact."""
     top = np.nanmax(depth, axis=1)
     limit = (1 + REACH) * float((top - np.nanmin(depth, axis=1)).max())
     if "contact_point" in held:

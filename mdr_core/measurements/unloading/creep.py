@@ -12,7 +12,7 @@ from .unloading import last_at_top
 #: Smallest force in a hold and largest deviation from its median, as shares; the deviation also in standard
 #: deviations of noise.
 _HELD, _STILL, _NOISE = 0.99, 1e-3, 4.0
-#: Begin of the lines next to a hold, below its force, and their end, as shares of this force. Smallest
+#: Start of the lines next to a hold, below its force, and their end, as shares of this force. Smallest
 #: length of a hold, in errors of this length: with 5, tips of triangles had holds of 5 to 9 samples.
 _BELOW, _LOWEST, _CERTAIN = 0.05, 0.7, 10.0
 #: Smallest number of samples in a hold, and smallest share of constant samples at the largest force.

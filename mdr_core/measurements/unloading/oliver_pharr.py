@@ -293,9 +293,7 @@ def _impossible(profile, values, errors, epsilon):
     most = 2 * max(elastic_exponents(profile, h_c.max())[1], 2.0)
     bad = (m + margin < least) | (m - margin > most)
     if bad.any():
-        text = (
-            f"m = {m[bad][0]:.3g} is impossible for an unloading of this tip, with {least:g} to {most:.2g}"
-        )
+        text = f"m = {m[bad][0]:.3g} must be {least:g} to {most:.2g} for an unloading of this tip"
         yield Remark(f"{text}. Depth and force are not from one unloading", "misfit")
     elastic = _elastic_ratio(profile, h_c, epsilon)
     bad = H / E * (1 - _CERTAIN * share) > (1 + _ROUNDING) * elastic

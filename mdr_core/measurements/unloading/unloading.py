@@ -12,7 +12,7 @@ from ..common.least_squares import least_squares
 
 #: Bounds of force and stiffness, in units of those of the samples, and of the exponent.
 _LOWER, _UPPER = np.array([[0.1, 1e-3, 0.5]]), np.array([[10.0, 1e3, 50.0]])
-#: Shares of the largest force at the begin and the end of the fitted part: first for the result, then for
+#: Shares of the largest force at the start and the end of the fitted part: first for the result, then for
 #: other parts.
 _SHARES = (0.99, 0.5), (0.99, 0.4), (0.99, 0.3), (0.95, 0.5), (0.95, 0.4), (0.95, 0.3)
 #: Further parts. They count if m is above a number and more than a share of the largest depth remains.
