@@ -90,7 +90,7 @@ def fit_indentation(
     Raises
     ------
     MDRError
-        If data are infinite or have different shapes, no force above the baseline, or fewer samples than
+        If data are infinite or have different shapes, no force above the baseline, or not more samples than
         free parameters. If times are missing or do not increase. If the combination of free parameters is
         not supported.
 

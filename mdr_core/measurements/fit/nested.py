@@ -112,7 +112,7 @@ class _Trial(NamedTuple):
 
     It has the remaining residuals (N,), and their derivatives by all parameters (N, P). `factor` is the
     decrease of the misfit in contact, and `decrease` the decrease of χ² in variances of a residual.
-    `independent` is this decrease for `independent` residuals if neighbours are correlated. `change` is the
+    `independent` is this decrease over the length of a block of correlated residuals. `change` is the
     change of E* in its errors.
     """
 

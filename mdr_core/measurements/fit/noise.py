@@ -52,7 +52,7 @@ def depth_noise_of(depth, force):
     """Return the noise (m) of depths (N,) that go back and forth, and the number of reversals.
 
     Noise that counts as new largest depths changes E* by about its share of the recovered depth. Below a
-    thousandth, the change is smaller than the errors of the model, and the result is 0.
+    thousandth, the change is smaller than the errors of the model, and both results are 0.
     """
     steps, noise = np.diff(depth), roughness(depth[None])[0, 0]
     reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)

@@ -16,9 +16,9 @@ from ..unloading.oliver_pharr_result import OliverPharr
 from .noise import EXACT
 from .remarks import DOUBTS
 
-#: Kinds of remarks after which an elastic model does not describe the curve, or E* is not determined.
+#: Kinds of remarks that show that an elastic model does not describe the curve, or that E* is undetermined.
 NOT_COMPARABLE = DOUBTS | {"unloading", "outliers"}
-#: Kinds of remarks after which the force is not that of the contact, for any medium.
+#: Kinds of remarks that show that the force is not that of the contact, for any medium.
 OF_THE_FORCE = {"units", "no contact", "tilt", "drag", "drift"}
 #: Largest depth and force of the first sample at first contact, as shares of the largest depth and force.
 _SMALL = 1e-3

@@ -12,8 +12,8 @@ from .nested import nested_tests
 from .noise import tests_of_noise
 from .parameters import TOGETHER, symbols
 
-#: Kinds of remarks after which the model does not fit, and first contact may be wrong by more than its
-#: error.
+#: Kinds of remarks that show that the model does not fit, and that first contact may be wrong by more than
+#: its error.
 DOUBTS = {"units", "order", "no contact", "undetermined", "tilt", "drag", "drift", "misfit", "noise"}
 #: Kinds of remarks that require parameters at a minimum, with their errors.
 _OF_MINIMUM = {"tilt", "drag", "drift", "misfit", "unloading", "outliers", "errors", "vague", "creep"}
