@@ -23,8 +23,8 @@ _TABOR = 5.0
 _RANGE = 0.3e-9
 #: Largest relative error of the pull-off force due to facets.
 _FACETS = 0.02
-#: Largest measured cases of stick (tests/benchmarks/oblique.py): depth over the largest elastic compression
-#: of an element at this depth, and mass over tangential mass.
+#: Largest values at which errors of stick were measured (tests/benchmarks/oblique.py): depth over the
+#: largest elastic compression of an element at this depth, and mass over tangential mass.
 _DEEP = 1e3
 _LIGHT = 10.0
 #: Range of the effective moduli (Pa) of real media.
