@@ -246,7 +246,7 @@ def _refuse_with_other_classes(profile, held):
     for name in ("eta", "work_of_adhesion"):
         if used(name) and (used("hardness") or used("f_c")):
             raise MeasurementError(
-                f"{symbols([name])} requires a hardness of class (b)",
+                f"{symbols([name])} cannot be fitted with a hardness of class (a) or (c)",
                 Remedy("hold", name, 0.0),
                 Remedy("class", "b"),
             )
