@@ -194,7 +194,8 @@ def test_parts_that_do_not_meet_are_asked_about(write):
     text = "a;b;c;d\n" + rows(NM[:56], MN[:56], NM[:56], MN[:56][::-1], between=";")
     columns = [{"depth": (0, "nm"), "force": (1, "mN")}, {"depth": (2, "nm"), "force": (3, "mN")}]
     with pytest.raises(
-        mdr.UnknownColumns, match=r"approach and retract do not meet: the force is 8\.944 .* 'a', and 0 .* 'c'"
+        mdr.UnknownColumns,
+        match=r"approach and retract do not meet: the force is 8\.944 .* 'a', and 0 .* 'c'",
     ):
         mdr.read_curves(write(text), columns=columns, by="segments")
 
