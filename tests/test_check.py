@@ -148,7 +148,7 @@ class TestBigFiles:
     def test_a_long_table_is_refused(self, tmp_path):
         path = tmp_path / "tip.csv"
         path.write_text("r (nm), z (nm)\n" + "".join(f"{i}, {i}\n" for i in range(10**6)))
-        with pytest.raises(ValueError, match="more than 5000 samples; give fewer samples"):
+        with pytest.raises(ValueError, match="more than 5000 samples: give fewer samples"):
             mdr.Sampled.from_csv(path)
 
     @pytest.mark.parametrize("text", ["[" * 10**7, '{"a":' * 10**6, "9" * 10**7, b"\xff" * 10**6])

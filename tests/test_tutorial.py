@@ -31,7 +31,7 @@ def test_the_first_hour_shows_what_it_describes(monkeypatch):
     # In the plastic zone all springs carry π q_c/2 (theory, section 4).
     state, gold = names["state"], names["gold"]
     assert state.line_load(0.9 * state.plastic_radius) == pytest.approx(gold.yield_line_load, rel=1e-12)
-    assert "no angle is given" in said
+    assert "cotangent of the half-angle" in said
     # The modulus of fused silica, 72 GPa with 0.17, under diamond, within the error of the calibration.
     assert names["fit"].quoted.value == pytest.approx(69.6e9, rel=0.005)
     # Of a constant hardness, which fits clearly better.

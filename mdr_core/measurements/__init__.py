@@ -1,1 +1,1 @@
-"""Measured curves: files that are read, and fits of the medium to them."""
+"""Measured curves: reading of files, and fits of the medium."""

@@ -18,22 +18,23 @@ from ..show.quantities import engineering
 from ..show.report import rows
 from ..show.units import KINDS
 
-#: Shares of the ranges of depth and force: a turn of the depth; changes in a hold, and its force above the
-#: smallest one. Share of the samples, and least number of them, that a hold has.
+#: Shares of the ranges of depth and force: a turn of the depth, largest changes in a hold, and smallest
+#: force of a hold above the smallest force. Smallest share and smallest number of the samples in a hold.
 _TURN, _STILL, _PRESSED, _HOLD, _FEW = 0.05, 0.01, 0.05, 0.02, 10
-#: Mean force of a hold that tells the drift, at most, as a share of the largest force.
+#: Largest mean force of a hold for the drift, as a share of the largest force.
 _LOW = 0.2
-#: Samples of a hold between which slopes are taken.
+#: Approximate number of samples of a hold for slopes.
 _SLOPES = 500
 
 
-#: Words in the names of segments; that of the hold first, as "unload" has "load" in it.
+#: Words in the names of segments: the hold first, and the retract before the approach, as "unload" contains
+#: "load".
 _SEGMENTS = {
     "hold": "hold|dwell|pause|halte",
     "retract": "unload|retract|withdraw|entlast",
     "approach": "load|approach|extend|belast",
 }
-#: Segments of the modalities of `afmformats` by their numbers.
+#: Segments of the modalities of `afmformats` by segment number.
 MODALITIES = {
     "force-distance": ["approach", "retract"],
     "creep-compliance": ["approach", "hold", "retract"],
@@ -49,15 +50,15 @@ _UNITS = {"depth": "m", "force": "N", "time": "s", "stiffness": "N/m"}
 class MeasuredCurve(Record):
     """Measured curve from arrays, or from a file by `read_curve`.
 
-    `approach` and `retract` are parts of the curve. `minus_drift` and `minus_frame` subtract a drift and
-    the frame compliance from the depth, and return a new curve.
+    `approach` and `retract` are parts of the curve. `minus_drift` and `minus_frame` return a new curve
+    whose depth is corrected for a drift or for the frame compliance.
 
     Parameters
     ----------
     depth, force, time : array_like
         Depth (m), force (N) and time (s) of the samples, of shape (N,). The time is optional.
     stiffness : array_like, optional
-        Contact stiffness dF/dh (N/m) at each sample, NaN where it was not measured.
+        Contact stiffness dF/dh (N/m) at each sample, NaN if it was not measured.
     name : str, optional
         Name of the curve in tables and messages.
 
@@ -98,20 +99,21 @@ class MeasuredCurve(Record):
     #: From a continuous stiffness measurement, None without one.
     stiffness: Array | None = None
     name: str = "curve"
-    #: "approach", "hold" or "retract" for each sample, as the file names them. If it does not, approach
-    #: and retract end where the depth turns by more than 5 % of its range, and in a hold depth and force
-    #: stay within 1 % of their ranges, for 2 % of the samples or more.
+    #: "approach", "hold" or "retract" for each sample, from the file if it names them. If not, approach
+    #: and retract end where the depth turns by more than 5 % of its range. In a hold depth and force stay
+    #: within 1 % of their ranges, for 2 % of the samples or more.
     segment: NDArray[np.str_] | None = None
-    #: Stiffness of the cantilever (N/m) and position on the sample (m, m), None if they are not known.
+    #: Stiffness of the cantilever (N/m) and position on the sample (m, m), None if unknown.
     spring_constant: float | None = None
     position: Array | None = None
-    #: Number of the column in the file, from 0 on, and unit of each quantity, "−nm" for a reversed sign;
-    #: "piezo" instead of "depth" for the position of a piezo. `read_curve(path, columns=…)` takes them.
+    #: Number of the column in the file, starting at 0, and unit of each quantity, "−nm" for a reversed
+    #: sign. The position of a piezo has the key "piezo" instead of "depth". `read_curve(path, columns=…)`
+    #: accepts this dictionary.
     columns: dict[str, tuple[int, str] | None] = field(default_factory=dict)
-    #: Reversed signs, corrections, and lines and columns that are left out.
+    #: Reversed signs, corrections, and omitted lines and columns.
     remarks: tuple[Remark, ...] = ()
     table: Any = None
-    #: How the columns are known: "by its header", "as told", or by a format.
+    #: Source of the columns: "by its header", "as told", or a format.
     source: str = ""
 
     _shown = ("depth", "force")
@@ -155,12 +157,12 @@ class MeasuredCurve(Record):
 
     @property
     def approach(self) -> Self:
-        """The samples of the approach, or of loading. Raises ValueError if there are none."""
+        """Samples of the approach, or of loading. Raises ValueError if there are none."""
         return self._part("approach")
 
     @property
     def retract(self) -> Self:
-        """The samples of the retract, or of unloading. Raises ValueError if there are none."""
+        """Samples of the retract, or of unloading. Raises ValueError if there are none."""
         return self._part("retract")
 
     def _part(self, name):
@@ -172,26 +174,26 @@ class MeasuredCurve(Record):
         return replace(self, **arrays)
 
     def plot(self) -> Any:
-        """Force over depth as a HoloViews element."""
+        """Plot the force over depth as a HoloViews element."""
         return plot_measured(self.name, [(self.depth, self.force)])
 
     def drift(self, hold: slice | None = None) -> float:
-        """Rate (m/s) at which the depth changes in a hold: the median of the slopes between its samples.
+        """Return the drift (m/s) of the depth in a hold: the median of the slopes between its samples.
 
-        A few samples that are none of the hold, as of the withdrawal after it, do not change the median
-        (Theil 1950, Sen 1968). A medium that recovers from its unloading drifts, too: leave out the
+        A few samples outside the hold, for example of the withdrawal after it, do not change the median
+        (Theil 1950, Sen 1968). A medium that recovers from its unloading also drifts: leave out the
         beginning of such a hold.
 
         Parameters
         ----------
         hold : slice, optional
-            The samples of the hold, as in ``slice(800, 900)``. By default the last hold of `segment` after
-            the largest force, with a mean force below a fifth of it.
+            Samples of the hold, for example ``slice(800, 900)``. By default the last hold of `segment`
+            after the largest force whose mean force is below a fifth of the largest force.
 
         Raises
         ------
         ValueError
-            If there are no times, no such hold, or less than three samples in it.
+            If there are no times, no such hold, or fewer than three samples in it.
         """
         time = self._times()
         if hold is None:
@@ -199,7 +201,7 @@ class MeasuredCurve(Record):
         if hold is None:
             raise MDRError(
                 f"{self.name} has no hold after the largest force and below a fifth of it: give the "
-                "samples of one, as in curve.drift(slice(800, 900)), or the rate itself"
+                "samples of a hold, as in curve.drift(slice(800, 900)), or give the rate itself"
             )
         if not isinstance(hold, slice):
             raise MDRError(f"hold = {hold!r:.60} must be a slice of samples, as in slice(800, 900)")
@@ -210,12 +212,12 @@ class MeasuredCurve(Record):
         return rate_in(time[hold], self.depth[hold])
 
     def minus_drift(self, rate: float) -> Self:
-        """The curve without a drift: depth minus rate times time, from the first sample on.
+        """Return the curve without a drift: depth minus rate times time, starting at the first sample.
 
         Parameters
         ----------
         rate : float
-            Rate of the drift (m/s), positive where the depth grows, as of `drift`.
+            Rate of the drift (m/s), for example from `drift`; positive if the depth grows.
 
         Raises
         ------
@@ -229,7 +231,7 @@ class MeasuredCurve(Record):
         return self._minus(rate * (time - time[0]), text)
 
     def minus_frame(self, compliance: float) -> Self:
-        """The curve without frame compliance: depth minus compliance times force.
+        """Return the curve without frame compliance: depth minus compliance times force.
 
         Parameters
         ----------
@@ -242,7 +244,7 @@ class MeasuredCurve(Record):
 
     def _times(self):
         if self.time is None:
-            raise MDRError(f"{self.name} has no times, which a drift needs")
+            raise MDRError(f"{self.name} has no times: a drift needs the time of each sample")
         return self.time
 
     def _minus(self, depth, text):
@@ -251,7 +253,10 @@ class MeasuredCurve(Record):
 
 
 def last_hold(segment, force):
-    """The last hold after the largest force, with a mean force below a fifth of it, as a slice; or None."""
+    """Return the last hold after the largest force as a slice, or None.
+
+    The mean force of the hold must be below a fifth of the largest force.
+    """
     edges = np.flatnonzero(np.diff(segment == "hold", prepend=False, append=False))
     holds, peak = [slice(*ends) for ends in edges.reshape(-1, 2).tolist()], np.argmax(force)
     low = [part for part in holds if part.start > peak and np.mean(force[part]) < _LOW * force[peak]]
@@ -259,21 +264,21 @@ def last_hold(segment, force):
 
 
 def rate_in(time, depth):
-    """Rate (m/s) of the depth: the median of the slopes between samples."""
+    """Return the rate (m/s) of the depth: the median of the slopes between samples."""
     thin = max(1, time.size // _SLOPES)
     steps, rises = (np.subtract.outer(each[::thin], each[::thin]) for each in (time, depth))
     return float(np.median(rises[steps > 0] / steps[steps > 0]))
 
 
 def segments_of(depth, force):
-    """Segment of each sample by depth (m) and force (N), for files that do not name it."""
+    """Return the segment of each sample from depth (m) and force (N), for files without segments."""
     turns, extreme, sign = [], 0, 1
     values, least = depth.tolist(), _TURN * np.ptp(depth)
     for i, value in enumerate(values):
         if sign * (value - values[extreme]) > 0:
             extreme = i
         elif sign * (values[extreme] - value) > least:
-            # A record that begins with the retract has no sample before it.
+            # If the record begins with the retract, there is no sample before the turn.
             turns.append(extreme or -1)
             extreme, sign = i, -sign
     passed = np.searchsorted(turns, np.arange(depth.size))
@@ -286,10 +291,10 @@ def segments_of(depth, force):
 
 
 def _running_max(values, width):
-    """Largest value within half an odd width on either side of each sample.
+    """Return the largest value within half an odd width on either side of each sample.
 
-    Each window ends in one of two blocks of its width, of which it has the end and the beginning (van
-    Herk, Pattern Recognit. Lett. 13, 1992, 517).
+    Each window consists of the end of a block of its width and the beginning of the next block (van Herk,
+    Pattern Recognit. Lett. 13, 1992, 517).
     """
     half, rest = width // 2, -(values.size + width - 1) % width
     blocks = np.pad(values.astype(float), (half, half + rest), constant_values=-np.inf).reshape(-1, width)
@@ -299,7 +304,10 @@ def _running_max(values, width):
 
 
 def named_segments(words):
-    """Name of the column with names of segments, at each sample or at the first one, and the segments."""
+    """Return the name of the column with segment names, and the segment of each sample.
+
+    The column names the segment at each sample, or only at the first sample of a segment.
+    """
     for column, cells in words.items():
         names = [""]
         for cell in cells:
@@ -316,7 +324,8 @@ class MeasuredCurves(Sequence[MeasuredCurve]):
 
     It is a sequence: length, index, slices and iteration.
 
-    A curve is understood when it is taken: one that is refused does not stop the others.
+    An index or an iteration reads the columns of a curve. Thus an error in one curve does not affect the
+    other curves.
 
     Examples
     --------
@@ -333,18 +342,18 @@ class MeasuredCurves(Sequence[MeasuredCurve]):
 
     #: Name of the file, the folder, the pattern or the zip.
     name: str
-    #: Positions of the curves on the sample (N, 2) in m, None where the file does not have them.
+    #: Positions of the curves on the sample (N, 2) in m, None if the file does not have them.
     position: Array | None
     #: Functions that make the curves.
     _makers: Sequence[Callable[[], MeasuredCurve]]
-    #: File of each curve, and its number there, from 1 on; empty for one file.
+    #: File of each curve, and its number in the file, starting at 1; empty for one file.
     _places: Sequence[tuple[str, int]] = ()
-    #: Reasons why files of a set are not read, by their names.
+    #: Errors by the names of files in a set that were not read.
     unread: dict[str, Remark] = field(default_factory=dict)
 
     @classmethod
     def joined(cls, name: str, files: "dict[str, MeasuredCurves]", unread: dict[str, Remark]) -> Self:
-        """The curves of several files, by the names of these, as one; `unread` are reasons of others."""
+        """Join the curves of several files, given by file name; `unread` has the errors of other files."""
         positions = [each.position for each in files.values() if each.position is not None]
         position = frozen(np.concatenate(positions)) if len(positions) == len(files) else None
         makers = [make for each in files.values() for make in each._makers]
@@ -358,7 +367,7 @@ class MeasuredCurves(Sequence[MeasuredCurve]):
 
     @property
     def places(self) -> list[tuple[str, int]]:
-        """File of each curve, and its number in that file, from 1 on."""
+        """File of each curve, and its number in that file, starting at 1."""
         return [*self._places] or [(self.name, i) for i in range(1, len(self) + 1)]
 
     def __len__(self) -> int:

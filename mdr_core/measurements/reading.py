@@ -33,9 +33,10 @@ def read_curve(path: str | PathLike[str], index: int | None = None, **given: Any
         A file, see `read_curves`.
     index : int, optional
         Number of the curve in a map, or in an Excel file with several sheets. By default the first curve,
-        or the first one of a table that `columns` describe.
+        or the first curve of a table that `columns` describe.
     **given
-        `spring_constant`, `sensitivity`, `columns` and `by` as in `read_curves`, where the file lacks them.
+        `spring_constant`, `sensitivity`, `columns` and `by` as in `read_curves`, if they are not in the
+        file.
 
     Returns
     -------
@@ -75,7 +76,7 @@ def read_curve(path: str | PathLike[str], index: int | None = None, **given: Any
 
 
 def _first_told(curves):
-    """Number of the first curve of a table whose columns are given, 0 without one."""
+    """Return the number of the first curve of a table with given columns, or 0 without such a table."""
     for number in range(len(curves)):
         with suppress(UnknownColumns):
             if curves[number].source == "as told":
@@ -93,50 +94,51 @@ def read_curves(
 ) -> MeasuredCurves:
     """Read all measured curves of a file of an instrument, or of many files.
 
-    Many files are a folder, a list of paths, a pattern, or a zip of texts, which is read in memory. Their
-    order is the natural one of their names. What cannot be read is listed in `unread`, with the reason,
-    and the rest is read. A question is asked once for all files with the same heads and units, and its
-    answer holds for these; what is told without a question holds for all files.
+    Many files are a folder, a list of paths, a pattern, or a zip of texts, which is read in memory. They
+    are in the natural order of their names. `unread` lists files that cannot be read, with the reason; the
+    other files are read. One `UnknownColumns` covers all files with the same headers and units, and
+    `columns` and `by` apply to these files. If no file is ambiguous, they apply to all files.
 
-    A table is read where it says plainly what it is: depth and force each have one column with an exact
-    name and a plain unit, as "Depth (nm)" and "Load (mN)", no other column may be meant, and the depth does
-    not start anew. For any other table `UnknownColumns` is raised, with a suggestion that reads the file if
+    A table is read directly if it is unambiguous. Depth and force must each have one column with an exact
+    name and a plain unit, such as "Depth (nm)" and "Load (mN)". No other column may match, and the depth
+    must not start anew. Any other table raises `UnknownColumns` with a suggestion, which reads the file if
     it is right: ``read_curves(path, **error.suggestion)``. If a file has several tables or sheets, curves
-    of plain ones come first. The error is raised when another curve is taken, or at once if none is plain.
+    of unambiguous tables come first. Another curve raises the error when you take it. If no table is
+    unambiguous, `read_curves` raises the error at once.
 
-    Signs are found by the numbers, as force and depth are positive in compression. `remarks` of a curve
-    lists reversed signs, constants that are taken from the file, and lines that are left out. Numbers of
-    10³⁰ and more are missing values. Depth counts as in the file. Layouts of JPK, NanoScope, Anton
-    Paar and Optics11 and the files that this package writes are known exactly. Sheets without a curve, as
-    of results, are left out, with a remark.
+    The numbers determine the signs: force and depth are positive in compression. `remarks` of a curve
+    lists reversed signs, constants from the file, and omitted lines. Numbers of 10³⁰ and more are missing
+    values. The zero of the depth is that of the file. The layouts of JPK, NanoScope, Anton Paar and
+    Optics11, and the files of this package, are known exactly. Sheets without a curve, for example with
+    results, are omitted with a remark.
 
     Parameters
     ----------
     path : path-like, or list of path-like
-        Of one file: a table as text in UTF-8, UTF-16 or Windows-1252, with columns separated by commas,
-        semicolons, tabs or blanks; an Excel file (.xls, .xlsx), of which each sheet with a curve is read;
-        or an AFM file (.jpk-…, .h5, .ibw, .zip, .tab; text of AFM Workshop, Optics11 and NT-MDT), by
-        `afmformats`. Of AFM files the depth is minus the position of the tip, −(height + F/k) with the
-        stiffness k of the cantilever, and its zero is not first contact.
+        Three types of files are supported. Text is a table in UTF-8, UTF-16 or Windows-1252, with columns
+        separated by commas, semicolons, tabs or blanks. In an Excel file (.xls, .xlsx), each sheet with a
+        curve is read. `afmformats` reads AFM files (.jpk-…, .h5, .ibw, .zip, .tab; text of AFM Workshop,
+        Optics11 and NT-MDT). The depth of an AFM file is minus the position of the tip, −(height + F/k)
+        with the stiffness k of the cantilever, and its zero is not first contact.
     spring_constant : float, optional
-        Stiffness k of the cantilever (N/m); the header of a text may have it, but this one goes first. The
+        Stiffness k of the cantilever (N/m). This value takes precedence over a value in the header. The
         deflection F/k is subtracted from the position of a piezo, and a deflection (m or V) gives the
-        force. A stiffness that nothing uses is refused.
+        force. An unused stiffness raises an error.
     sensitivity : float, optional
-        Deflection (m) of the cantilever for 1 V, where the file has its deflection in V; m/A for NT-MDT.
-        Its files have no header: they are known by the two values that are given.
+        Deflection (m) of the cantilever for 1 V, if the file has the deflection in V; m/A for NT-MDT.
+        Files of NT-MDT have no header, so both values must be given to recognize them.
     columns : dict or list of dict, optional
-        Columns of a table for "depth" and "force", and "time" and "stiffness" (of the contact): a number
-        from 0 on, or a name in the header, and a unit, as in
-        ``{"depth": (0, "nm"), "force": ("Kraft", "mN")}``; without a unit that of the header is taken. In
-        the place of "depth" stands "piezo" for the position of a piezo. None leaves out the time. A list is
-        of pairs side by side, a curve each. In a file of several tables it holds for those with the heads
-        of the first one that is asked about, or that have these names.
+        Columns of a table for "depth" and "force", and "time" and "stiffness" (of the contact). A column is
+        a number, starting at 0, or a name in the header, and a unit:
+        ``{"depth": (0, "nm"), "force": ("Kraft", "mN")}``. The default unit is the unit in the header. Use
+        "piezo" instead of "depth" for the position of a piezo. None leaves out the time. A list has one
+        dictionary for each pair of columns side by side, each with its curve. In a file of several tables,
+        `columns` hold for tables with the same headers as the first ambiguous table, or with these names.
     by : int, str or list, optional
-        What tells several curves of a table apart: a column (number or name), or a list of columns, whose
-        rows of the same values are a curve each; "gaps", empty lines or words between rows; "restart",
-        where the depth starts anew. "whole" is for one curve, "segments" for parts of one curve, in a list
-        of columns or in tables below each other.
+        Separation of several curves in a table. With a column (number or name) or a list of columns, rows
+        with the same values are one curve. "gaps" separates at empty lines or words between rows, and
+        "restart" where the depth starts anew. "whole" means one curve. "segments" means parts of one curve,
+        in a list of columns or in tables below each other.
 
     Returns
     -------
@@ -145,16 +147,16 @@ def read_curves(
     Raises
     ------
     UnknownColumns
-        If a table does not say plainly what its columns are, or may be of several curves or of results; if
-        a stiffness or a sensitivity is needed. It is a ValueError.
+        If the columns of a table are ambiguous, or a table may contain several curves or results. Also if a
+        stiffness or a sensitivity is needed. It is a ValueError.
     ValueError
-        If no file of many can be read; if they are more than 1,000 or have more than 0.5 GB together; if
-        most lines are no rows of numbers; if a stiffness or a sensitivity is given that nothing uses, or
-        `by` separates nothing; if a file is too large; if it is binary and not read.
+        If no file of many can be read, or there are more than 1,000 files or 0.5 GB. If most lines are not
+        rows of numbers. If a given stiffness or sensitivity is not used, or `by` separates nothing. If a
+        file is too large, or binary in an unknown format.
     OSError
-        If there is no such file (FileNotFoundError), whatever its name ends with, or it may not be read.
+        If the file does not exist (FileNotFoundError), whatever its suffix, or cannot be opened.
     ImportError
-        If the package is not installed that reads the format.
+        If the package for the format is not installed.
 
     Examples
     --------
@@ -186,8 +188,8 @@ def read_curves(
 
 
 def _of_path(path, options):
-    """`MeasuredCurves` of one file."""
-    # A file that is missing or may not be read is the system's error, whatever would read it.
+    """Return the `MeasuredCurves` of one file."""
+    # Raise the error of the system for a missing or forbidden file, whatever its format.
     with path.open("rb"):
         pass
     if is_workbook(path):
@@ -195,14 +197,14 @@ def _of_path(path, options):
     if path.suffix.lower().startswith(SUFFIXES):
         if options["columns"] or options["by"] is not None:
             raise MeasurementError(
-                f"{path.name} is no table: leave out the choice of columns and of curves"
+                f"{path.name} is not a table: leave out the choice of columns and of curves"
             )
         return from_afm(path, options["given"])
     return _of_text(path.name, path.read_bytes(), options, path)
 
 
 def _of_text(name, data, options, path=None):
-    """`MeasuredCurves` of the bytes of a text, of a file that an AFM may have written if it has a path."""
+    """Return the `MeasuredCurves` of the bytes of a text; a text with a path may be an AFM file."""
     refuse_binary(Path(name), data)
     text, given = decoded(data), options["given"]
     of_nova = (

@@ -1,1 +1,1 @@
-"""A whole calculation as a value: scenes and their drives."""
+"""Scenes and their drives: a whole calculation as one value."""

@@ -20,14 +20,14 @@ from ..solver.oblique.oblique_impact import FRICTION, oblique_impact
 
 
 class _Path:
-    """Base class of paths: in time, or infinitely slow where `time` is None."""
+    """Base class of paths: in time, or infinitely slow if `time` is None."""
 
     time: ArrayLike | None
-    #: Models in time on a viscous medium, the cheapest exact one first.
+    #: Models in time on a viscous medium, the cheapest exact model first.
     _viscous: tuple[Model, ...] = (CHAIN,)
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models for this drive, the cheapest exact one first."""
+        """Return the names of the models for this drive, the cheapest exact model first."""
         if medium.work_of_adhesion > 0:
             return (CLOSED_FORM,)
         return self._viscous if self.time and medium.eta > 0 else (CLOSED_FORM, CHAIN)
@@ -66,7 +66,7 @@ class DepthPath(_Path):
         check.store(self, depth=_plain(depth), time=time)
 
     def solve(self, profile, medium, model):
-        """The `Indentation` along this path, or on the chain the `TimedIndentation`."""
+        """Return the `Indentation` along this path, or the `TimedIndentation` of the chain."""
         if model == CLOSED_FORM:
             return indent(profile, medium, self.depth)
         return _on_chain(indent_in_time, profile, medium, self.depth, self.time)
@@ -99,7 +99,7 @@ class ForcePath(_Path):
 
         def __init__(self, force: ArrayLike, time: ArrayLike | None = None) -> None: ...
 
-    #: Where the scalar law of creep ends the chain goes on by itself.
+    #: The scalar law of creep switches to the chain where the law ends.
     _viscous = (CREEP_LAW, CHAIN)
 
     def __post_init__(self):
@@ -108,7 +108,7 @@ class ForcePath(_Path):
         check.store(self, force=_plain(force), time=time)
 
     def solve(self, profile, medium, model):
-        """The `Indentation` along this path, or in time and on the chain the `TimedIndentation`."""
+        """Return the `Indentation` along this path, or the `TimedIndentation` of creep or of the chain."""
         if model == CLOSED_FORM:
             return indent_to_force(profile, medium, self.force)
         if model == CREEP_LAW:
@@ -117,7 +117,7 @@ class ForcePath(_Path):
 
 
 def _path(quantity, values, unit):
-    """Depths (m) or forces (N) as an array, if they are a number or a path."""
+    """Return depths (m) or forces (N) as an array. Raise MDRError unless they are a number or a path."""
     path = check.finite_array(quantity, values, unit=unit, most=check.LONGEST)
     if path.ndim > 1 or not path.size:
         raise check.MDRError(f"{quantity} must be a number or a path, got shape {path.shape}")
@@ -125,20 +125,20 @@ def _path(quantity, values, unit):
 
 
 def _times(time, path, quantity):
-    """Times (s) of a path of a quantity as a tuple, None for an infinitely slow one."""
+    """Return the times (s) of a path of a quantity as a tuple, or None for an infinitely slow path."""
     return None if time is None else _plain(check_times(time, path, quantity))
 
 
 def _plain(array):
-    """An array of one dimension as a tuple, of none as a number: scenes are compared, and kept as JSON."""
+    """Return a path as a tuple and a scalar array as a number, for comparing scenes and for JSON."""
     return tuple(array.tolist()) if array.ndim else array.item()
 
 
 def _on_chain(solve, profile, medium, path, time):
-    """The `TimedIndentation` of a path by `indent_in_time` or `chain_creep`."""
+    """Return the `TimedIndentation` of a path by `indent_in_time` or `chain_creep`."""
     values = np.atleast_1d(path)
     if time is None:
-        # An infinitely slow path is a path without viscosity at any times.
+        # Without viscosity the times do not matter.
         time = np.arange(float(values.size))
         medium = replace(medium, eta=0.0)
     result = solve(profile, medium, values, np.asarray(time))
@@ -154,7 +154,7 @@ class FreeImpact:
     mass, speed : float
         Mass m (kg), and speed v₀ (m/s) at first contact, positive.
     plastic_depth : float
-        Plastic depth (m) after earlier impacts on the same spot; 0, the default, for a virgin surface.
+        Plastic depth (m) after earlier impacts on the same spot. By default 0, a virgin surface.
     structure : Structure, optional
         A single plate, rod or support that carries the medium; by default the body behind it is at rest.
 
@@ -188,7 +188,7 @@ class FreeImpact:
             )
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models for this drive, the cheapest exact one first."""
+        """Return the names of the models for this drive, the cheapest exact model first."""
         if medium.work_of_adhesion > 0:
             return (CLOSED_FORM,)
         structure = structure_of(self.structure)
@@ -196,13 +196,13 @@ class FreeImpact:
             return (MODES,)
         if medium.eta > 0 and not structure.rigid and self.plastic_depth == 0:
             return (CHAIN,)
-        # The state of a chain with an imprint is more than the plastic depth: `chain_impact(start=…)`.
+        # The plastic depth does not determine a chain with an imprint: see `chain_impact(start=…)`.
         in_time = medium.eta > 0 or structure.is_plate
         models = (SCALAR_ODE, CHAIN) if in_time else (CLOSED_FORM, SCALAR_ODE, CHAIN)
         return models[:-1] if self.plastic_depth > 0 else models
 
     def solve(self, profile, medium, model):
-        """The `Impact` of this body, or on the chain the `ChainImpact`."""
+        """Return the `Impact` of this body, or the `ChainImpact` of the chain."""
         if model == CHAIN:
             return chain_impact(profile, medium, self.mass, self.speed, structure=self.structure)
         given = self.mass, self.speed, self.plastic_depth, self.structure
@@ -256,11 +256,11 @@ class FreeObliqueImpact:
         )
 
     def models(self, medium: Medium) -> tuple[Model, ...]:
-        """Names of the models for this drive."""
+        """Return the names of the models for this drive."""
         return (FRICTION,)
 
     def solve(self, profile, medium, model):
-        """The `ObliqueImpact` of this body."""
+        """Return the `ObliqueImpact` of this body."""
         return oblique_impact(
             profile, medium, self.mass, self.speed, self.tangential_speed, self.friction,
             tangential_mass=self.tangential_mass,

@@ -1,4 +1,4 @@
-"""Scenes: an indenter, a medium and a drive, which can be saved, loaded and solved."""
+"""Scenes of an indenter, a medium and a drive: solve, save and load them."""
 
 import json
 import os
@@ -29,14 +29,14 @@ _PROFILES = (
     truncated.RoundedPunch, sampled.Sampled,
 )  # fmt: skip
 _DRIVES = (DepthPath, ForcePath, FreeImpact, FreeObliqueImpact)
-#: Values of entries that are optional in a file.
+#: Default values of the optional entries in a file.
 _OPTIONAL = {"time": None, "poisson": 0.5, "work_of_adhesion": 0.0, "plastic_depth": 0.0}
 _OPTIONAL |= {"hardness": None, "f_c": None, "structure": None, "modes": None}
-#: Those of one class, whose name has another meaning in others.
+#: Default values of entries that are optional in one class and have another meaning in other classes.
 _OPTIONAL_OF = {Structure: {"mass": None}}
-#: Parameters that are null where they are infinite.
+#: Parameters whose infinite values are written as null.
 _INFINITE = {Medium: ("q_c",), Structure: ("impedance", "stiffness")}
-#: Remedy for a law of hardness, whose class is not in a file.
+#: Remedy for a user's law of hardness, whose class a file does not contain.
 _NOT_KEPT = "keep the script that makes the law, or pickle the scene where its class can be imported"
 _FORMAT, _VERSION = "mdr-scene", 1
 _EXPECTED = {
@@ -48,7 +48,7 @@ _EXPECTED = {
 
 @dataclass(frozen=True)
 class Scene:
-    """A whole calculation as one value: an indenter, a medium and a drive.
+    """Whole calculation as one value: an indenter, a medium and a drive.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class Scene:
     Raises
     ------
     TypeError
-        If one of them is of another type.
+        If an argument has another type.
     ValueError
         If parameters of profile or medium are arrays: a scene is a single problem.
 
@@ -87,18 +87,20 @@ class Scene:
 
     @property
     def models(self) -> tuple[Model, ...]:
-        """Models for the scene, the cheapest exact one first."""
+        """Models for the scene, the cheapest exact model first."""
         return self.drive.models(self.medium)
 
     def solve(
         self, model: str | None = None
     ) -> Indentation | TimedIndentation | Impact | ChainImpact | ObliqueImpact:
-        """Solve the scene. `result.model` is the model, `result.model.reason` the reason for its choice.
+        """Solve the scene.
+
+        `result.model` is the model, and `result.model.reason` the reason for its choice.
 
         Parameters
         ----------
         model : {"closed form", "scalar ODE", "chain", "chain with friction"}, optional
-            One of `models`, for a comparison; by default the cheapest exact one.
+            One of `models`, for a comparison; by default the cheapest exact model.
 
         Examples
         --------
@@ -112,9 +114,10 @@ class Scene:
         return self.drive.solve(self.profile, self.medium, model)
 
     def to_json(self) -> str:
-        """The scene as JSON text with exact numbers; null is an infinite value, and no Poisson ratio.
+        """Return the scene as JSON text with exact numbers.
 
-        A law of hardness is refused: its class is not in the file.
+        Infinite values and a missing Poisson ratio are null. A user's law of hardness raises MDRError,
+        because the file would not contain its class.
         """
         refuse_own_law(self.medium, "a scene as JSON", _NOT_KEPT)
         return json.dumps(
@@ -130,9 +133,9 @@ class Scene:
         )
 
     def to_python(self) -> str:
-        """Python that makes and solves the scene; arguments at their defaults are left out.
+        """Return Python code that makes and solves the scene, without arguments at their defaults.
 
-        A law of hardness is refused: its class is not in the text.
+        A user's law of hardness raises MDRError, because the code would not contain its class.
 
         Examples
         --------
@@ -173,7 +176,7 @@ class Scene:
         if isinstance(text, os.PathLike) or (isinstance(text, str) and text.strip().endswith(".json")):
             name, remedy = shown(str(text)), "Scene.from_json(pathlib.Path(name).read_text())"
             raise MDRError(
-                f"scene: {name} is the name of a file, not JSON text; read it first, as in {remedy}"
+                f"scene: {name} is the name of a file, not JSON text: read it first, as in {remedy}"
             )
         try:
             data = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_duplicates)
@@ -182,12 +185,12 @@ class Scene:
         except UnicodeDecodeError as error:
             raise MDRError(f"scene: not UTF-8 text ({error.reason})") from None
         except ValueError as error:
-            raise MDRError(f"scene: no JSON text ({error})") from None
+            raise MDRError(f"scene: not JSON text ({error})") from None
         _keys("scene", data, {"format", "version", "profile", "medium", "drive"})
         if data["format"] != _FORMAT or data["version"] != _VERSION:
             raise MDRError(
-                f"scene: format {shown(data['format'])} version {shown(data['version'])} cannot be read; "
-                f"expected {_FORMAT!r} version {_VERSION}"
+                f"scene: format {shown(data['format'])} version {shown(data['version'])} is not supported; "
+                f"it must be {_FORMAT!r} version {_VERSION}"
             )
         drive = data["drive"]
         if isinstance(drive, dict) and (structure := drive.get("structure")) is not None:
@@ -202,7 +205,7 @@ class Scene:
 
 
 def _constructed(value):
-    """A value as a call of its class."""
+    """Return a value as a call of its class."""
     if not is_dataclass(value):
         return repr(np.asarray(value).tolist())
     if isinstance(value, Structure) and value.modes is not None:
@@ -224,7 +227,7 @@ def _tagged(value):
 
 
 def _with_null(value):
-    """The parameters of a medium or a structure, with null for infinite ones."""
+    """Return the parameters of a medium or a structure, with None for infinite values."""
     return {k: None if isinstance(v, float) and np.isinf(v) else v for k, v in asdict(value).items()}
 
 

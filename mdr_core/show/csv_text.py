@@ -1,4 +1,4 @@
-"""Tables as CSV, as spreadsheets and `read_curves` open them."""
+"""Tables as CSV text for spreadsheets and `read_curves`."""
 
 import csv
 import re
@@ -6,16 +6,15 @@ from collections.abc import Iterable
 from io import StringIO
 from typing import Any
 
-#: Beginnings of a cell that a spreadsheet takes for a formula, also where it parts cells at ";".
+#: Beginnings of a cell that a spreadsheet takes for a formula, also if it splits cells at ";".
 _FORMULA = re.compile(r"(^|[;\t])(?=[=+\-@\t\r])")
 
 
 def csv_text(header: Iterable[str], rows: Iterable[Iterable[str | float | None]]) -> str:
-    """A table below lines of a header, which begin with "# ".
+    """Return a table as CSV text, below header lines that begin with "# ".
 
-    Numbers have all digits, and None and NaN are empty cells. A text that a spreadsheet would take for a
-    formula, as the name of a file "=1+1.csv", has an apostrophe in front; so has one behind a comma of the
-    header.
+    Numbers have all digits. None and NaN are empty cells. An apostrophe precedes texts that a spreadsheet
+    would take for a formula, such as the file name "=1+1.csv", also behind a comma of the header.
 
     Examples
     --------
@@ -27,7 +26,7 @@ def csv_text(header: Iterable[str], rows: Iterable[Iterable[str | float | None]]
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     for line in header:
-        # Quotation marks would take the "#" in, by which a comment is known.
+        # Quotation marks would enclose the "#", which marks a comment.
         cells = f"# {line}".rstrip().replace('"', "'").split(",")
         writer.writerow(map(_cell, cells))
     writer.writerows(map(_cell, row) for row in rows)
@@ -35,7 +34,7 @@ def csv_text(header: Iterable[str], rows: Iterable[Iterable[str | float | None]]
 
 
 def safe_cell(value: Any) -> Any:
-    """A text that no spreadsheet takes for a formula; anything else as it is."""
+    """Return a text that no spreadsheet takes for a formula, and any other value unchanged."""
     return _FORMULA.sub(r"\1'", value) if isinstance(value, str) else value
 
 

@@ -1,7 +1,7 @@
 """Content of the plots of results: rows, their colours, and their columns in SI units.
 
-`plots` draws them with HoloViews, the explorer the same rows from the same columns with Bokeh. The springs
-of the 1D foundation are in `springs`.
+`plots` draws the rows with HoloViews, and the explorer draws the same rows and columns with Bokeh. The
+springs of the 1D foundation are in `springs`.
 """
 
 from dataclasses import dataclass, field
@@ -14,7 +14,7 @@ from ..solver.contact.unloading import unloading_curve
 from .quantities import unit_of
 from .units import written
 
-#: Colours of the roles on light and on dark background (Okabe–Ito), the same in every plot.
+#: Colours of the roles on a light and on a dark background (Okabe–Ito), the same in every plot.
 ROLES = {
     "free": ("#8a8f98", "#828a95"),
     "elastic": ("#0072b2", "#56b4e9"),
@@ -43,12 +43,11 @@ NOTHING = np.array([np.nan]), np.array([np.nan])
 
 @dataclass(frozen=True)
 class Row:
-    """One area, line, mark or label of a plot; `legend` says whether the legend names it.
+    """One area, line, mark or label of a plot.
 
-    A label may stand for rows in the place of the legend, by their `names`.
-
-    `look` are properties of Bokeh's glyph for it, with roles as colours and names as dashes. A line with a
-    `symbol` has a tooltip with its values on the axis `axis` (0 x, 1 y, 2 right).
+    With `legend`, the legend names the row. A label can replace the legend for the rows in `names`. `look`
+    has the properties of the Bokeh glyph, with roles as colours and names as dashes. A line with a `symbol`
+    has a tooltip with its values on the axis `axis` (0 x, 1 y, 2 right).
     """
 
     kind: str
@@ -62,15 +61,15 @@ class Row:
 
     @property
     def group(self):
-        """Name of the glyph that draws it: one for each kind and for the left and the right axis."""
+        """Name of the glyph that draws the row: one glyph for each kind and for each vertical axis."""
         return self.kind if self.axis == 1 else f"{self.kind} right"
 
     def called(self, columns):
-        """Name in legends and tooltips: its own, or that of a line in the third of its columns."""
+        """Return the name in legends and tooltips: the third column of a line, or else `name`."""
         return (self.kind == "lines" and "".join(columns[2:])) or self.name
 
     def look_in(self, dark):
-        """Properties of its glyph on a light or on a dark background."""
+        """Return the properties of the glyph on a light or a dark background."""
         seen = {name: ROLES[value][dark] for name, value in self.look.items() if name.endswith("color")}
         if self.kind == "lines":
             seen["line_dash"] = DASHES[self.look["line_dash"]]
@@ -81,7 +80,7 @@ class Row:
 
 
 def area(name, role, alpha, hatch=" ", legend=True):
-    # An edge in full colour: on its ground a pale area alone is hard to see.
+    # The edge has the full colour, because a pale area alone is hard to see.
     look = {"fill_color": role, "fill_alpha": alpha, "line_color": role}
     look |= {"hatch_pattern": hatch, "hatch_color": role, "hatch_alpha": 0.18}
     return Row("areas", name, role, legend, look=look)
@@ -89,7 +88,7 @@ def area(name, role, alpha, hatch=" ", legend=True):
 
 def line(name, role, width=2.0, dash="solid", symbol="", axis=1, legend=True):
     look = {"line_color": role, "line_width": width, "line_dash": dash}
-    # Dashes have the lengths that they are drawn with, without round ends.
+    # Round ends would make the dashes longer.
     look["line_cap"] = "round" if dash == "solid" else "butt"
     return Row("lines", name, role, legend, symbol, axis, look)
 
@@ -106,7 +105,7 @@ def label(name, alpha=0.8, align="left"):
 
 
 def word(name, role, align="center", baseline="middle", alpha=0.0, names=()):
-    """A label that stands for rows, beside or within what is drawn of them."""
+    """Return a label that names rows instead of the legend, next to the drawn rows or on them."""
     look = label(name, alpha, align).look | {"text_color": role, "text_font_style": "normal"}
     look["text_baseline"] = baseline
     return Row("labels", f"label {name}", legend=False, look=look, names=names)
@@ -114,7 +113,7 @@ def word(name, role, align="center", baseline="middle", alpha=0.0, names=()):
 
 @dataclass(frozen=True)
 class Axis:
-    """An axis: name, title, unit and its size in SI, start and end (SI), and whether it is logarithmic."""
+    """Axis with a name, a title, a unit and its size in SI, both ends (SI), and a linear or log scale."""
 
     name: str
     title: str
@@ -126,23 +125,23 @@ class Axis:
 
     @classmethod
     def fitting(cls, name, title, unit, largest, **ends):
-        """An axis with the unit that fits its largest value (SI)."""
+        """Return an axis with the unit that fits its largest value (SI)."""
         fit = unit_of(largest, unit)
         return cls(name, title, fit.name, fit.factor, **ends)
 
     @property
     def ends(self):
-        """Start and end in its unit."""
+        """Start and end in the unit of the axis."""
         return tuple(end and float(f"{end / self.factor:.9g}") for end in (self.start, self.end))
 
     @property
     def label(self):
-        """The title with the unit."""
+        """Title with the unit."""
         return f"{self.title} ({self.unit})" if self.unit else self.title
 
 
 def parts(symbol):
-    """Rows of a curve in three parts: unloading, elastic, yielding."""
+    """Return the rows of a curve in three parts: unloading, elastic, yielding."""
     return (
         line("unloading", "elastic", 1.8, "dashed", symbol),
         line("elastic", "elastic", 2.2, symbol=symbol),
@@ -173,12 +172,12 @@ FORCE_ROWS = (
 
 
 def both(values, sign=1):
-    """Values mirrored to negative coordinates, with a sign for these."""
+    """Return values mirrored to negative coordinates; the mirrored values are multiplied by `sign`."""
     return np.concatenate([sign * values[::-1], values])
 
 
 def split(x, y, depth, plastic_depth):
-    """A curve over the states of a path in its `parts`."""
+    """Split a curve over the states of a path into its `parts`."""
     kind = np.where(np.diff(plastic_depth) > 0, 2, np.where(np.diff(depth) < 0, 0, 1))
     rows = {}
     for number, name in enumerate(("unloading", "elastic", "yielding")):
@@ -191,7 +190,7 @@ def split(x, y, depth, plastic_depth):
 
 
 def at_radii(a, c, half, bottom, top):
-    """Lines at ±a and ±c and their labels; that of c is on the inside where both are close."""
+    """Return lines at ±a and ±c and their labels; if a and c are close, the label of c is on the inside."""
     a, c = a or np.nan, c or np.nan
     y = np.array([bottom, top, np.nan, bottom, top])
     beside = -0.08 if a - c < 0.11 * half else 0.03
@@ -204,7 +203,7 @@ def at_radii(a, c, half, bottom, top):
 
 
 def radii(state, half):
-    """Radii from 0 to `half`, dense where the pressure has an edge: at 0, c, a and at kinks."""
+    """Return radii from 0 to `half`, dense at the edges of the pressure: at 0, c, a and at kinks."""
     profile, dense = state.profile, (1 - np.cos(np.linspace(0, np.pi, 40))) / 2
     kinks = profile.kinks if len(profile.kinks) <= 3 else ()
     edges = [state.contact_radius, state.plastic_radius, *map(profile.contact_radius, kinks)]
@@ -213,9 +212,9 @@ def radii(state, half):
 
 
 def ceiling(state, half):
-    """Largest pressure (Pa) of a plot; where it is infinite, at most four times the mean.
+    """Return the largest pressure (Pa) of a plot; if the pressure is infinite, at most four times the mean.
 
-    With adhesion it is at least twice the tension on the axis that adhesion alone makes.
+    With adhesion the result is at least twice the tension on the axis due to adhesion alone.
     """
     p = state.pressure(radii(state, half))
     largest = float(np.max(p[np.isfinite(p)], initial=0.0))
@@ -227,12 +226,12 @@ def ceiling(state, half):
 
 
 def cut(p, top):
-    """Pressures (Pa) within an axis that ends at `top`, and at −`top` with adhesion."""
+    """Limit pressures (Pa) for an axis that ends at `top`, and at −`top` with adhesion."""
     return np.clip(p, -top, 1e3 * top)
 
 
 def pressure(state, half, top):
-    """Rows of the pressures (Pa) over radii (m), for axes that end at ±`half` and `top`."""
+    """Return rows of the pressure (Pa) over the radius (m), for axes that end at ±`half` and `top`."""
     r = radii(state, half)
     p = state.pressure(r)
     a, c, mean = (float(v) for v in (state.contact_radius, state.plastic_radius, state.mean_pressure))
@@ -242,16 +241,16 @@ def pressure(state, half, top):
         "below": curve,
         "p(r)": curve,
         "mean F/(πa²)": (np.array([-a, a]), np.array([mean, mean])) if a else NOTHING,
-        # A line below c and a.
+        # One line below the labels of a and c.
         "exceeds": (-0.97 * half, 0.86 * top, exceeds(r, p, top) if a else "no contact"),
     }
 
 
 def exceeds(r, p, top):
-    """Text on a pressure (Pa) at radii r (m) beyond its axis, empty where there is none."""
+    """Return a text on the pressure (Pa) at radii r (m) that exceeds the axis, or an empty text."""
     infinite, k = np.isinf(p), int(np.argmax(np.where(np.isinf(p), -1.0, p)))
     if infinite.any():
-        # A sharp tip that has not yielded is infinite on the axis, a flat face at its rim.
+        # Before yield, the pressure of a sharp tip is infinite on the axis, that of a flat face at its rim.
         at = np.argmax(infinite)
         sign = "↑ p → ∞" if p[at] > 0 else "↓ p → −∞"
         return f"{sign} at the " + ("axis" if r[at] == 0 else "rim")
@@ -262,15 +261,15 @@ def exceeds(r, p, top):
 
 
 def work(path, i):
-    """Areas of the force over depth of a path up to its state i: what is lost so far, and what is stored.
+    """Return areas of force over depth up to state i of a path: lost energy and stored energy.
 
-    `path` is an `Indentation` without adhesion. With viscosity in time, what is lost is not plastic work
-    alone.
+    `path` is an `Indentation` without adhesion. With viscosity in time, the lost energy is not only plastic
+    work.
     """
     depth, force = path.depth[: i + 1], path.force[: i + 1]
     plastic_depth, viscous = path.live_interval.lower[: i + 1], path.in_time and path.medium.eta > 0
     back, back_force = unloading_curve(path[i])
-    # The path so far, and back along what is stored: lost is the loop that it encloses.
+    # The lost energy is the area of a loop: along the path so far, and back along the elastic unloading.
     loop = (
         np.concatenate([depth[:1], depth, back, back[-1:]]),
         np.concatenate([[0.0], force, back_force, [0.0]]),

@@ -1,4 +1,4 @@
-"""Hints for symbols, words and models of the field that have other names in this package."""
+"""Hints on symbols, words and models of the field that have other names in this package."""
 
 from .synonyms import MEANINGS, plain
 
@@ -22,7 +22,7 @@ _DEPTH = "indent(profile, medium, depth) presses to a depth (m)"
 _TIME = "indent_in_time(profile, medium, depth, time) takes depths over time, creep(…, force, time) forces"
 _ADHESION = "The work of adhesion is `work_of_adhesion` (J/m²)"
 
-#: Remarks on keywords that are no parameters.
+#: Hints on keywords that are not parameters.
 KEYWORDS = (
     dict.fromkeys(("angle", "half_angle", "alpha", "theta"), _ANGLE)
     | dict.fromkeys(("R", "r", "diameter", "D"), _RADIUS)
@@ -40,7 +40,7 @@ KEYWORDS = (
 
 _ANGLES = ("angle", "degrees", "theta", "alpha")
 _ALONG_THE_SURFACE = (*_ANGLES, "friction", "mu", "tangential_speed", "tangential_mass")
-#: Those on keywords of single functions, which come first.
+#: Hints on keywords of single functions, which take precedence.
 KEYWORDS_OF = {
     "Medium.from_bodies": dict.fromkeys(
         ("E", "nu", "E_star", "modulus", "youngs_modulus", "poisson", "poisson_ratio"), _BODIES
@@ -61,13 +61,13 @@ KEYWORDS_OF = {
 _CONE = "take mdr_core.Cone.from_half_angle({}), the cone with the area of {} at each depth"
 _JKR = "take mdr_core.Paraboloid(radius) on a Medium(E_star, work_of_adhesion=w), which is the model of {}"
 _RIM = (
-    "adhesion is for forces of short range (Johnson, Kendall and Roberts): take mdr_core.Medium(E_star, "
+    "adhesive forces must have a short range (Johnson, Kendall and Roberts): take mdr_core.Medium(E_star, "
     "work_of_adhesion=w), and see Tabor's parameter in the limits of the result"
 )
 _HALF_SPACE = "take mdr_core.Medium(E_star, …)"
-_VISCOUS = "the viscosity is that of Kelvin and Voigt: take mdr_core.Medium(E_star, eta=…)"
+_VISCOUS = "the viscous medium here is a Kelvin–Voigt medium: take mdr_core.Medium(E_star, eta=…)"
 _FRICTION = "take mdr_core.oblique_impact(…, friction=μ)"
-#: What to take instead of names that the package does not have, in small letters and without underscores.
+#: Replacements for names that the package does not have. The keys are lower case without underscores.
 MODELS = {
     "berkovich": "take mdr_core.Cone.berkovich()",
     "brinell": "take mdr_core.Sphere(radius)",
@@ -106,7 +106,7 @@ MODELS = {
     "viscoelastic": _VISCOUS,
 }
 
-#: Symbols, as they are written, with the names that they may mean as in `Synonyms`.
+#: Symbols, case-sensitive, with the possible names as in `Synonyms`.
 _SYMBOLS = {
     "e": (("restitution",),),
     **dict.fromkeys(("F", "P"), (("force",), ("max_force",))),
@@ -123,8 +123,8 @@ _SYMBOLS = {
     "v": (("velocity",), ("speed", "rebound_speed"), ("speed",)),
     "t": (("time",), ("contact_time",)),
 }
-#: What is said of a quantity beside its name.
-_SAID = {
+#: Explanations that follow the name of a quantity.
+_EXPLANATIONS = {
     "pressure": ", a function of the radius",
     "turning_point": ", the state of largest depth, with its pressures and stresses",
     "medium": ", which has the modulus .E_star, the hardness and the viscosity",
@@ -136,20 +136,24 @@ _SAID = {
 
 
 def keyword_hint(function, keyword):
-    """Sentence on a keyword that a function of this name does not have; else nothing."""
+    """Return a sentence on a keyword that a function does not have, or an empty text."""
     return KEYWORDS_OF.get(function, {}).get(keyword) or KEYWORDS.get(keyword, "")
 
 
 def quantity_hint(name, known):
-    """What is meant by the name of a quantity, of those that are known; None if it is no known term."""
+    """Return a hint on the name of a quantity for a result with the `known` quantities.
+
+    Return None if the name is not a term of the field, and an empty text if the result has no such
+    quantity.
+    """
     meanings = _SYMBOLS.get(name) or MEANINGS.get(plain(name))
     if meanings is None:
         return None
     meant = next((names for names in meanings if set(names) <= set(known)), ())
-    said = " and ".join(f"{each!r}{_SAID.get(each, '')}" for each in meant)
-    return f"did you mean {said}?" if said else ""
+    names = " and ".join(f"{each!r}{_EXPLANATIONS.get(each, '')}" for each in meant)
+    return f"did you mean {names}?" if names else ""
 
 
 def model_hint(name):
-    """What to take instead of a name that the package does not have; else nothing."""
+    """Return a replacement for a name that the package does not have, or an empty text."""
     return MODELS.get(plain(name), "")

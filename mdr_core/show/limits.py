@@ -11,34 +11,36 @@ from ..solver.profiles.sampled import Sampled, bent_vertices
 from .quantities import engineering
 from .structure_limits import structure_limits
 
-#: Slope up to which results are good, above which they are estimates, and above which the slope is
-#: probably a mistake.
+#: Largest slope for good results, largest slope for estimates, and slope above which a mistake is likely.
 _SMALL = 0.3
 _STEEP = 0.5
 _NEEDLE = 3.0
-#: Contact radius over the radius of the body, and speed over the wave speed.
+#: Largest contact radius over the radius of the body, and largest speed over the wave speed.
 _BODY = 0.5
 _SLOW = 0.1
-#: Tabor's parameter from which adhesion is that of the rim alone, and the range (m) of surface forces.
+#: Smallest Tabor parameter with adhesion at the rim alone, and the range (m) of surface forces.
 _TABOR = 5.0
 _RANGE = 0.3e-9
-#: Relative error of a pull-off from facets.
+#: Largest relative error of the pull-off force due to facets.
 _FACETS = 0.02
-#: Depth over the largest elastic compression of an element there, and mass over the tangential one, up to
-#: which errors of stick were measured (tests/benchmarks/oblique.py).
+#: Largest values at which errors of stick were measured (tests/benchmarks/oblique.py): depth over the
+#: largest elastic compression of an element at this depth, and mass over tangential mass.
 _DEEP = 1e3
 _LIGHT = 10.0
-#: Range of the effective moduli (Pa) of the media that there are.
+#: Range of the effective moduli (Pa) of real media.
 _SOFTEST = 1e3
 _STIFFEST = 1e13
-#: Range of H/E* of the media that there are, and d(a σ_c)/da over σ_c from which on a contact flows.
+#: Range of H/E* of real media, and smallest d(a σ_c)/da over σ_c of a contact that flows.
 _SOFT, _HARD, _FLOWS = 1e-5, 0.3, 0.5
-#: Depth (m) of an atom: no medium yields at less.
+#: Size (m) of an atom: no medium yields at a smaller depth.
 _ATOM = 1e-10
 
 
 def contact_limits(profile, medium, radius, *, slow=False):
-    """Limits of contacts of radii up to `radius` (m); `slow` if the dashpots carry nothing."""
+    """Return the limits of contacts of radii up to `radius` (m).
+
+    With `slow`, the dashpots carry no force.
+    """
     limits = [_slope_limit(profile, radius), *_body_limit(profile, radius)]
     if np.any(np.asarray(medium.eta) > 0):
         limits.extend(_viscosity_limit(medium) if slow else _poisson_limit(medium))
@@ -50,7 +52,7 @@ def contact_limits(profile, medium, radius, *, slow=False):
 
 
 def _slope_limit(profile, radius):
-    """Largest slope of the indenter within the contact: that at its edge, or the mean up to there."""
+    """Return the limit for the slope within the contact: at its edge, or the mean up to the edge."""
     a = np.asarray(radius) if profile.shape else np.max(radius, initial=0.0)
     height = profile.height_at(a)
     inside = profile.height_at(a * (1 - 1e-6))
@@ -63,7 +65,7 @@ def _slope_limit(profile, radius):
     if value > _NEEDLE and isinstance(profile, Cone):
         text += (
             ": the half-space approximation does not hold for such a needle. The slope is the "
-            "cotangent of the half-angle: check that no angle is given for it, and that a half-angle "
+            "cotangent of the half-angle: check that the slope is not an angle, and that a half-angle "
             "is in degrees, not in radians."
         )
     elif value >= 1:
@@ -76,7 +78,7 @@ def _slope_limit(profile, radius):
 
 
 def _body_limit(profile, radius):
-    """Contact radius over the radius of the body, if the profile has one."""
+    """Yield the limit for the contact radius over the radius of the body, if the profile has a radius."""
     if np.all(profile.body_radius == np.inf):
         return
     value = float(np.max(radius / profile.body_radius, initial=0.0))
@@ -91,7 +93,7 @@ def _body_limit(profile, radius):
 
 
 def _modulus_limit(medium):
-    """Modulus that is softer or stiffer than any medium, as one given in GPa for Pa."""
+    """Yield a limit for a modulus beyond those of real media, for example in GPa instead of Pa."""
     softest = float(np.min(medium.E_star, initial=np.inf))
     stiffest = float(np.max(medium.E_star, initial=0.0))
     text = "The effective modulus E* is {}: check that it is given in Pa."
@@ -102,30 +104,33 @@ def _modulus_limit(medium):
 
 
 def _critical_depth_limit(medium):
-    """Critical depth below the size of an atom, as of a q_c in other units."""
+    """Yield a limit for a critical depth below the size of an atom, for example from q_c in other units."""
     if not medium.inverse_to_radius:
         return
     depths, q_c = np.broadcast_arrays(medium.critical_depth, medium.q_c)
-    # Curves that could not be fitted have NaN.
+    # The critical depth is NaN for curves without a fit.
     small = depths < _ATOM
     if not np.any(small):
         return
     least, q_c = float(np.min(depths[small])), float(np.min(q_c[small]))
     text = (
-        f"The critical depth π q_c/(2E*) is {engineering(least, 'm')}, less than an atom (0.1 nm), so that "
-        f"the medium carries nearly no force: check that q_c = {q_c:.3g} is a yield constant in N/m."
+        f"The critical depth π q_c/(2E*) is {engineering(least, 'm')}, less than an atom (0.1 nm), so "
+        f"the medium carries almost no force: check that q_c = {q_c:.3g} is a yield constant in N/m."
     )
     yield Limit("critical depth", least, _ATOM, True, text)
 
 
 def _hardness_limit(medium):
-    """Hardness H alone over the effective modulus, of a medium that there is: fused silica has 0.16."""
+    """Yield a limit for H/E* beyond real media, if H is the only hardness constant.
+
+    Fused silica has H/E* = 0.16.
+    """
     hardness = np.asarray(0.0 if medium.has_own_law else medium.hardness)
     ratio = hardness / medium.E_star
     alone = (ratio > 0) & ~(np.asarray(medium.q_c) + np.asarray(medium.f_c) > 0)
     for bad, bound, what in (
-        (alone & (ratio < _SOFT), _SOFT, "less than of any medium"),
-        (alone & (ratio > _HARD), _HARD, "more than of any medium"),
+        (alone & (ratio < _SOFT), _SOFT, "less than for any medium"),
+        (alone & (ratio > _HARD), _HARD, "more than for any medium"),
     ):
         if np.any(bad):
             value, given, _ = (part[bad][0] for part in np.broadcast_arrays(ratio, hardness, bad))
@@ -137,10 +142,10 @@ def _hardness_limit(medium):
 
 
 def _flow_limit(profile, medium, radius):
-    """Contact area of a contact that flows over that of this model.
+    """Yield the ratio of the contact area with plastic flow to the contact area of this model.
 
-    A hardness makes a contact flow where a σ_c grows with a, as of H, and not where q_c/a or f_c/a² is most
-    of it: d(a σ_c)/da over σ_c is 1, 0 and −1 of these.
+    A contact flows if a σ_c grows with a, as for H, but not if q_c/a or f_c/a² dominates the hardness. The
+    ratio of d(a σ_c)/da to σ_c is 1 for H, 0 for q_c/a and −1 for f_c/a².
     """
     reached = np.asarray(radius) > 0
     a = np.where(reached, radius, 1.0)
@@ -148,24 +153,24 @@ def _flow_limit(profile, medium, radius):
         share = law_numbers(medium.law, "line_load_rate", a) / law_numbers(medium.law, "at", a)
     if not np.any(reached & (share > _FLOWS)):
         return
-    text, value = "On loading the model has the contact radius of an elastic contact, ", 2.0
+    text, value = "On loading the model has the contact radius of an elastic contact", 2.0
     if isinstance(profile, Cone):
         value = np.pi**2 / 4
-        text += "2/π of that of plastic flow, which leads to 2.5 times the area."
+        text += ". With plastic flow the radius is π/2 times as large, and the area 2.5 times."
     elif np.all(profile.body_radius < np.inf):
-        text += "a² = R d under a ball; plastic flow leads to a² = 2 R d."
+        text += ", a² = R d under a ball. With plastic flow a² = 2 R d."
         if not medium.has_own_law:
             text += (
                 " Under a ball yield starts at a mean pressure of 2H/3, and the restitution is about 0.7 "
                 "times the value of Johnson's law for metals."
             )
     else:
-        text += "and plastic flow leads to a larger one, of a ball with twice the area."
+        text += ". With plastic flow the radius is larger, and the area under a ball is twice as large."
     yield Limit("flow", value, 1.0, True, text, severe=False)
 
 
 def _tabor_limit(profile, medium):
-    """Tabor's parameter, if there is adhesion and the tip has a radius of curvature."""
+    """Yield the limit for Tabor's parameter, if the medium is adhesive and the tip is curved."""
     w = np.asarray(medium.work_of_adhesion)
     curvature = _tip_radius(profile) if np.any(w > 0) else None
     if curvature is None:
@@ -180,23 +185,23 @@ def _tabor_limit(profile, medium):
 
 
 def _facet_limit(profile, medium):
-    """About the relative error of the pull-off from samples of a smooth tip, if there is adhesion.
+    """Estimate the relative error of the pull-off force due to samples of a smooth tip, with adhesion.
 
-    There a ḡ′ = 3Δl/2 with the mean slope ḡ′ of a facet. Its inner vertex, of radius r and bend β, bows g
-    by up to β √(2rh)/4 over its length h; times a this is a force over 2E*, and that of the pull-off is
-    about a Δl/2.
+    At pull-off a ḡ′ = 3Δl/2 with the mean slope ḡ′ of a facet. The inner vertex of the facet, of radius r
+    and bend β, bows g by up to β √(2rh)/4 over the length h of the facet. This deviation times a is a force
+    over 2E*; the pull-off force over 2E* is about a Δl/2.
     """
     ratio = np.ravel(medium.work_of_adhesion / medium.E_star)
     ratio = ratio[ratio > 0]
     if not isinstance(profile, Sampled) or not ratio.size:
         return
     r, g, bend = bent_vertices(profile)
-    # A polygon with one bend or none is a shape of its own.
+    # A polygon with at most one bend is not a sampled smooth tip.
     if r.size < 4:
         return
     length = np.diff(r)
     slope = np.diff(g) / length
-    # Within the first facet the tip is sharp: the second one says whether it is rounded.
+    # Within the first facet the tip is sharp; the second facet shows whether it is rounded.
     facet = np.clip(np.searchsorted(r[1:] * slope**2 / (4.5 * np.pi), ratio), 1, slope.size - 1)
     error = 0.75 * bend * np.sqrt(2 * r[:-1] * length) / (r[1:] * slope)
     value = float(error[facet].max())
@@ -207,7 +212,7 @@ def _facet_limit(profile, medium):
 
 
 def _tip_radius(profile):
-    """Radius of curvature (m) at the tip, None where it is flat or sharp."""
+    """Return the radius of curvature (m) at the tip, or None for a flat or sharp tip."""
     radius = getattr(profile, "tip_radius", None)
     if radius is not None:
         return radius
@@ -215,7 +220,10 @@ def _tip_radius(profile):
 
 
 def _poisson_limit(medium):
-    """Poisson ratio of the dashpots, if there is one: else all constants relax with the same time."""
+    """Yield the limit for the Poisson ratio of the dashpots.
+
+    Without a Poisson ratio all constants relax with the same time, and there is no limit.
+    """
     if medium.poisson is None:
         return
     value = float(np.min(medium.poisson))
@@ -227,14 +235,14 @@ def _poisson_limit(medium):
 def _viscosity_limit(medium):
     value = float(np.max(medium.relaxation_time))
     text = (
-        "A path without times is quasi-static, so that the viscosity has no effect (τ = "
+        "A path without times is quasi-static, so the viscosity has no effect (τ = "
         f"{engineering(value, 's')}). To include viscosity, prescribe the path in time."
     )
     yield Limit("viscosity", value, 0.0, True, text, severe=False)
 
 
 def jump_limits(jumps):
-    """Limits of a path given by force that jumps between depths (m)."""
+    """Yield limits of a path of prescribed force that jumps between depths (m)."""
     for first, last in jumps:
         text = (
             "On loading the force decreases after the onset of yield: a path of prescribed force jumps "
@@ -245,7 +253,10 @@ def jump_limits(jumps):
 
 
 def friction_limits(medium):
-    """Limits of the model of friction; ν/(4 − 2ν) is the slip across the velocity over that along it."""
+    """Yield the limits of the model of friction.
+
+    The ratio of slip across the velocity to slip along the velocity is ν/(4 − 2ν).
+    """
     nu = float(np.min(medium.poisson))
     value = (1 - 2 * nu) / (2 - 2 * nu)
     text = "Normal and tangential displacements are taken as uncoupled"
@@ -257,7 +268,7 @@ def friction_limits(medium):
 
 
 def stick_limits(error, tolerance, depth, mass):
-    """Limits of impacts in which elements stick: largest error, allowed one, d_max/u_c, m over m_t."""
+    """Yield limits of impacts with stick, from the largest error, its tolerance, d_max/u_c and m/m_t."""
     exceeded = error > tolerance
     text = (
         f"The error of the tangential velocity or force, {error:.2g}, exceeds the tolerance {tolerance:.2g}"
@@ -279,7 +290,7 @@ def stick_limits(error, tolerance, depth, mass):
 
 
 def speed_limit(speed, medium, density):
-    """The largest speed (m/s) over the wave speed √(E*/ρ) of a medium of density ρ (kg/m³)."""
+    """Return the limit for the speed (m/s) over the wave speed √(E*/ρ), with the density ρ (kg/m³)."""
     density = check.positive("density", density, unit="kg/m³")
     value = float(np.max(speed / np.sqrt(medium.E_star / density)))
     text = f"The speed is {value:.3g} times the wave speed √(E*/ρ)"
@@ -292,25 +303,25 @@ def speed_limit(speed, medium, density):
 
 
 def path_limits(path):
-    """Limits of the states of an `Indentation`."""
+    """Return the limits of the states of an `Indentation`."""
     limits = contact_limits(path.profile, path.medium, path.contact_radius, slow=not path.in_time)
     return Limits((*limits, *jump_limits(path.jumps)))
 
 
 def impact_limits(hit):
-    """Limits of an `Impact`, that of the fast limit (23), (24) included."""
+    """Return the limits of an `Impact`, including the fast limit (23), (24)."""
     limits = contact_limits(hit.profile, hit.medium, hit.contact_radius)
     return Limits((*limits, *structure_limits(hit), *fast_impact_limits(hit)))
 
 
 def chain_limits(hit):
-    """Limits of a `ChainImpact`."""
+    """Return the limits of a `ChainImpact`."""
     limits = contact_limits(hit.profile, hit.medium, hit.contact_radius)
     return Limits((*limits, *structure_limits(hit)))
 
 
 def fast_impact_limits(hit):
-    """`Limit`s of the fast limit (23), (24) for an `Impact`, from its errors; none without yield."""
+    """Return the `Limit` for the fast limit (23), (24) of an `Impact` from its errors, if it yields."""
     first_class = hit.medium.inverse_to_radius and hit.structure.rigid
     if not (first_class and np.any(hit.plastic_depth_increase > 0)):
         return ()
@@ -327,7 +338,7 @@ def fast_impact_limits(hit):
     limit = hit.fast_limit
     errors = limit.contact_area_error, limit.max_depth_error
     area, depth = (float(np.ravel(error)[np.argmax(np.abs(error))]) for error in errors)
-    # Without yield errors may cross zero by chance, hence the share of the viscous work is a criterion too.
+    # Without yield the errors may cross zero by chance, so the share of the viscous work also counts.
     viscous = float(np.max(hit.viscous_work / (hit.mass * hit.speed**2 / 2)))
     value = max(abs(area), abs(depth), viscous)
     exceeded = value > MAX_ERROR or not first

@@ -11,7 +11,7 @@ _UNLOADING = (_MEASURED, line("unloading", "elastic"), line("contact depth h_c",
 
 
 def plot_measured(heading, samples):
-    """Measured force (N) over depth (m) of curves, each a pair of depths and forces."""
+    """Plot the measured force (N) over depth (m) of curves, each a pair of depths and forces."""
     # One line with gaps: a thousand separate lines would be slow.
     parts = zip(*samples, strict=True)
     depth, force = (np.concatenate([[*each, np.nan] for each in part])[:-1] for part in parts)
@@ -19,7 +19,7 @@ def plot_measured(heading, samples):
 
 
 def plot_unloading(heading, depth, force, law, contact_depth):
-    """A measured curve, the fitted unloading (depths and forces), and its contact depth (m)."""
+    """Plot a measured curve, the fitted unloading (depths and forces), and its contact depth (m)."""
     mark = np.full(2, contact_depth), np.array([0.0, np.nanmax(force)])
     columns = {"measured": (depth, force), "unloading": law, "contact depth h_c": mark}
     return overlay(heading, _UNLOADING, columns, _axes(depth, force))

@@ -1,4 +1,4 @@
-"""Plots of results as HoloViews elements, which is imported when a result is plotted."""
+"""Plots of results as HoloViews elements. HoloViews is imported when a result is plotted."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from .springs import REST, SPRING_ROWS, springs
 
 
 def overlay(heading, rows, columns, axes):
-    """A plot as a HoloViews overlay, with one element for each row that has data."""
+    """Return a plot as a HoloViews overlay, with one element for each row with data."""
     hv = imported("holoviews", "a plot", "holoviews bokeh")
     if not hv.Store.loaded_backends():
         hv.extension("bokeh", logo=False)
@@ -33,7 +33,7 @@ def overlay(heading, rows, columns, axes):
             element = hv.Polygons([{dims[0].name: x, dims[1].name: y}], dims, **named)
         else:
             element = hv.Labels(([x], [y], text), dims, "text")
-        # HoloViews knows no hatches.
+        # HoloViews does not support hatches.
         look = {name: value for name, value in row.look_in(False).items() if "hatch" not in name}
         made.append(element.opts(backend="bokeh", **look) if bokeh else element)
     look = {"title": heading, "width": 600, "height": 400, "show_grid": True, "legend_position": "right"}
@@ -42,7 +42,7 @@ def overlay(heading, rows, columns, axes):
 
 
 def plot_curve(result, quantity, over):
-    """A quantity of a result over another one: `Result.plot`."""
+    """Plot a quantity of a result over another quantity: `Result.plot`."""
     quantities = quantities_of(result)
     for name in {quantity, over} - set(quantities):
         known = ", ".join(quantities)
@@ -61,7 +61,7 @@ def plot_curve(result, quantity, over):
 
 
 def _stores(path):
-    """Whether the area below the unloading of a path is what it stores: without adhesion."""
+    """Whether the area below the unloading of a path is its stored energy, as it is without adhesion."""
     return isinstance(path, Indentation) and path.shape[0] > 0 and not np.any(path.medium.work_of_adhesion)
 
 
@@ -72,7 +72,7 @@ def _axis_of(name, values):
 
 
 def plot_pressure(state):
-    """Contact pressure of one state: `Indentation.plot_pressure`."""
+    """Plot the contact pressure of one state: `Indentation.plot_pressure`."""
     half = _drawn_radius(state, "plot_pressure")
     top = 1.05 * figures.ceiling(state, half)
     bottom = -top if state.medium.work_of_adhesion > 0 else 0.0
@@ -84,7 +84,7 @@ def plot_pressure(state):
 
 
 def plot_springs(state):
-    """Springs of the 1D foundation in one state: `Indentation.plot_springs`."""
+    """Plot the springs of the 1D foundation in one state: `Indentation.plot_springs`."""
     half = _drawn_radius(state, "plot_springs")
     height = max(float(state.depth), float(state.live_interval.upper))
     base = -REST * height
@@ -96,7 +96,7 @@ def plot_springs(state):
 
 
 def _drawn_radius(state, what):
-    """Half-width (m) of a plot: the radius of the contact or of the imprint, and a quarter more."""
+    """Return the half-width (m) of a plot: 1.25 times the radius of the contact or of the imprint."""
     check_single(state, what)
     largest = max(float(state.contact_radius), float(state.plastic_radius))
     if not largest:

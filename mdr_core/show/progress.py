@@ -1,4 +1,4 @@
-"""Progress of long calculations, shown by tqdm where it is installed."""
+"""Progress of long calculations, shown by tqdm if it is installed."""
 
 import threading
 from collections.abc import Callable, Iterator
@@ -12,24 +12,24 @@ _DELAY = 2.0
 
 @contextmanager
 def progress(size: int, unit: str) -> Iterator[Callable[[int], object]]:
-    """A function to call with the number of further entries that are done; it shows their number of `size`.
+    """Show a progress bar for `size` entries; yield a function to call with the number of new entries.
 
-    Nothing is shown without tqdm, where the error output is no terminal (a pipe or a file), and in the
-    threads of dask, which has a bar of its own. `unit` is the word for what is counted, in the plural.
+    No bar appears without tqdm, or if the error output is not a terminal but a pipe or a file. Threads of
+    dask show none either, because dask has its own bar. `unit` is the plural name of the entries.
     """
     try:
         from tqdm.auto import tqdm
     except ImportError:
         yield lambda count: None
         return
-    # None hides the bar where the output is no terminal.
+    # None hides the bar if the output is not a terminal.
     hidden = None if threading.current_thread() is threading.main_thread() else True
     with tqdm(total=size, unit=f" {unit}", delay=_DELAY, disable=hidden, leave=False) as bar:
         yield bar.update
 
 
 def tracked_chunks(size: int, most: int, unit: str) -> Iterator[slice]:
-    """Yields slices of at most `most` of `size` rows, with the progress of what is done with them."""
+    """Yield slices of at most `most` of `size` rows, and show the progress."""
     with progress(size, unit) as done:
         for rows in chunks(size, most):
             yield rows

@@ -1,4 +1,4 @@
-"""Names, symbols and units of all quantities, and how their values are written."""
+"""Names, symbols and units of all quantities, and the text of their values."""
 
 from dataclasses import dataclass
 
@@ -20,7 +20,7 @@ class Quantity:
 
     @property
     def title(self):
-        """Symbol and long name, as an axis has them."""
+        """Symbol and long name, for an axis."""
         return f"{self.symbol}, {self.long_name}"
 
     @property
@@ -102,7 +102,7 @@ QUANTITIES = {
 
 
 def engineering(values, unit):
-    """Text of a number, or of the range of an array: four digits, and a unit with a prefix.
+    """Return a number, or the range of an array, as text: four digits, and a unit with a prefix.
 
     Examples
     --------
@@ -122,7 +122,7 @@ def engineering(values, unit):
 
 
 def unit_of(largest, unit):
-    """Unit in which a value has one to three digits before the point, of those of an SI unit.
+    """Return the multiple of an SI unit in which a value has one to three digits before the point.
 
     Examples
     --------
@@ -134,13 +134,13 @@ def unit_of(largest, unit):
 
 
 def _digits(value):
-    """Text of a number with four digits, without a power of ten below a million."""
+    """Return a number as text with four digits, without a power of ten below a million."""
     text = f"{value:.4g}"
     return f"{float(text):.0f}" if "e+05" in text or "e+04" in text else text
 
 
 def at_default(field, value):
-    """Whether a parameter has its default: constants of the hardness that are not given become 0 or ∞."""
+    """Whether a parameter has its default value; the default of a hardness constant becomes 0 or ∞."""
     if field.name in ("q_c", "hardness", "f_c"):
         return value in (0.0, np.inf)
     return value == field.default
@@ -151,7 +151,7 @@ _OF_STRUCTURE = {"stiffness": Quantity("K", "N/m", "stiffness of the support")}
 
 
 def described(thing):
-    """One line on a profile, a medium or a structure: its name, and its parameters but for defaults."""
+    """Describe a profile, a medium or a structure in one line: its name, and parameters not at defaults."""
     parts = [type(thing).__name__]
     own = _OF_STRUCTURE if isinstance(thing, Structure) else {}
     for name, field in thing.__dataclass_fields__.items():

@@ -1,6 +1,6 @@
-"""How results are shown: text, tables and datasets.
+"""Text, tables and datasets of results.
 
-Every function takes a result; `rows` and `limit_rows` can be given for a class of results of its own.
+Every function takes a result. A class of results can register its own `rows` and `limit_rows`.
 """
 
 import html
@@ -12,21 +12,21 @@ import numpy as np
 from ..base.results import Presentation
 from .quantities import QUANTITIES, described, engineering, unit_of
 
-#: Quantities of results with more entries are not computed in order to be shown.
+#: The text of a result with more entries computes no quantities.
 _MANY = 1000
-#: Lines of a result's `repr`.
+#: Largest number of lines in the `repr` of a result.
 _MOST_LINES = 12
-#: Limits that are exceeded in every scene of some tips and media.
+#: Limits that some tips and media exceed in every scene.
 _USUAL = {"slope", "flow"}
-#: Quantities that are given, not computed.
+#: Prescribed quantities.
 _GIVEN = {"depth", "time", "mass", "speed", "tangential_speed", "friction", "tangential_mass"}
 
 
 def with_error(value, error, unit):
-    """A number and its standard error as text, with one unit and two digits of the error.
+    """Return a number and its standard error as text, with one unit and two digits of the error.
 
-    Of many numbers, without those that are NaN, it is the range, and the median of the errors. An error
-    below 10⁻⁶ of the number is that of the arithmetic, and left out.
+    For an array, return the range of the numbers and the median of their errors, without NaN. The text
+    omits an error below 10⁻⁶ of the number, which comes from the arithmetic.
     """
     known = ~np.isnan(value)
     if not np.any(known):
@@ -48,7 +48,7 @@ def with_error(value, error, unit):
 
 
 def imported(name, what, packages=None):
-    """An optional package, or an error that names what is to be installed for a purpose `what`."""
+    """Import an optional package; the error for a purpose `what` says how to install the package."""
     try:
         return import_module(name)
     except ImportError:
@@ -57,10 +57,10 @@ def imported(name, what, packages=None):
 
 
 def table(result):
-    """A table of all quantities in SI units, one row for each state or impact.
+    """Return a table of all quantities in SI units, one row for each state or impact.
 
-    `attrs` has the model, the indenter and the medium, and "units" and "long_names" by the names of the
-    columns. Array-valued parameters of indenter and medium have columns of their own.
+    `attrs` has the model, the indenter and the medium, and "units" and "long_names" by column name.
+    Array-valued parameters of the indenter and the medium have separate columns.
     """
     pandas = imported("pandas", "to_pandas()")
     absent = _absent(result)
@@ -80,7 +80,7 @@ def table(result):
 
 
 def _absent(result):
-    """Names of quantities that are 0 because medium and structure lack what they are of."""
+    """Return the names of quantities that are 0 without viscosity, adhesion or a structure."""
     source = Presentation(result).source
     if source is None:
         return set()
@@ -92,7 +92,7 @@ def _absent(result):
 
 
 def dataset(result):
-    """A dataset of all quantities, each with its `units`, `long_name` and symbol as attributes.
+    """Return a dataset of all quantities, each with its `units`, `long_name` and symbol as attributes.
 
     Prescribed quantities (depth, time, mass, speed, array-valued parameters) are coordinates.
     """
@@ -107,7 +107,7 @@ def dataset(result):
 
 
 def dimensions(result):
-    """Names of the dimensions; the last one counts the states of a path."""
+    """Return the names of the dimensions; the last dimension counts the states of a path."""
     names, count = Presentation(result).dimensions, len(result.shape)
     if count <= len(names):
         return names[len(names) - count :]
@@ -115,7 +115,7 @@ def dimensions(result):
 
 
 def _parameters(result):
-    """Array-valued parameters of profile and medium, by name."""
+    """Return the array-valued parameters of profile, medium and structure by name."""
     source, parameters = Presentation(result).source, {}
     for owner in owners(source) if source else ():
         values = {name: getattr(owner, name) for name in owner.__dataclass_fields__}
@@ -124,14 +124,14 @@ def _parameters(result):
 
 
 def owners(source):
-    """What has parameters: profile and medium, and the structure of an impact that has one."""
+    """Return the objects with parameters: profile, medium and, if there is one, the structure."""
     structure = getattr(source, "structure", None)
     given = () if structure is None or structure.rigid else (structure,)
     return source.profile, source.medium, *given
 
 
 def attributes(result):
-    """Attributes of a table or a dataset, all of them texts."""
+    """Return the attributes of a table or a dataset, all as text."""
     about = Presentation(result)
     source, texts = about.source, {"result": about.name}
     if source:
@@ -142,7 +142,7 @@ def attributes(result):
 
 
 def title(result):
-    """First line of the `repr`: the name, the number of entries and the model."""
+    """Return the first line of the `repr`: the name, the number of entries and the model."""
     about = Presentation(result)
     noun = about.noun if np.prod(result.shape) == 1 else f"{about.noun}s"
     size = f"{' × '.join(map(str, result.shape)) or 'one'} {noun}"
@@ -151,14 +151,14 @@ def title(result):
 
 @singledispatch
 def rows(result):
-    """Pairs of a label and a text, one for each line of the `repr`."""
+    """Yield pairs of a label and a text, one for each line of the `repr`."""
     about, many = Presentation(result), np.prod(result.shape) > _MANY
     if source := about.source:
         names = "indenter", "medium", "structure"
         yield from zip(names, map(described, owners(source)), strict=False)
     for name in about.shown:
         quantity, label = QUANTITIES[name], name.replace("_", " ")
-        # Quantities of a large ensemble are shown if they are there already.
+        # Show quantities of a large ensemble only if they are already computed.
         stored = name in _GIVEN or name in vars(result)
         text = engineering(getattr(result, name), quantity.unit) if stored or not many else f".{name}"
         yield f"{label} {quantity.symbol}", text
@@ -166,11 +166,11 @@ def rows(result):
 
 @singledispatch
 def limit_rows(result, most):
-    """Rows on the limits that are exceeded, `most` at the most; none for a large ensemble."""
+    """Yield up to `most` rows on exceeded limits, and no rows for a large ensemble."""
     if np.prod(result.shape) > _MANY:
         return
     limits = [x for x in Presentation(result).limits if x.exceeded and x.concerns == "result"]
-    # A pyramid always exceeds the usual ones: others are seen first.
+    # A pyramid always exceeds the usual limits: list the other limits first.
     rare = [limit for limit in limits if limit.severe or limit.what not in _USUAL]
     first = rare if len(rare) <= most - (len(rare) < len(limits)) else rare[: max(most - 1, 0)]
     yield from (("limit", limit.sentence) for limit in first)
@@ -179,19 +179,19 @@ def limit_rows(result, most):
 
 
 def text(result):
-    """The `repr` of a result."""
+    """Return the `repr` of a result."""
     lines = [(label, f"{text:.140}") for label, text in rows(result)]
     lines += limit_rows(result, _MOST_LINES - 1 - len(lines))
     return lines_of(title(result), lines)
 
 
 def lines_of(title, rows):
-    """Text of a title and of rows with a label and a text each."""
+    """Format a title and rows of a label and a text."""
     return "\n".join([title, *(f"  {label:<24} {text}" for label, text in rows)])
 
 
 def table_of_text(result):
-    """The same as `text` as a table in HTML."""
+    """Return the content of `text` as an HTML table."""
     cells = "".join(
         f"<tr><th style='text-align:left'>{html.escape(label)}</th>"
         f"<td style='text-align:left'>{html.escape(text)}</td></tr>"
@@ -201,14 +201,14 @@ def table_of_text(result):
 
 
 def parameters_as_html(thing):
-    """The parameters of a profile, a medium or a structure, but for defaults, as a table in HTML."""
+    """Return the parameters of a profile, a medium or a structure, except defaults, as an HTML table."""
     kind, *given = described(thing).split(", ")
     cells = "".join(f"<tr><td style='text-align:left'>{html.escape(each)}</td></tr>" for each in given)
     return f"<table><caption>{html.escape(kind)}</caption>{cells}</table>"
 
 
 def limits_as_html(limits):
-    """Limits of a result as a table in HTML."""
+    """Return the limits of a result as an HTML table."""
     cells = "".join(
         f"<tr><th style='text-align:left'>{html.escape(each.what)}</th><td>{each.level}</td>"
         f"<td style='text-align:left'>{html.escape(each.sentence)}</td></tr>"
@@ -218,7 +218,7 @@ def limits_as_html(limits):
 
 
 def foundation_text(foundation):
-    """The `repr` of a `Foundation`."""
+    """Return the `repr` of a `Foundation`."""
     width, moves = engineering(foundation.half_width, "m"), len(foundation.history)
     title = f"Foundation: {foundation.n} elements to ±{width}, after {moves} moves"
     return lines_of(

@@ -1,10 +1,11 @@
-"""The springs of the 1D foundation as they are drawn: rows, and their columns in SI units."""
+"""Drawing of the springs of the 1D foundation: rows, and their columns in SI units."""
 
 import numpy as np
 
 from .figures import RADII, area, at_radii, both, line
 
-#: Number of springs; heights of the vertices of one from base (0) to top (1), and their offsets; a gap.
+#: Number of springs. Heights of the vertices of one spring from base (0) to top (1), and their offsets,
+#: each with a gap at the end.
 SPRINGS = 60
 _ALONG = np.array([0, 0.14, 0.23, 0.41, 0.59, 0.77, 0.86, 1, np.nan])
 _BEND = np.array([0, 0, -0.72, 0.72, -0.72, 0.72, 0, 0, np.nan])
@@ -23,12 +24,12 @@ SPRING_ROWS = (
 
 
 def reduced(profile, x):
-    """Reduced profile (m), NaN beyond the known radius."""
+    """Return the reduced profile (m), NaN beyond the known radius."""
     return np.where(x <= profile.known_radius, profile.reduced(np.minimum(x, profile.known_radius)), np.nan)
 
 
 def _outline(profile, half):
-    """Coordinates of the profile g(x) on both sides, with its wall and its edges."""
+    """Return coordinates of the profile g(x) on both sides, with its wall and its edges."""
     edges = [profile.face_radius, profile.wall, profile.wall * (1 + 1e-9)]
     x = np.unique(np.append(np.linspace(0, half, 60), [edge for edge in edges if edge < half]))
     g = reduced(profile, x)
@@ -37,7 +38,7 @@ def _outline(profile, half):
 
 
 def _places(half, state):
-    """Coordinates of springs; two are moved into an elastic ring that is narrower than their distance."""
+    """Return the coordinates of the springs; two springs are moved into a very narrow elastic ring."""
     x = half * (2 * (np.arange(SPRINGS) + 0.5) / SPRINGS - 1)
     a, c = float(state.contact_radius), float(state.plastic_radius)
     if 0 < c < a and not ((np.abs(x) > c) & (np.abs(x) < a)).any():
@@ -47,7 +48,7 @@ def _places(half, state):
 
 
 def _tops(state, x, relaxing=lambda g: 0.0):
-    """Of springs at x: heights g of the indenter, plastic depths, contact, and where they end."""
+    """Return for springs at x: heights g of the indenter, plastic depths, contact, heights of the tops."""
     g, interval = reduced(state.profile, np.abs(x)), state.live_interval
     left = np.fmax(interval.lower - g, 0.0)
     contact = (state.contact_radius > 0) & (g < interval.upper)
@@ -55,7 +56,7 @@ def _tops(state, x, relaxing=lambda g: 0.0):
 
 
 def spring_line(state, half, relaxing=lambda g: 0.0):
-    """The line through the ends of all springs for |x| < `half` (m)."""
+    """Return the line through the tops of all springs for |x| < `half` (m)."""
     a, c = float(state.contact_radius), float(state.plastic_radius)
     edges = [side * radius * (1 + near) for radius in (a, c) for side in (-1, 1) for near in (-1e-6, 1e-6)]
     x = np.unique(np.clip([*np.linspace(-half, half, 161), *edges], -half, half))
@@ -63,11 +64,11 @@ def spring_line(state, half, relaxing=lambda g: 0.0):
 
 
 def springs(state, half, base, height, relaxing=lambda g: 0.0, along=None):
-    """Springs for |x| < `half` (m) from their base (m) up, below an indenter that is drawn up to a height.
+    """Return rows of the springs for |x| < `half` (m) and of the indenter.
 
-    `relaxing` gives the elastic compression (m) of released elements at reduced heights. With friction,
-    `along` gives the tangential displacement (m) of elements at radii, and whether they stick; it is drawn
-    with half the scale of depths.
+    The plot extends from `base` to `height` (m). `relaxing` maps reduced heights to the elastic compression
+    (m) of released elements. With friction, `along` maps radii to the tangential displacement (m) of
+    elements, and whether they stick. The scale of this displacement is half the scale of depths.
     """
     profile, interval, far = state.profile, state.live_interval, 3 * height
     x = _places(half, state)
@@ -75,7 +76,7 @@ def springs(state, half, base, height, relaxing=lambda g: 0.0, along=None):
     lean, stick = (0.0 * x, None) if along is None else along(np.abs(x))
     lean = np.where(contact, lean, 0.0)[:, None] * (half / 2 / height) * _ALONG
     path = x[:, None] + _BEND * half / SPRINGS + lean, base + (top[:, None] - base) * _ALONG
-    # Springs carry tension with adhesion only.
+    # Springs carry tension only with adhesion.
     adhesive = state.medium.work_of_adhesion > 0
     stretched = contact & adhesive & (np.maximum(g, interval.lower) > state.depth)
     states = {
@@ -94,10 +95,10 @@ def springs(state, half, base, height, relaxing=lambda g: 0.0, along=None):
         np.concatenate([shape_x[:1], shape_x, shape_x[-1:]]),
         np.concatenate([edge, body, edge]),
     )
-    # The same as a line, which ends at the upper edge of the plot.
+    # The same outline as a line; the plot cuts it at the upper edge.
     rows["edge"] = rows["profile g(x)"]
     if interval.lower > 0:
         rows["residual imprint"] = shape_x, 0.0 - np.maximum(interval.lower - shape_g, 0)
     a, c = float(state.contact_radius), float(state.plastic_radius)
-    # Not through what is said of the state, above.
+    # The lines end below the text on the state, which is above.
     return rows | at_radii(a, c, half, base, 0.45 * height)

@@ -1,4 +1,4 @@
-"""Words of the field for quantities of results: hints of errors and the glossary are made of them."""
+"""Words of the field for quantities of results, used in hints of errors and in the glossary."""
 
 from typing import NamedTuple
 
@@ -9,11 +9,11 @@ class Synonyms(NamedTuple):
     Attributes
     ----------
     words : tuple of str
-        Terms as articles and instruments write them.
+        Terms of articles and instruments.
     meanings : tuple of tuple of str
-        Names of quantities: the first tuple counts of which a result has all names.
+        Names of quantities. The first tuple counts whose names are all in the result.
     note : str
-        What the glossary says besides.
+        Further explanation in the glossary.
     """
 
     words: tuple[str, ...]
@@ -22,7 +22,7 @@ class Synonyms(NamedTuple):
 
 
 def _synonyms(words, meanings, note=""):
-    """`Synonyms` of words between commas; names joined by "and", alternatives separated by semicolons."""
+    """Return `Synonyms` from words between commas, and names with "and", separated by semicolons."""
     return Synonyms(
         tuple(words.split(", ")), tuple(tuple(each.split(" and ")) for each in meanings.split("; ")), note
     )
@@ -42,7 +42,7 @@ SYNONYMS = (
     _synonyms(
         "peak force, maximum force, max load, peak load, F max",
         "max_force; force",
-        "Of a drop weight on a laminate: :doc:`composites`.",
+        "For a drop weight on a laminate see :doc:`composites`.",
     ),
     _synonyms(
         "depth, penetration, penetration depth, indentation, indentation depth, displacement, approach, "
@@ -84,7 +84,7 @@ SYNONYMS = (
     _synonyms(
         "contact stiffness, unloading stiffness",
         "stiffness",
-        "That of a measured curve is ``OliverPharr.stiffness``.",
+        "The stiffness of a measured curve is ``OliverPharr.stiffness``.",
     ),
     _synonyms("contact time, duration, impact duration, impact time, collision time", "contact_time"),
     _synonyms(
@@ -109,7 +109,7 @@ SYNONYMS = (
     _synonyms(
         "deflection of the plate, plate deflection",
         "deflection; max_deflection",
-        "`Motion.body_velocity` is the velocity of the body, with that of the plate.",
+        "`Motion.body_velocity` is the velocity of the body, including the velocity of the plate.",
     ),
     _synonyms("pull-off, pull-off force, adhesion force", "pull_off_force; turning_point"),
     _synonyms(
@@ -128,7 +128,7 @@ SYNONYMS = (
 
 
 def plain(word: str) -> str:
-    """A word or a name in small letters, without blanks, underscores, hyphens and apostrophes."""
+    """Return a word or a name in lower case, with letters and digits only."""
     return "".join(letter for letter in word.lower() if letter.isalnum())
 
 

@@ -1,4 +1,4 @@
-"""Units: numbers in SI as text in the unit that fits them."""
+"""Units, and SI numbers as text in the unit that fits."""
 
 from dataclasses import dataclass
 from math import floor, isfinite, log10, pi
@@ -6,17 +6,17 @@ from math import floor, isfinite, log10, pi
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit and its size in SI."""
+    """Unit and its size in SI."""
 
     name: str
     factor: float
 
     def fits(self, value: float) -> bool:
-        """Whether a value (SI) is written in this unit without a power of ten."""
+        """Whether a value (SI) in this unit needs no power of ten."""
         return value == 0 or 1e-3 <= abs(value) / self.factor < 1e5
 
 
-#: The units of each kind of quantity, smallest first; the one of factor 1 is the SI unit.
+#: Units of each kind of quantity, smallest first; the SI unit has factor 1.
 UNITS = {
     kind: tuple(Unit(name, size) for name, size in sizes.items())
     for kind, sizes in {
@@ -62,9 +62,9 @@ KINDS |= {"": "number", "rad": "angle"}
 
 
 def fitting(value: float, kind: str, like: float = 0.0) -> Unit:
-    """Unit in which a value (SI) has one to three digits before the point; areas up to four.
+    """Return the unit in which a value (SI) has one to three digits before the point, areas up to four.
 
-    Zero has the unit of the value `like`.
+    Zero gets the unit of the value `like`.
 
     Examples
     --------
@@ -76,14 +76,14 @@ def fitting(value: float, kind: str, like: float = 0.0) -> Unit:
     size = abs(value) if isfinite(value) and value else abs(like)
     if size == 0:
         return next((unit for unit in units if unit.factor == 1), units[0])
-    # A value a rounding error below the next unit is written in that unit: 1 mm, not 1000 µm.
+    # A value just below the next unit, by a rounding error, gets this next unit: 1 mm, not 1000 µm.
     pairs = zip(units[:0:-1], units[-2::-1], strict=True)
     fits = (unit for unit, below in pairs if min(unit.factor, 1e4 * below.factor) <= size * (1 + 1e-9))
     return next(fits, units[0])
 
 
 def digits(value: float, count: int = 4) -> str:
-    """A number with significant digits, very large and small ones as a × 10ⁿ."""
+    """Return a number with significant digits as text; very large and small numbers are a × 10ⁿ."""
     if not isfinite(value):
         return "∞" if value > 0 else "–"
     if value == 0:
@@ -97,7 +97,7 @@ def digits(value: float, count: int = 4) -> str:
 
 
 def written(value: float, kind: str, count: int = 4) -> str:
-    """A value (SI) as text with its unit.
+    """Return a value (SI) as text with its unit.
 
     Examples
     --------
@@ -112,5 +112,5 @@ def written(value: float, kind: str, count: int = 4) -> str:
 
 
 def with_unit(number: str, unit: str) -> str:
-    """A number with its unit; a space stands between them, but before the sign of a degree."""
+    """Join a number and its unit with a space, except before a degree sign."""
     return f"{number}{'' if unit == '°' else ' '}{unit}".strip()

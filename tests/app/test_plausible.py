@@ -194,7 +194,7 @@ def test_what_every_berkovich_has_stands_once_in_the_help():
     page = page_of()
     take_sample(page, "silica")
     assert "slopes" not in said(page)
-    assert "2.5 times the area" not in said(page)
+    assert "contact radius of an elastic contact" not in said(page)
     help_ = plain(HELP)
     for words in ("13 % for a Berkovich", "contact radius of an elastic contact", "200 nm", "77.1 GPa"):
         assert words in help_

@@ -167,5 +167,5 @@ def test_drifts_without_a_hold_are_refused(tmp_path):
     (tmp_path / "timeless.csv").write_text("h (nm), F (mN)\n0,0\n1,1\n2,4\n")
     timeless = mdr.read_curve(tmp_path / "timeless.csv")
     for refused in (timeless.drift, lambda: timeless.minus_drift(DRIFT)):
-        with pytest.raises(ValueError, match=r"timeless\.csv has no times, which a drift needs"):
+        with pytest.raises(ValueError, match=r"timeless\.csv has no times: a drift needs"):
             refused()

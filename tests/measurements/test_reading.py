@@ -167,7 +167,7 @@ def test_sheets_of_an_excel_file(tmp_path):
     curves = mdr.read_curves(tmp_path / "tests.xlsx")
     assert [curve.name for curve in curves] == ["tests.xlsx, Test 1", "tests.xlsx, Test 2"]
     (tmp_path / "page.xls").write_text("<html><table><tr><td>1</td></tr></table></html>")
-    with pytest.raises(ValueError, match=r"page\.xls is HTML or XML, and no Excel file: .* save it as"):
+    with pytest.raises(ValueError, match=r"page\.xls is HTML or XML.* save it as"):
         mdr.read_curve(tmp_path / "page.xls")
     (tmp_path / "zeros.xlsx").write_bytes(bytes(99))
     with pytest.raises(ValueError, match=r"zeros\.xlsx cannot be read as an Excel file: "):

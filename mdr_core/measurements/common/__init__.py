@@ -1,1 +1,1 @@
-"""What unloadings and fits share: columns, least squares, standard errors, doubts about numbers."""
+"""Common parts of unloadings and fits: columns, least squares, standard errors, doubts about numbers."""

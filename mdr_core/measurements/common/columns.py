@@ -1,4 +1,4 @@
-"""The columns of measured curves that are given as arrays, or as curves that were read from a file."""
+"""Columns of measured curves, from arrays or from `MeasuredCurve`s."""
 
 from dataclasses import dataclass, field
 from os import PathLike
@@ -12,16 +12,16 @@ from ...base.check import ArrayLike
 from ...base.remark import Remark
 from ..measured_curve import MeasuredCurve, MeasuredCurves
 
-#: What is given as times: ... is those of the curve.
+#: Type of the argument for times; ... stands for the times of the curve.
 Times = ArrayLike | EllipsisType | None
 
 
 @dataclass(frozen=True)
 class Columns:
-    """Depth, force and time of one curve, or lists of those of many, as they were given.
+    """Depth, force and time of one curve, or lists for many curves, unchanged.
 
-    `remarks` has those of each curve that was read; `unread` those on curves that are refused when they are
-    taken, by their numbers; `stiffness` that of a curve.
+    `remarks` has the remarks of each curve. `unread` has the errors of invalid curves by curve number.
+    `stiffness` is the stiffness of a single curve.
     """
 
     depth: Any
@@ -35,7 +35,7 @@ class Columns:
 
 
 def unread_of(curves):
-    """What a table says of files that are not read."""
+    """Return the line of a table about files that were not read."""
     unread = getattr(curves, "unread", {})
     return (
         {"files not read": "; ".join(f"{name}: {each}" for name, each in unread.items())} if unread else {}
@@ -43,7 +43,7 @@ def unread_of(curves):
 
 
 def columns_of(depth, force, time, *, skip=False):
-    """`Columns` of arrays, a `MeasuredCurve`, or many, of which those that are refused may be skipped."""
+    """Return the `Columns` of arrays, or of one or many `MeasuredCurve`s; `skip` allows invalid curves."""
     if isinstance(depth, MeasuredCurve):
         _refuse_force(force)
         time = depth.time if time is ... else time
@@ -60,28 +60,24 @@ def columns_of(depth, force, time, *, skip=False):
         return _of_many(depth, time, skip)
     if isinstance(depth, str | PathLike):
         raise check.MDRError(
-            f"depth is a path, {str(depth)!r}: read it first, by read_curve or read_curves"
+            f"depth is a path, {str(depth)!r}: read it first, with read_curve or read_curves"
         )
     if force is None:
-        raise check.MDRError(
-            "force is missing: give depth and force, or a MeasuredCurve in the place of depth"
-        )
+        raise check.MDRError("force is missing: give depth and force, or a MeasuredCurve instead of depth")
     if depth is None:
-        raise check.MDRError(
-            "depth is missing: give depth and force, or a MeasuredCurve in the place of depth"
-        )
+        raise check.MDRError("depth is missing: give depth and force, or a MeasuredCurve instead of depth")
     return Columns(depth, force, None if time is ... else time)
 
 
 def are_curves(depth):
-    """Whether what is given as depth are many measured curves."""
+    """Whether the argument `depth` is a collection of measured curves."""
     if isinstance(depth, MeasuredCurves):
         return True
     return isinstance(depth, list | tuple) and any(isinstance(each, MeasuredCurve) for each in depth)
 
 
 def places_of(curves):
-    """File of each of many measured curves, or its name, and its number in the file."""
+    """Return the file or the name of each curve, and its number in the file."""
     if isinstance(curves, MeasuredCurves):
         return curves.places
     return [(curve.name, 1) for curve in curves]
@@ -95,7 +91,7 @@ def _refuse_force(force):
 
 
 def _of_many(curves, time, skip):
-    """`Columns` of many curves; their times where all of them have times."""
+    """Return the `Columns` of many curves, with times if all curves have times."""
     taken, unread = [], {}
     for i in range(len(curves)):
         try:
@@ -126,7 +122,7 @@ def _of_many(curves, time, skip):
 
 
 def padded(name, values, unit):
-    """An array, or the arrays of a list with NaN up to the longest; NaN is a missing sample."""
+    """Return an array, or the arrays of a list padded with NaN; NaN is a missing sample."""
     if np.ma.is_masked(values):
         raise check.MDRError(f"{name} has masked samples: leave them out of depth and force")
     if not isinstance(values, list | tuple) or not any(map(np.ndim, values)):
@@ -141,9 +137,9 @@ def padded(name, values, unit):
 
 
 def arrays_of(given, *, single=False):
-    """Arrays of the same shape by name, from pairs of values and a unit, and the lengths of curves.
+    """Return arrays of the same shape by name, from pairs of values and a unit, and the lengths of curves.
 
-    One curve is (N,). Unless it must be a `single` one, many are (R, N), or lists of R arrays.
+    The shape of one curve is (N,). Unless `single` is true, many curves are (R, N), or lists of R arrays.
     """
     given = {name: pair for name, pair in given.items() if pair[0] is not None}
     arrays = {name: padded(name, *pair) for name, pair in given.items()}
@@ -153,7 +149,7 @@ def arrays_of(given, *, single=False):
         for i, counts in enumerate(zip(*lengths, strict=False) if ndim == 2 and not single else ()):
             if len(set(counts)) > 1:
                 shown = ", ".join(f"{name}[{i}] {n}" for name, n in zip(given, counts, strict=True))
-                raise check.MDRError(f"curve {i}: {shown} samples must be the same number")
+                raise check.MDRError(f"curve {i}: {shown} must have the same number of samples")
         shown = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
         many = "" if single else " or (R, N) for many"
         raise check.MDRError(f"{shown} must have the same shape, (N,) for one curve{many}")

@@ -1,4 +1,4 @@
-"""A table of E* and H of many curves, with the source of each modulus and the reason for it."""
+"""Table of E* and H of many curves, with the source of each modulus and the reason for this source."""
 
 from collections import Counter
 from dataclasses import dataclass, fields, replace
@@ -20,7 +20,7 @@ from .sample import sample_modulus
 if TYPE_CHECKING:
     import pandas
 
-#: Kinds of remarks that are no doubt about a number.
+#: Kinds of remarks that do not question a number.
 _NO_DOUBT = {"taken", "changed", "left out", "errors", "constant"}
 #: Heads of columns in files, with their units.
 _HEADS = {
@@ -32,7 +32,7 @@ _HEADS = {
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CurveTable:
-    """E* and H of many curves, a row for each: of `oliver_pharr`, or of a fit by ``fit.table()``.
+    """E* and H of many curves, one row for each, from `oliver_pharr` or from ``fit.table()``.
 
     Examples
     --------
@@ -54,9 +54,9 @@ class CurveTable:
       source of E*             unloading 3
     """
 
-    #: The tip, the method, and constants, in words.
+    #: Tip, method and constants as text.
     settings: dict[str, str]
-    #: File of each curve, or its name, and number of the curve in the file, from 1 on.
+    #: File or name of each curve, and number of the curve in the file, starting at 1.
     file: list[str]
     number: list[int]
     #: E*, H and their standard errors (Pa), NaN for a curve without a result.
@@ -64,14 +64,14 @@ class CurveTable:
     E_star_error: Array
     hardness: Array
     hardness_error: Array
-    #: Source of E*, "unloading", "fit" or nothing, and the reason. H is by Oliver and Pharr.
+    #: Source of E* ("unloading", "fit" or empty), and the reason. H is always by Oliver and Pharr.
     quoted: list[str]
     reason: list[str]
     remarks: list[str]
     #: Young's modulus of the sample and its standard error (Pa), None before `sample_modulus`.
     E: Array | None = None
     E_error: Array | None = None
-    #: Result of each curve, or the `Remark` with the reason why it is missing.
+    #: Result of each curve, or a `Remark` with the reason for a missing result.
     results: list[Any]
 
     def __len__(self) -> int:
@@ -87,7 +87,7 @@ class CurveTable:
             yield name, f"{mean}, mean ± standard deviation of {row['n']} of {len(self)} curves"
 
     def _doubts(self):
-        """Sources of E*, and of each kind of remark that is a doubt the first one, with their numbers."""
+        """Yield the sources of E*, and the first doubt of each kind, with their numbers of curves."""
         sources = Counter(self.quoted).most_common()
         yield "source of E*", ", ".join(f"{name or 'none'} {count}" for name, count in sources)
         found: dict[str, list[Remark]] = {kind: [] for kind in KINDS if kind not in _NO_DOUBT}
@@ -100,7 +100,7 @@ class CurveTable:
                 yield f"remark {kind}", f"{len(remarks)} of {len(self)} curves: {remarks[0]}"
 
     def _summary(self):
-        """Statistics of each quantity that a curve has."""
+        """Return the statistics of each quantity with a finite value."""
         rows = {}
         for name, column in {"E*": self.E_star, "hardness": self.hardness, "E": self.E}.items():
             values = np.array([]) if column is None else column[np.isfinite(column)]
@@ -112,9 +112,9 @@ class CurveTable:
         return rows
 
     def sample_modulus(self, nu: float, tip: tuple[float, float] | None = None) -> "CurveTable":
-        """The same table with Young's modulus of the sample, see `OliverPharr.sample_modulus`.
+        """Return the table with Young's modulus of the sample, see `OliverPharr.sample_modulus`.
 
-        Of curves that are stiffer than the tip it is NaN; raises ValueError if all are.
+        Young's modulus is NaN for curves stiffer than the tip. Raises ValueError if all curves are stiffer.
         """
         E, error = sample_modulus(self.E_star, self.E_star_error, nu, tip)
         text = "rigid tip" if tip is None else f"tip with {engineering(tip[0], 'Pa')} and {tip[1]:g}"
@@ -124,7 +124,7 @@ class CurveTable:
         return replace(self, E=frozen(E), E_error=frozen(error), settings=settings)
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """The table in SI units; `attrs` has the settings."""
+        """Return the table in SI units; `attrs` has the settings."""
         pandas = imported("pandas", "to_pandas()")
         table = pandas.DataFrame(self._columns(), index=pandas.RangeIndex(len(self), name="curve"))
         table.attrs.update(self.settings)
@@ -135,12 +135,12 @@ class CurveTable:
         return {name: column for name in names if (column := getattr(self, name)) is not None}
 
     def summary(self) -> "pandas.DataFrame":
-        """Number of curves, mean, standard deviation, median and quartiles (Pa) of E*, H and E."""
+        """Return number of curves, mean, standard deviation, median and quartiles (Pa) of E*, H and E."""
         table = imported("pandas", "summary()").DataFrame.from_dict(self._summary(), orient="index")
         return table.rename_axis("in Pa")
 
     def to_csv(self, file: str | PathLike[str] | TextIO) -> None:
-        """Write the table as CSV, after lines with settings and summary, which begin with #."""
+        """Write the table as CSV, after lines with settings and summary that begin with #."""
         head = [" ".join(f"{name}: {text}".split()) for name, text in self._head().items()]
         summary = self._summary()
         head += [",".join(("in Pa", *row)) for row in [*summary.values()][:1]]
@@ -155,7 +155,7 @@ class CurveTable:
             file.write(text)
 
     def to_excel(self, file: str | PathLike[str] | BinaryIO) -> None:
-        """Write settings, summary and table, one below the other, to a sheet of an Excel file."""
+        """Write settings, summary and table, one below the other, to one sheet of an Excel file."""
         imported("openpyxl", "to_excel()")
         pandas = imported("pandas", "to_excel()")
         head = pandas.Series({name: safe_cell(text) for name, text in self._head().items()})
@@ -169,17 +169,17 @@ class CurveTable:
                 book.sheets["curves"].column_dimensions[column].width = 24
 
     def _head(self):
-        """Settings and doubts, by their names."""
+        """Return settings and doubts by name."""
         return self.settings | dict(self._doubts())
 
     def plot(self) -> Any:
-        """Force over depth of all curves as a HoloViews element."""
+        """Plot the force over depth of all curves as a HoloViews element."""
         samples = [each.samples for each in self.results if not isinstance(each, Remark)]
         return plot_measured(f"{len(self)} curves", samples)
 
 
 def table_of(profile, places, results, settings):
-    """`CurveTable` of curves with files and numbers; a `Remark` takes the place of a missing result."""
+    """Return the `CurveTable` of curves with files and numbers; a `Remark` replaces a missing result."""
     rows = []
     with progress(len(results), "curves") as done:
         for each in results:

@@ -1,15 +1,15 @@
-"""Standard errors of fits, and the noise and the correlation of measured values."""
+"""Standard errors of fits, and noise and correlation of measured values."""
 
 import numpy as np
 
-#: Singular values below this share of the largest one leave their combination of parameters undetermined.
+#: A singular value below this share of the largest value leaves a combination of parameters undetermined.
 SINGULAR = 1e-11
 #: Number of standard errors above which a trend or a correlation is significant.
 SIGNIFICANT = 4.0
 
 
 def covariances(jacobian, variance):
-    """Covariance of scaled parameters (R, P, P); undetermined ones have infinite variance, covariance 0."""
+    """Return covariances of scaled parameters (R, P, P): variance ∞, covariance 0 for undetermined ones."""
     _, s, vt = np.linalg.svd(jacobian, full_matrices=False)
     largest = np.maximum(s[:, :1], 1e-150)
     singular = s <= SINGULAR * largest
@@ -25,7 +25,10 @@ def covariances(jacobian, variance):
 
 
 def roughness(values):
-    """Standard deviation of the noise of smooth rows (R, 1) from third differences, 0 for few samples."""
+    """Return the standard deviation (R, 1) of the noise of smooth rows; 0 for few samples.
+
+    The third differences of a row give its noise.
+    """
     if values.shape[1] < 8:
         return np.zeros((len(values), 1))
     # The median of absolute normal deviations is 0.6745, the variance of third differences 20.
@@ -34,22 +37,22 @@ def roughness(values):
 
 
 def autocorrelation(residual):
-    """Correlation of residuals with their neighbours along the last axis, 0 for noise."""
+    """Return the correlation of residuals with their neighbours along the last axis, 0 for noise."""
     power = np.sum(residual**2, axis=-1)
     return np.sum(residual[..., 1:] * residual[..., :-1], axis=-1) / np.maximum(power, 1e-300)
 
 
 def autocorrelations(residual):
-    """Correlation of residuals (N,) with those 0 to N − 1 samples later."""
+    """Return the correlation of residuals (N,) with the residuals 0 to N − 1 samples later."""
     count = residual.size
     products = np.fft.irfft(np.abs(np.fft.rfft(residual, 2 * count)) ** 2, 2 * count)[:count]
     return products / max(products[0], 1e-300)
 
 
 def block_length(residual):
-    """Number of samples over which residuals (N,) are correlated, 1 for noise.
+    """Return the number of samples over which residuals (N,) are correlated, 1 for noise.
 
-    The first lag at which the autocorrelation is not positive, at most a fifth of the samples.
+    It is the first lag at which the autocorrelation is not positive, at most a fifth of the samples.
     """
     correlation = autocorrelations(residual)
     if not np.any(correlation[1:2] > SIGNIFICANT / np.sqrt(residual.size)):
@@ -58,12 +61,13 @@ def block_length(residual):
 
 
 def block_factors(residual, jacobian, length):
-    """Standard errors with correlated residuals over those with independent ones, at least 1 (P,).
+    """Return standard errors with correlated over those with independent residuals, at least 1 (P,).
 
-    The variance of a parameter is the sum of (1 − k/length) ψ_i ψ_j r_i r_j over all pairs of samples that
-    are k = |i − j| < `length` apart, ψ the influence of a residual r on it (Newey & West, Econometrica 55,
-    1987, 703): the mean square of sums over overlapping blocks. Where few blocks determine a parameter
-    this is too small. With the mean of r_i r_j over all pairs instead it is not; the larger one counts.
+    The variance of a parameter is the sum of (1 − k/length) ψ_i ψ_j r_i r_j over all pairs of samples at a
+    distance k = |i − j| < `length`, with the influence ψ of a residual r on the parameter (Newey & West,
+    Econometrica 55, 1987, 703). This is the mean square of sums over overlapping blocks. It is too small if
+    few blocks determine a parameter. A second estimate has the mean of r_i r_j over all pairs instead and
+    is not too small. The larger estimate counts.
     """
     u, s, vt = np.linalg.svd(jacobian, full_matrices=False)
     influence = (u * np.where(s > SINGULAR * s[0], 1 / np.maximum(s, 1e-300), 0.0)) @ vt

@@ -7,10 +7,10 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Minimum:
-    """A minimum of the sum of squares of R problems, one a row.
+    """Minimum of the sum of squares of R problems, one problem in each row.
 
-    Scaled parameters x (R, P), residuals (R, N), their derivatives (R, N, P), and which parameters are at a
-    bound (R, P).
+    It has the scaled parameters x (R, P), residuals (R, N) and their derivatives (R, N, P). `at_bound`
+    (R, P) marks parameters at a bound.
     """
 
     x: np.ndarray
@@ -29,7 +29,7 @@ class Minimum:
         return max(self.residual.shape[1] - self.x.shape[1], 1)
 
     def replaced(self, rows, other, better):
-        """With the minima of `other`, which has the problems `rows`, where they are `better`."""
+        """Return a copy with the `better` minima of `other`, which has the problems `rows`."""
         arrays = {name: values.copy() for name, values in vars(self).items()}
         for name, values in arrays.items():
             values[rows[better]] = getattr(other, name)[better]
@@ -37,10 +37,10 @@ class Minimum:
 
 
 def least_squares(function, start, lower, upper, *, steps=200, tolerance=1e-11):
-    """`Minimum` by the Levenberg–Marquardt method between bounds (R, P), one problem a row.
+    """Return the `Minimum` by the Levenberg–Marquardt method between bounds (R, P), one problem per row.
 
-    `function(x, rows)` returns residuals (R, N) and derivatives (R, N, P) at scaled parameters x (R, P),
-    about 1, of the problems `rows`. SciPy solves one problem a call; here many curves share every step.
+    `function(x, rows)` returns residuals (R, N) and derivatives (R, N, P) of the problems `rows`, at scaled
+    parameters x (R, P) of about 1. SciPy solves one problem per call; here many curves share every step.
     """
     x = np.clip(start, lower, upper)
     rows, damping = np.arange(len(x)), np.full(len(x), 1e-4)
@@ -48,7 +48,7 @@ def least_squares(function, start, lower, upper, *, steps=200, tolerance=1e-11):
     cost = np.sum(residual**2, axis=1)
     for _ in range(steps if x.shape[1] else 0):
         derivatives, low, high = jacobian[rows], lower[rows], upper[rows]
-        # A parameter at a bound does not move across it.
+        # A parameter cannot cross its bound.
         gradient = np.einsum("rn,rnp->rp", residual[rows], derivatives)
         blocked = ((x[rows] <= low) & (gradient > 0)) | ((x[rows] >= high) & (gradient < 0))
         step = _step(residual[rows], np.where(blocked[:, None, :], 0.0, derivatives), damping[rows])
@@ -61,7 +61,7 @@ def least_squares(function, start, lower, upper, *, steps=200, tolerance=1e-11):
         x[improved], cost[improved] = trial[better], trial_cost[better]
         residual[improved], jacobian[improved] = trial_residual[better], trial_jacobian[better]
         damping[rows] *= np.where(better, 0.03, 10.0)
-        # Where no step, however short, improves the sum of squares, rounding is larger than the step.
+        # If not even a very short step improves the sum of squares, rounding exceeds the step.
         rows = rows[(size > tolerance) & (damping[rows] < 1e9)]
         if not rows.size:
             break

@@ -17,10 +17,11 @@ class SampleModulus(NamedTuple):
 
 
 def sample_modulus(E_star, standard_error, nu, tip=None):
-    """`SampleModulus` by 1/E* = (1 − ν²)/E + (1 − ν_t²)/E_t, Johnson (1985), Contact Mechanics, Eq. (4.5).
+    """Return the `SampleModulus` by 1/E* = (1 − ν²)/E + (1 − ν_t²)/E_t.
 
-    `nu` is the Poisson ratio of the sample, `tip` the modulus (Pa) and the Poisson ratio of the tip; None
-    is a rigid tip. Of many contacts those that are stiffer than the tip have NaN.
+    Johnson (1985), Contact Mechanics, Eq. (4.5). `nu` is the Poisson ratio of the sample. `tip` is the
+    modulus (Pa) and the Poisson ratio of the tip, or None for a rigid tip. If only some of many contacts
+    are stiffer than the tip, their results are NaN.
     """
     nu = poisson_ratio("Poisson ratio nu", nu)
     compliance = 0.0

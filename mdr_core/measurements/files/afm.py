@@ -1,4 +1,4 @@
-"""Read curves of AFM files by `afmformats`, and refuse other binary files."""
+"""Curves of AFM files by `afmformats`, and errors for other binary files."""
 
 import logging
 import re
@@ -17,15 +17,15 @@ from .hdf5 import refuse_outside
 from .packed import is_binary, refuse_large
 from .table import Table
 
-# Without a handler its errors would be printed beside the refusals.
+# Without a handler the package would print its errors next to the error messages.
 logging.getLogger("afmformats").addHandler(logging.NullHandler())
 
-#: Beginnings of the suffixes of AFM files that are no text.
+#: Beginnings of the suffixes of AFM files that are not text.
 SUFFIXES = ".jpk", ".h5", ".hdf5", ".ibw", ".zip"
-#: Text that only files of AFM instruments have.
+#: Text that occurs only in files of AFM instruments.
 _OF_AFM = re.compile(r"# afmformats |Force-Distance Curve|Device:\tChiaro")
 _GIVE = Remedy("give", "spring_constant"), Remedy("give", "sensitivity")
-#: What to do about errors of `afmformats`.
+#: Remedies for errors of `afmformats`.
 _CURES = {
     "MissingMetaDataError": ("", _GIVE),
     "NotImplementedError": (
@@ -34,7 +34,7 @@ _CURES = {
     ),
     "UnicodeDecodeError": ("; if it is packed, unpack it and read its files", ()),
 }
-#: What to export instead of files that are not read, by their suffixes.
+#: Exports that replace unsupported files, by suffix.
 _EXPORTS = {
     r"\.(spm|pfc|\d{3})": "NanoScope Analysis of Bruker: export the curve as ASCII text, with Ramp and "
     "Deflection in nm and pN or nN",
@@ -57,36 +57,34 @@ _EXPORT = (
 
 
 def refuse_binary(path, data):
-    """Refuse a file that is no text, with the export to make."""
+    """Raise MDRError for a binary file, with the export to make."""
     suffix = path.suffix.lower()
     known = next((text for pattern, text in _EXPORTS.items() if re.fullmatch(pattern, suffix)), None)
     if known is None and not is_binary(data):
         return
-    # Some programs give their text the suffix of their files.
+    # Some programs export text with the suffix of their binary files.
     if known is not None and not is_binary(data) and data.strip():
         return
-    raise check.MDRError(
-        f"{path.name} is a binary file in a format that cannot be read. Use {known or _EXPORT}"
-    )
+    raise check.MDRError(f"{path.name} is a binary file in an unsupported format. Use {known or _EXPORT}")
 
 
 def export_of(suffix):
-    """Sentence on what to export in place of a file with a suffix; empty if nothing is known."""
+    """Return a sentence on the export that replaces a file with a suffix, or an empty text."""
     known = next((text for pattern, text in _EXPORTS.items() if re.fullmatch(pattern, suffix)), "")
     return f". Use {known}" if known else ""
 
 
 def is_afm_text(text):
-    """Whether a text is one that `afmformats` reads."""
+    """Whether `afmformats` reads a text."""
     return bool(_OF_AFM.search(text[:2000]))
 
 
 @contextmanager
 def _refused(errors, path):
-    """Errors of `afmformats` as ValueErrors that say what to give."""
+    """Convert errors of `afmformats` to MeasurementErrors with remedies."""
     try:
         yield
-    # Most errors of this package are none that `except Exception` would handle.
+    # `except Exception` alone would not catch most errors of this package.
     except (Exception, errors.AFMFileFormatError, errors.MissingMetaDataError) as error:
         export = export_of(path.suffix.lower())
         cure, remedy = _CURES.get(type(error).__name__, (export, ()))
@@ -95,17 +93,17 @@ def _refused(errors, path):
 
 
 def _in_words(error, errors):
-    """What an error of `afmformats` says, and of others what they mean."""
+    """Return the message of an error of `afmformats`, or the meaning of another error."""
     if isinstance(error, KeyError):
-        return f"it lacks {error}"
+        return f"it has no {error}"
     own = errors.AFMFileFormatError, errors.MissingMetaDataError, NotImplementedError, UnicodeDecodeError
     if not isinstance(error, own):
-        return f"it is not as its format says ({type(error).__name__})"
+        return f"it does not follow its format ({type(error).__name__})"
     return re.sub(r"<_io\.\w+ name='?(?:[^'>]*[/\\\\])?([^'/>]*)'?[^>]*>", r"\1", str(error))
 
 
 def from_afm(path, given):
-    """`MeasuredCurves` of a file that `afmformats` reads, with the constants of its cantilever."""
+    """Return the `MeasuredCurves` of a file by `afmformats`, with the given constants of the cantilever."""
     refuse_large(path)
     given = {name.replace("_", " "): value for name, value in given.items() if value is not None}
     afmformats = imported("afmformats", f"reading {path.name}", '"mdr-core[afm]"')
@@ -121,10 +119,10 @@ def from_afm(path, given):
 
 
 def _loaded(afmformats, path, given):
-    """Curves of a file, and the stiffness (N/m) that is used here, None where `afmformats` uses it.
+    """Return the curves of a file, and the stiffness (N/m) to use here, None if `afmformats` uses it.
 
-    Formats with forces in N take no constants. A height in them has the deflection in it, which a stiffness
-    subtracts, unless the file knows its own.
+    `afmformats` accepts no constants for formats with forces in N. Their height includes the deflection. A
+    given stiffness serves to subtract it, unless the file contains a stiffness.
     """
     try:
         return afmformats.load_data(path, meta_override=given), None
@@ -138,24 +136,24 @@ def _loaded(afmformats, path, given):
 
 
 def _deflection(head):
-    """A remark on a height of which the deflection is not subtracted."""
+    """Return a remark on a height that still includes the deflection."""
     text = f"{head!r} includes the deflection of the cantilever, whose stiffness is not known"
     return Remark(text, "deflection", Remedy("give", "spring_constant"))
 
 
 def _afm_curve(errors, data, stiffness):
-    """`MeasuredCurve` of a curve in `afmformats`, approach and retract in the order of time."""
+    """Return the `MeasuredCurve` of a curve in `afmformats`, approach and retract in order of time."""
     with _refused(errors, data.path):
         heights = [head for head in ("tip position", "height (measured)", "height (piezo)") if head in data]
         heads = [heights[0], "force", *(["time"] if "time" in data else [])]
         values = {k: np.asarray(data[head], dtype=float) for k, head in enumerate(heads)}
         number = np.asarray(data["segment"], dtype=int)
-        # Where all have one number the file does not know the segments.
+        # If all numbers are 0, the file does not contain the segments.
         segment = np.array(MODALITIES[data.modality])[number] if number.any() else None
         stiffness = data.metadata.get("spring constant", stiffness)
     table = Table(dict(enumerate(heads)), values, np.arange(1, number.size + 1), {}, {})
     columns = {"depth": (0, "−m"), "force": (1, "N")} | ({"time": (2, "s")} if 2 in values else {})
-    # A height includes the deflection: without a stiffness it stays in it.
+    # A height includes the deflection; without a stiffness it cannot be subtracted.
     place = "piezo" if stiffness is not None and heads[0] != "tip position" else "depth"
     columns = {place if each == "depth" else each: column for each, column in columns.items()}
     remarks = [_deflection(heads[0])] * (stiffness is None and heads[0] != "tip position")

@@ -1,4 +1,4 @@
-"""The constants of a cantilever, given or in the header of a file: those that a curve needs, no others."""
+"""Constants of a cantilever, from arguments or from the header of a file, as far as a curve needs them."""
 
 from dataclasses import dataclass
 from math import inf
@@ -20,28 +20,28 @@ _NAMES = {
         "sensibilità", "灵敏度",
     }, "sensitivity"),
 }  # fmt: skip
-#: Names that stand in JPK's text without a unit, N/m and m/V.
+#: Names in JPK's text without their units, N/m and m/V.
 _OF_JPK = "springconstant", "sensitivity"
 
 
 @dataclass(frozen=True)
 class Cantilever:
-    """Stiffness (N/m) and sensitivity (m/V) of a cantilever, None if not known, and where they are from."""
+    """Stiffness (N/m) and sensitivity (m/V) of a cantilever, None if unknown, and remarks on the source."""
 
     stiffness: float | None = None
     sensitivity: float | None = None
     remarks: tuple[Remark, ...] = ()
 
     def force_per_deflection(self, unit):
-        """Force (N) for a deflection of 1 m, or of 1 V."""
+        """Return the force (N) for a deflection of 1 m, or of 1 V."""
         return self.stiffness * (self.sensitivity if is_voltage(unit) else 1.0)
 
 
 def constants(table, name, layout, given, asked):
-    """The `Cantilever` of a curve with some columns; what lacks is asked for, what nothing uses is refused.
+    """Return the `Cantilever` of a curve with the columns of `layout`.
 
-    `asked` is what a question suggests: the arguments that say what the columns are, {} if none do. Raises
-    `UnknownColumns` where a constant lacks, and ValueError where one is given for nothing.
+    `asked` has the arguments that determine the columns, {} if there are none; an error suggests them.
+    Raises `UnknownColumns` if a constant is missing, and MeasurementError for an unused constant.
     """
     unit = layout["force"][1].lstrip("−")
     deflection = is_deflection(unit)
@@ -70,8 +70,8 @@ def constants(table, name, layout, given, asked):
 def _refuse_unused(name, given, needed, deflection, unit):
     if given.get("spring_constant") is not None and not needed["spring_constant"]:
         raise MeasurementError(
-            f"{name}: nothing uses the spring constant that is given. The depth is that of the tip, and "
-            "the force is in units of force: leave it out, or choose the column as the position of a piezo",
+            f"{name}: the given spring constant is not used, because the depth is that of the tip, and the "
+            "force is in units of force: leave it out, or choose the column as the position of a piezo",
             Remedy("give", "columns"),
         )
     if given.get("sensitivity") is not None and not needed["sensitivity"]:
@@ -84,7 +84,10 @@ def _refuse_unused(name, given, needed, deflection, unit):
 
 
 def constant(header, kind, names):
-    """A constant (SI) in a header, as "Spring constant: 0.05 N/m" or "# springConstant: 0.05", or None."""
+    """Return a constant (SI) from a header, or None.
+
+    Forms: "Spring constant: 0.05 N/m", "# springConstant: 0.05".
+    """
     for line in header:
         if len(line) > LONGEST_HEADER:
             continue
@@ -106,7 +109,7 @@ def constant(header, kind, names):
 
 
 def _number(text):
-    """Number at the beginning of a text, with a decimal point or comma, and what stands behind it."""
+    """Return the number at the beginning of a text, with a decimal point or comma, and the rest."""
     first, _, rest = text.strip(' \t;:="').replace("\t", " ").replace(";", " ").partition(" ")
     try:
         return float(first.replace(",", ".")), rest.strip(' "')

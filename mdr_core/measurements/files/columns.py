@@ -1,4 +1,4 @@
-"""The columns of a plain table: taken by their exact names, told by `columns=`, or asked for."""
+"""Columns of a table, from exact names or from `columns=`; otherwise `UnknownColumns` asks for them."""
 
 import numpy as np
 
@@ -10,25 +10,25 @@ from .question import NoCurve, UnknownColumns
 from .split import has_path, is_path, place_of, several
 from .units import COLUMN_UNITS, size_of, unit_named
 
-#: Sizes of the units of each quantity (SI); a minus turns the sign of a column.
+#: Sizes (SI) of the units of each quantity; a minus reverses the sign of a column.
 SIZES = {
     each: COLUMN_UNITS[kind] | {f"−{unit}": -size for unit, size in COLUMN_UNITS[kind].items()}
     for each, kind in {"depth": "length", "force": "force", "time": "time"}.items()
 }
-#: Kinds of the units that each quantity may be told in; a force may be a deflection of a cantilever.
+#: Kinds of units that each quantity accepts; a force may be the deflection of a cantilever.
 _KINDS = {
     "depth": ("length",), "piezo": ("length",), "force": ("force", "length", "voltage"), "time": ("time",),
     "stiffness": ("stiffness",),
 }  # fmt: skip
 _USUAL = {"depth": "nm", "piezo": "nm", "force": "mN", "time": "s", "stiffness": "N/m"}
-#: Largest force (N) below which a displacement may be that of a piezo.
+#: Below this largest force (N) a displacement may be the position of a piezo.
 _SMALL = 1e-5
 
 
 def taken(table, file, given, stiffness=None):
-    """Columns and units of a table that says plainly what they are; else the question is raised.
+    """Return the columns and units of an unambiguous table; otherwise raise `UnknownColumns`.
 
-    `given` are those that are told; `stiffness` is that of a cantilever, if one is given.
+    `given` has the columns from the user, and `stiffness` is the given stiffness of a cantilever, if any.
     """
     if len(table.heads) < 2:
         raise NoCurve(f"{file} has one column of numbers: give one of depth and one of force")
@@ -39,8 +39,8 @@ def taken(table, file, given, stiffness=None):
         suggestion = guess.whole(table, likely)
         results = guess.scatters(table, likely) if likely else not _may_be_curve(table)
         if results and likely:
-            why += " Depth and force go to and fro: a table of results is no curve"
-        # Of a table that may be one of results nothing is suggested.
+            why += " Depth and force are scattered: a table of results is not a curve"
+        # A table that may contain results gets no suggestion.
         suggestion = {} if results else _merged(suggestion, given)
         raise UnknownColumns(why, table, file, suggestion, results=results)
     columns = given | {
@@ -58,7 +58,7 @@ def taken(table, file, given, stiffness=None):
 
 
 def told(table, file, columns):
-    """Numbers and units of columns that are told by their names or numbers, None for those left out."""
+    """Return numbers and units of columns with given names or numbers, None for omitted columns."""
     if not isinstance(columns, dict):
         raise check.MDRError(
             f'columns = {columns!r:.80} must be like {{"depth": (0, "nm"), "force": (1, "mN")}}'
@@ -74,7 +74,7 @@ def told(table, file, columns):
 
 
 def exact_columns(table, columns):
-    """Time and stiffness that have exact names, beside columns that are told."""
+    """Return the columns of time and stiffness with exact names that the given columns do not contain."""
     found = _exact(table, {})
     return {
         each: (found[each][0], table.unit(found[each][0]))
@@ -84,7 +84,7 @@ def exact_columns(table, columns):
 
 
 def time_left_out(table, columns):
-    """A remark on columns that may be the time of a curve without one, if there are any."""
+    """Return a remark on columns that may be the missing time of a curve, if there are any."""
     used = [column[0] for column in columns.values() if column]
     heads = [
         repr(head)
@@ -93,12 +93,12 @@ def time_left_out(table, columns):
     ]
     if not heads:
         return ()
-    text = f"the curve has no time: the header does not say plainly that {' or '.join(heads)} is it"
+    text = f"the curve has no time: the header does not clearly identify {' or '.join(heads)} as the time"
     return (Remark(text, "left out", Remedy("give", "columns")),)
 
 
 def ask_for_parts(table, file, columns):
-    """Ask where a table may hold several curves."""
+    """Raise `UnknownColumns` if a table may contain several curves."""
     found = several(table, columns)
     if found:
         why, rows = found
@@ -107,7 +107,7 @@ def ask_for_parts(table, file, columns):
 
 
 def _exact(table, given):
-    """Numbers of the columns whose names and units are taken without asking, by their quantity."""
+    """Return the numbers of the columns with exact names and units, by quantity."""
     found = {each: [] for each in TAKEN}
     for column in table.heads:
         name, kind, _ = table.parted(column)
@@ -120,17 +120,17 @@ def _exact(table, given):
 
 
 def _lacking(found):
-    """What is asked where depth and force have not one exact name each; empty where they have."""
+    """Return the question if depth and force do not have one exact column each, or an empty text."""
     lacking = [each for each in ("depth", "force") if len(found[each]) != 1]
     several = [each for each in lacking if len(found[each]) > 1]
     if several:
         return f"it has several columns of {' and of '.join(several)}: which belong together?"
     which = " and which the ".join(lacking)
-    return f"which column is the {which}? The header does not say it plainly." if lacking else ""
+    return f"which column is the {which}? The header is not clear." if lacking else ""
 
 
 def _second_set(table, found, given):
-    """What is asked where there are both another length and another force."""
+    """Return the question if there are a second length and a second force, or an empty text."""
     others = [
         next((k for k in table.heads if k not in found[each] and table.parted(k)[1] == kind), None)
         for each, kind in (("depth", "length"), ("force", "force"))
@@ -142,7 +142,7 @@ def _second_set(table, found, given):
 
 
 def _variant(table, found, given):
-    """What is asked where another column has one of the names among other words, and its kind of unit."""
+    """Return the question if another column of the same kind has an exact name among other words, or ""."""
     for each in ("depth", "force"):
         kind = TAKEN[each][0]
         for column in table.heads:
@@ -155,7 +155,7 @@ def _variant(table, found, given):
 
 
 def _ask_for_piezo(table, file, columns, stiffness):
-    """Ask whether a displacement of a small force, or beside a stiffness that is given, is a piezo's."""
+    """Raise `UnknownColumns` for a displacement with a small force or a given stiffness: is it a piezo?"""
     place, force = columns["depth"][0], np.abs(table.values[columns["force"][0]])
     name, head = table.parted(place)[0], table.heads[place]
     largest = np.nanmax(force) if np.isfinite(force).any() else 0.0
@@ -166,15 +166,14 @@ def _ask_for_piezo(table, file, columns, stiffness):
     if name != "h" or stiffness is not None:
         given = {"piezo" if each == "depth" else each: column for each, column in columns.items()}
     why = (
-        f"is {head!r} the depth of the tip, or the position of a piezo, from which the deflection F/k is "
-        "subtracted?"
+        f"is {head!r} the depth of the tip, or the position of a piezo, which includes the deflection F/k?"
     )
-    hint = ' Give it as "depth" or as "piezo", of which spring_constant= (N/m) is needed'
+    hint = ' Give it as "depth", or as "piezo" with spring_constant= (N/m)'
     raise UnknownColumns(why, table, file, _with_by(table, given), hint=hint)
 
 
 def ask_for_results(table, file, columns):
-    """Ask where the rows may be tests, not the samples of one."""
+    """Raise `UnknownColumns` if the rows may be tests, not the samples of one test."""
     depth, force = (table.values[k] for k in (place_of(columns), columns["force"][0]))
     others = [head for head in table.heads.values() if is_result(head)]
     path = is_path(depth, force)
@@ -182,30 +181,30 @@ def ask_for_results(table, file, columns):
     if path and (not others or _falls(force) or timed):
         return
     why = "are the rows samples of one test, or is this a table of results?"
-    why += " Depth and force go to and fro." * (not path)
+    why += " Depth and force are scattered." * (not path)
     why += f" It has {others[0]!r}." if others else ""
     raise UnknownColumns(why, table, file, _with_by(table, columns) if path else {}, results=not path)
 
 
 def _may_be_curve(table):
-    """Whether a table without a likely depth and force may yet be a curve."""
+    """Whether a table without a likely depth and force may still be a curve."""
     return has_path(table) and not any(map(is_result, table.heads.values()))
 
 
 def _falls(force):
-    """Whether the force rises to a peak and falls again, some samples each."""
+    """Whether the force rises to a peak and falls again, with some samples in each part."""
     load = np.abs(force[np.isfinite(force)])
     return load.size > 6 and load[-1] < 0.8 * load.max() and 2 < np.argmax(load) < load.size - 3
 
 
 def _with_by(table, columns):
-    """A suggestion of columns, with `by` where the depth starts anew."""
+    """Return a suggestion of columns, with `by` if the table may contain several curves."""
     found = several(table, columns)
     return {"columns": columns} | ({"by": guess.by(table, columns, found[1])} if found else {})
 
 
 def _merged(suggestion, given):
-    """A suggestion with the columns that are told."""
+    """Return a suggestion that includes the given columns."""
     if not given or not isinstance(suggestion.get("columns", {}), dict):
         return suggestion
     free = {each: column for each, column in suggestion.get("columns", {}).items() if each not in given}
@@ -215,7 +214,7 @@ def _merged(suggestion, given):
 
 
 def _one(table, each, column):
-    """Number and unit of a column that is told."""
+    """Return the number and unit of a given column."""
     check.one_of("a key of columns", each, tuple(_KINDS))
     if column is None:
         return None
@@ -228,13 +227,13 @@ def _one(table, each, column):
     if isinstance(unit, str) and unit:
         unit = ("−" if unit[0] in "−-" else "") + (unit_named(unit.lstrip("−-")) or "?")
     elif unit is None and numbers and not guess.scaled(table.heads[numbers[0]]):
-        # The header's own unit, where nothing scales it.
+        # Take the unit of the header, unless it is scaled.
         unit = table.unit(numbers[0])
     allowed = [name for kind in _KINDS[each] for name in COLUMN_UNITS[kind]]
     if len(numbers) != 1 or not unit or unit.lstrip("−") not in allowed:
         first = next(iter(table.heads)) if isinstance(which, list | tuple) else which
         raise check.MDRError(
             f"columns: {each} = {column!r:.80} must be the number or the name of one column of "
-            f"{table.heads}, and its unit, as in ({first!r}, {_USUAL[each]!r}), out of {', '.join(allowed)}"
+            f"{table.heads}, and its unit, as in ({first!r}, {_USUAL[each]!r}), from {', '.join(allowed)}"
         )
     return numbers[0], unit

@@ -1,4 +1,4 @@
-"""Measured curves from the columns of a table. Nothing here looks at a word of a header."""
+"""Measured curves from the columns of a table, whatever the words of its header."""
 
 from dataclasses import replace
 from functools import partial
@@ -15,7 +15,7 @@ from .units import is_deflection, size_of
 
 
 def curves_of(table, file, columns=None, by=None, given=None):
-    """Functions that make the curves of a table: those that `columns` and `by` tell, or of a plain table.
+    """Return functions that make the curves of a table, from `columns` and `by` or an unambiguous header.
 
     `given` has the constants of a cantilever, "spring_constant" and "sensitivity".
     """
@@ -24,7 +24,7 @@ def curves_of(table, file, columns=None, by=None, given=None):
         return _side_by_side(table, file, [told(table, name, each) for each in columns], by, given)
     if by == "segments":
         raise MeasurementError(
-            f"{name} has no second columns or tables that are parts of a curve",
+            f"{name} has no further columns or tables with parts of a curve",
             Remedy("give", "by"),
         )
     layout, source = told(table, name, columns or {}), "as told" if columns else "by its header"
@@ -44,7 +44,7 @@ def curves_of(table, file, columns=None, by=None, given=None):
         if not by_person:
             ask_for_results(part, file, layout)
         if by is None or (by not in [*WORDS] and several(part, layout)):
-            # Also where a column does not tell all of them apart.
+            # A column may not separate all curves.
             ask_for_parts(table, file, layout)
         called = f"{name}, {label}" if label else name
         found.append(curve_factory(part, called, layout, given, source, **options))
@@ -52,20 +52,22 @@ def curves_of(table, file, columns=None, by=None, given=None):
 
 
 def _said(columns, by):
-    """Arguments of `read_curves` that say the same."""
+    """Return the arguments of `read_curves` for these columns."""
     return {"columns": columns} | ({} if by is None else {"by": by})
 
 
 def _side_by_side(table, file, layouts, by, given):
-    """Functions that make the curves of several columns of a table, or the one of which they are parts."""
+    """Return functions that make a curve from each layout of a table, or one curve from all parts."""
     name = ", ".join(filter(None, (file, table.name)))
     layouts = [{each: column for each, column in layout.items() if column} for layout in layouts]
     if not layouts or not all("force" in each and {"depth", "piezo"} & each.keys() for each in layouts):
-        raise check.MDRError(f"columns of {name}: each of the list needs a depth (or piezo) and a force")
+        raise check.MDRError(
+            f"columns of {name}: each item of the list needs a depth (or piezo) and a force"
+        )
     if by == "segments":
         if len(layouts) < 2:
             raise MeasurementError(
-                f"a curve of parts has two or more columns of depth and of force, {name} has one",
+                f"a curve with parts needs two or more columns of depth and of force, but {name} has one",
                 Remedy("give", "by"),
             )
         asked = _said(layouts, by)
@@ -73,8 +75,8 @@ def _side_by_side(table, file, layouts, by, given):
         return [curve_factory(table, name, layout, given, "as told", asked=asked)]
     if by is not None:
         raise check.MDRError(
-            f"by = {by!r:.80}: a list of columns is a curve each; leave it out, or give by='segments' for "
-            "parts of one curve"
+            f"by = {by!r:.80}: each item of the list of columns is a curve; leave out by, or give "
+            "by='segments' for parts of one curve"
         )
     options = {"source": "as told", "asked": _said(layouts, by)}
     return [
@@ -88,7 +90,7 @@ def _numbers(layout):
 
 
 def trimmed(table, layout):
-    """A table without the rows in which a shorter curve has ended."""
+    """Return a table without the rows below the end of a shorter curve."""
     rows = np.any([np.isfinite(table.values[column[0]]) for column in layout.values()], axis=0)
     numbers = {*table.lines.tolist()}
     odd = {number: line for number, line in table.odd.items() if number not in numbers}
@@ -97,19 +99,19 @@ def trimmed(table, layout):
 
 
 def curve_factory(table, name, layout, given, source, *, asked=None, **options):
-    """Function that makes the curve of a table; what a cantilever lacks is asked for at once.
+    """Return a function that makes the curve of a table; raise an error now if a constant is missing.
 
-    `asked` are the arguments of `read_curves` that say what the columns are, None where a format does.
+    `asked` are the arguments of `read_curves` that determine the columns, None for a known format.
     """
     cantilever = constants(table, name, layout, given, asked or {})
     return partial(curve_of, table, name, layout, cantilever, source, **options)
 
 
 def curve_of(table, name, layout, cantilever, source, *, turn=True, segment=None, remarks=()):
-    """`MeasuredCurve` of a table with the columns and units of `layout`.
+    """Return the `MeasuredCurve` of a table with the columns and units of `layout`.
 
-    From a "piezo", the position of one, the deflection is subtracted; a "depth" stays as it is. `source`
-    says how the columns are known. Signs are found by the numbers unless `turn` is False.
+    The deflection is subtracted from the position of a "piezo" but not from a "depth". `source` is the
+    source of the columns. The numbers determine the signs unless `turn` is False.
     """
     place = "piezo" if "piezo" in layout else "depth"
     columns, remarks = {each: layout.get(each) for each in (place, "force", "time")}, [*remarks]
@@ -142,12 +144,12 @@ def curve_of(table, name, layout, cantilever, source, *, turn=True, segment=None
 
 
 def _in_si(table, column):
-    """Numbers of a column in SI units."""
+    """Return the numbers of a column in SI units."""
     return table.values[column[0]] * size_of(column[1])
 
 
 def _in_time(values, rows, columns, remarks):
-    """Rows in the order of time; without a time that does not ascend, with a remark."""
+    """Return the rows in order of time; drop a time that does not ascend, with a remark."""
     steps = np.diff(values["time"][rows]) if "time" in values else np.ones(1)
     if np.all(steps <= 0) and np.any(steps):
         return rows[::-1]
@@ -160,7 +162,7 @@ def _in_time(values, rows, columns, remarks):
 
 
 def _omissions(table, rows, name, labels):
-    """Remarks on columns and lines that are left out; `rows` and the column of `labels` are not."""
+    """Return remarks on omitted columns and lines, all except `rows` and the column of `labels`."""
     lines = sorted({*table.odd, *table.lines.tolist()} - set(table.lines[rows].tolist()))
     listed = ", ".join(map(str, lines[:3])) + f" and {len(lines) - 3} more" * (len(lines) > 3)
     what = f"line{'s' * (len(lines) > 1)} {listed}: a cell is missing or not a number"
@@ -172,13 +174,14 @@ def _omissions(table, rows, name, labels):
 
 
 def _turned(depth, force):
-    """Names of the quantities that have the other sign."""
-    # Depth and force grow to the farther one of the largest and the smallest force: adhesion is nearer.
-    # Forces of the air are none of these, by their noise of 10 standard deviations between extremes.
+    """Return the names of the quantities with reversed sign."""
+    # Depth and force grow towards the largest or the smallest force, whichever is farther from the start in
+    # depth; the extreme of adhesion is nearer. Noise in the air does not count, with 10 standard deviations
+    # between its extremes.
     noise = np.median(np.abs(np.diff(force)))
     apart = np.ptp(force) * np.clip(10 * noise / (np.ptp(force) or 1.0), 0.05, 0.2)
     ends = [end for end in (force.argmax(), force.argmin()) if abs(force[end] - force[0]) >= apart]
     peak = max(ends, key=lambda end: abs(depth[end] - depth[0]))
     turned = ["depth"] * bool(depth[peak] < depth[0]) + ["force"] * bool(force[peak] < force[0])
-    # Both fall in an unloading alone, from the largest force on.
+    # In a record of unloading only, both fall from the largest force.
     return turned if len(turned) < 2 or abs(force[peak]) > abs(force[0]) else []

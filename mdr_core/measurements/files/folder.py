@@ -1,4 +1,4 @@
-"""The files of a set: those of a folder, of a list of paths, of a pattern, or the texts in a zip."""
+"""Sets of files: a folder, a list of paths, a pattern, or the texts in a zip."""
 
 import re
 import zipfile
@@ -13,16 +13,16 @@ from .packed import is_binary, refuse_large
 from .question import UnknownColumns
 from .table import decoded
 
-#: Most files of a set, and most bytes of them together, unpacked.
+#: Largest number of files of a set, and their largest total size (bytes), unpacked.
 _FILES, _BYTES = 1_000, 500_000_000
-#: Bytes of a text in which words of an AFM are looked for.
+#: Number of bytes of a text to search for words of an AFM.
 _HEAD = 4096
 
 
 def set_of(path, of_path, of_text):
-    """Name of a set of files, and functions by the names of its files that read one with options.
+    """Return the name of a set of files, and functions that read each file with options, by file name.
 
-    None if `path` is that of one file. `of_path` reads a path, `of_text` the name and bytes of a text.
+    Return None if `path` is a single file. `of_path` reads a path, `of_text` the name and bytes of a text.
     """
     if isinstance(path, list | tuple):
         name, files = f"a list of {len(path)} files", [Path(each) for each in path]
@@ -42,7 +42,7 @@ def set_of(path, of_path, of_text):
 
 
 def _texts_in(path):
-    """Bytes of the texts in a zip by name; empty for another file, and for a zip of an AFM."""
+    """Return the bytes of the texts in a zip by name; empty for another file, and for a zip of an AFM."""
     if path.suffix.lower() != ".zip" or not zipfile.is_zipfile(path):
         return {}
     refuse_large(path)
@@ -67,7 +67,7 @@ def _of_a_system(path):
 
 
 def _natural(path):
-    """Key of an order of names in which 2 is before 10."""
+    """Return a key that sorts names in natural order, 2 before 10."""
     path = Path(path)
     parts = re.split(r"(\d+)", path.name.lower())
     return [int(part) if k % 2 else part for k, part in enumerate(parts)], str(path)
@@ -75,7 +75,9 @@ def _natural(path):
 
 def _check_size(name, sizes):
     if not sizes:
-        text = "give a folder with files, or a pattern as 'lab/*.txt', or 'lab/**/*.txt' for all below"
+        text = (
+            "give a folder with files, or a pattern such as 'lab/*.txt', or 'lab/**/*.txt' for subfolders"
+        )
         raise MDRError(f"{name} has no files: {text}")
     if len(sizes) > _FILES:
         raise MDRError(f"{name} has {len(sizes)} files, and at most {_FILES} are read: give a part of them")
@@ -85,11 +87,11 @@ def _check_size(name, sizes):
 
 
 def curves_of_set(files, options, done):
-    """Curves of the files of a set by their names, and the reasons why others are not read.
+    """Return the curves of the files of a set by name, and the errors of unread files.
 
-    `files` are functions that read one with options; `done` is called after each. The first question is
-    raised once for all files with the same heads and units, and given columns hold for these. Without a
-    question they hold for all files.
+    `files` are functions that read a file with options; `done` is called after each file. The first
+    `UnknownColumns` is raised once for all files with the same headers and units, and given columns apply
+    to these files. If no file raises `UnknownColumns`, they apply to all files.
     """
     plain = options | {"columns": None, "by": None}
     found = {}
@@ -110,7 +112,7 @@ def curves_of_set(files, options, done):
 
 
 def _tried(read, options):
-    """Curves of a file, or the error that is raised instead."""
+    """Return the curves of a file, or its error."""
     try:
         return read(options)
     except (MDRError, OSError, ImportError) as error:
@@ -118,5 +120,5 @@ def _tried(read, options):
 
 
 def _asks(outcome):
-    """Whether a file asks for its columns, and is none of results."""
+    """Whether a file has ambiguous columns and does not contain results."""
     return isinstance(outcome, UnknownColumns) and not outcome.results

@@ -1,4 +1,4 @@
-"""Suggestions for a table that has to be asked about: they may be wrong, as a person confirms them."""
+"""Suggestions for an ambiguous table. They may be wrong, because the user confirms them."""
 
 from itertools import pairwise
 
@@ -36,21 +36,21 @@ _OTHER = [
     "status", "temp", "area", "radius", "x-pos", "y-pos", "pos_x", "pos_y", "squared", "mittel", "médi",
     "moyen", "最大", "平均",
 ]  # fmt: skip
-#: Parts of names of positions, from which the deflection of a cantilever is subtracted.
+#: Parts of names of positions that include the deflection of a cantilever.
 _POSITION = [
     "piezo", "piézo", "height", "höhe", "hauteur", "altura", "stage", "ramp", "sens", "scan", "z", "zpos",
     "ext", "stroke", "travel", "pos", "hub", "weg", "drive", "motor", "raw", "actuator", "lvdt", "verfahr",
     "stell", "déplac", "样品台", "ピエゾ", "压电",
 ]  # fmt: skip
-#: Parts of names of the depth of the tip, where there is a cantilever.
+#: Parts of names of the depth of the tip, in instruments with a cantilever.
 _OF_TIP = "tip", "separ", "indent", "penetr", "sep "
-#: Labels of parts of one record.
+#: Names of columns that label parts of one record.
 _OF_ONE = "cycle", "loop", "segment", "step", "zyklus", "zyklen", "schritt", "phase"
-#: Largest force (N) of an instrument that may have a cantilever.
+#: Largest force (N) of an instrument with a cantilever.
 _SMALL = 1e-5
-#: Most pairs that are found by what their names share.
+#: Largest number of pairs to match by common words in their names.
 _MOST = 100
-#: Beginnings of words that scale, or change, what stands beside them.
+#: Beginnings of words that scale or change the unit next to them.
 _SCALING = (
     "pico", "piko", "nano", "micro", "mikro", "milli", "kilo", "mega", "deca", "deci", "tenth", "hundred",
     "thousand", "million", "log", "sqrt", "squared", "normali", "scaled", "half", "div", "double", "twice",
@@ -58,7 +58,7 @@ _SCALING = (
 
 
 def columns(table, stiffness=None):
-    """Columns of depth (or piezo), force and time, as `columns=`; a list of several such pairs; or {}."""
+    """Return `columns=` with depth (or piezo), force and time; a list for several such pairs; or {}."""
     found, used = {}, set()
     for each in ("force", "depth", "time"):
         scores = {k: _score(each, table, k) for k in table.heads if k not in used}
@@ -80,7 +80,7 @@ def columns(table, stiffness=None):
 
 
 def whole(table, given):
-    """A suggestion of columns as `columns` finds them, with `by` for parts of a curve or several curves."""
+    """Return a suggestion with the columns found by `columns`, and `by` for parts or for several curves."""
     if not given or scatters(table, given):
         return {}
     if isinstance(given, list):
@@ -90,14 +90,14 @@ def whole(table, given):
 
 
 def scatters(table, given):
-    """Whether depth and force of likely columns go to and fro, as those of tests do."""
+    """Whether depth and force of likely columns are scattered, like results of tests."""
     if not given or isinstance(given, list):
         return False
     return not is_path(table.values[place_of(given)], table.values[given["force"][0]])
 
 
 def by(table, given, rows):
-    """What `by=` tells apart the curves that begin at given rows."""
+    """Return the value of `by=` that separates curves with the given first rows."""
     known = key_columns(table, given, rows)
     heads = {int(key.split()[0]) - 1: key.partition(" ")[2] for key in table.words} | table.heads
     of_curves = [
@@ -112,7 +112,7 @@ def by(table, given, rows):
 
 
 def scaled(head):
-    """Whether a number or a prefix in a header may scale its unit: any but that of a name, as "Test 2"."""
+    """Whether a number or a prefix in a header may scale its unit, unlike a number in a name, "Test 2"."""
     words = _words(head)
     if any(_scales(word) or (word.lower().startswith(_SCALING) and not unit_alone(word)) for word in words):
         return True
@@ -140,7 +140,7 @@ def _words(head):
 
 
 def _unit_in(table, column):
-    """Kind and plain unit that stands anywhere in a header, or nothing."""
+    """Return kind and name of a plain unit anywhere in a header, or empty texts."""
     _, kind, unit = table.parted(column)
     if kind:
         return kind, unit
@@ -153,14 +153,14 @@ def _unit_in(table, column):
 
 
 def _unit(table, column, each):
-    """Plain unit of a column if it is of the kind that a quantity has and nothing scales it, else "?"."""
+    """Return the plain unit of a column if its kind fits the quantity and it is not scaled, else "?"."""
     kind, unit = _unit_in(table, column)
     kinds = {TAKEN[each][0]} | ({"length", "voltage"} if each == "force" else set())
     return unit if kind in kinds and not scaled(table.heads[column]) else "?"
 
 
 def _score(each, table, column):
-    """How much a column looks like a quantity; 0 for one that cannot be it."""
+    """Return a score of how well a column fits a quantity, 0 if it cannot be this quantity."""
     name, wanted = table.parted(column)[0], TAKEN[each][0]
     kind, low = _unit_in(table, column)[0], cleaned(table.heads[column][:200]).lower()
     deflection = each == "force" and kind in ("length", "voltage") and "defl" in low
@@ -174,13 +174,13 @@ def _score(each, table, column):
         score -= 3
     other = any(part in low for part in _PARTS["force" if each == "depth" else "depth"])
     score -= 2 * any(part in low.replace("temps", "") for part in _OTHER) + (other and not kind)
-    # Beside "Indentation" a displacement is that of a piezo, or of the machine.
+    # Next to "Indentation", a displacement belongs to a piezo or to the machine.
     score -= 2 * (name in DISPLACEMENT)
     return max(score, 0)
 
 
 def _best(scores, least, time):
-    """Columns of the best scores: several that are alike, or two that nearly are."""
+    """Return the columns with the best scores: all equal ones, or two with nearly equal scores."""
     best = max(scores.values(), default=0)
     near = [k for k, score in scores.items() if score >= max(best - 1, least)]
     near.sort(key=lambda k: (-scores[k], k))
@@ -191,18 +191,18 @@ def _best(scores, least, time):
 
 
 def _called(table, depth, force, stiffness):
-    """Whether a column looks like the depth of the tip, "depth", or the position of a piezo, "piezo"."""
+    """Return "depth" for a likely depth of the tip, or "piezo" for a likely position of a piezo."""
     name, head = table.parted(depth)[0], normal(cleaned(table.heads[depth][:200]))
     if name in TAKEN["depth"][1]:
         return "depth"
     if stiffness is not None:
-        # A stiffness that is given is meant.
+        # A given stiffness implies a piezo.
         return "piezo"
     if any(part in head for part in _OF_TIP):
         return "depth"
     kind, unit = table.parted(force)[1:]
     if "defl" in table.heads[force].lower() or kind in ("length", "voltage"):
-        # A deflection is that of a cantilever.
+        # Only a cantilever has a deflection.
         return "piezo"
     loads = np.abs(table.values[force])
     largest = np.nanmax(loads) if np.isfinite(loads).any() else 0.0
@@ -212,7 +212,7 @@ def _called(table, depth, force, stiffness):
 
 
 def _paired(table, depths, forces):
-    """Pairs of a depth and a force: by what their names share, else in their order."""
+    """Return pairs of a depth and a force, matched by common words in their names, or else by order."""
     if len(depths) == len(forces) > _MOST:
         return list(zip(depths, forces, strict=True))
     if len(depths) == len(forces):

@@ -1,23 +1,23 @@
-"""Check that an HDF5 file has all of its data in itself."""
+"""Check that an HDF5 file contains all its data."""
 
 from ...base.errors import MDRError
 from ...show.report import imported
 
-#: Most members of a file, and levels of its groups.
+#: Largest number of members of a file, and of levels of its groups.
 _MEMBERS, _LEVELS = 1_000_000, 10
 
 
 def refuse_outside(path):
-    """Raise ValueError if a file names data in other files, before any data are read.
+    """Raise MDRError if a file refers to data in other files, before reading any data.
 
-    A dataset may be stored in any file that its reader may open, such as one with passwords; a link may
-    lead to another file, and a virtual dataset is made of others.
+    A dataset may be in any file that its reader may open, such as a file with passwords. A link may lead to
+    another file, and a virtual dataset consists of other datasets.
     """
     h5py = imported("h5py", f"reading {path.name}", '"mdr-core[afm]"')
     count = 0
 
     def fault(name, link):
-        """Return what is wrong with a member, which ends the walk; an error in it would be lost."""
+        """Return the fault of a member, which ends the walk; an exception raised here would be lost."""
         nonlocal count
         count += 1
         if count > _MEMBERS or name.count("/") >= _LEVELS:

@@ -1,22 +1,22 @@
-"""Names of columns that are taken without asking, and the unit in a header. Nothing here is a guess.
+"""Exact names of columns, and the unit in a header. Nothing here is a guess.
 
-A name is added with the file in which it was seen. A header that is anything more than a name and a plain
-unit has no exact name: "Max Load (mN)", "Depth*10 (nm)" and "Load (mN) [x0.1]" are asked about.
+Add a name with the file that contains it. A header with more than a name and a plain unit has no exact name
+and raises `UnknownColumns`: "Max Load (mN)", "Depth*10 (nm)" and "Load (mN) [x0.1]".
 """
 
 from functools import lru_cache
 
 from .units import IN_BRACKETS, cleaned, unit_alone
 
-#: Longest header that is looked at.
+#: Number of characters of a header that count.
 _LONGEST = 80
-#: Names of the depth of the tip in the sample, of any instrument. KLA: "displacement into surface";
+#: Names of the depth of the tip in the sample, for any instrument. KLA: "displacement into surface";
 #: Optics11: "indentation"; Anton Paar: "pd", "penetration depth"; Hysitron: "depth".
 DEPTH = {
     "depth", "indentation depth", "penetration depth", "indentation", "penetration", "pd",
     "displacement into surface", "depth of indentation", "depth of penetration", "contact displacement",
 }  # fmt: skip
-#: Names that mean the depth where an instrument has no cantilever, and may be a position of a piezo else.
+#: Names of the depth for an instrument without a cantilever; otherwise they may be the position of a piezo.
 DISPLACEMENT = {"displacement", "disp", "displ", "h"}
 FORCE = {
     "force", "load", "normal force", "normal load", "load on sample", "applied force", "applied load",
@@ -31,14 +31,14 @@ TAKEN = {
     "time": ("time", TIME),
     "stiffness": ("stiffness", STIFFNESS),
 }
-#: Names of which a test, or a depth of a curve, has one: where they stand, the rows may be tests.
+#: Names of results of a test, or of a depth of a curve. A table with such a name may have tests as rows.
 _RESULTS = {"e", "er", "eit", "e it", "h it", "hit", "hv", "hm", "cit", "young's modulus"}
 _OF_RESULTS = {"modulus", "hardness"}
 _PRESSURES = {"gpa", "mpa", "kpa", "pa"}
 
 
 def normal(name):
-    """Name in small letters with single blanks between its words."""
+    """Return a name in lower case with single blanks between its words."""
     for each in "_-./:,;{}[]()":
         name = name.replace(each, " ")
     return " ".join(name.lower().split())
@@ -46,10 +46,10 @@ def normal(name):
 
 @lru_cache(maxsize=4096)
 def parted(head, cell=""):
-    """Name of a column, and kind and name of its unit; both are empty where there is no plain unit.
+    """Return the name of a column, and kind and name of its unit; both are empty without a plain unit.
 
-    `cell` is the unit in a line of its own. Forms: "Depth (nm)", "Depth [nm]", "Depth / nm", "Depth, nm",
-    "depth_nm", "Depth nm", "Depth in nm".
+    `cell` is the unit from a separate line of units. Forms: "Depth (nm)", "Depth [nm]", "Depth / nm",
+    "Depth, nm", "depth_nm", "Depth nm", "Depth in nm".
     """
     text = cleaned(head[:_LONGEST]).strip(" \"'#")
     if cell.strip(" ()[]{}<>/"):
@@ -64,7 +64,7 @@ def parted(head, cell=""):
 
 
 def _ended(text):
-    """Name, sign and unit of a text that ends in a sign and a plain unit; without one the text alone."""
+    """Return name, sign and unit of a text that ends in a sign and a plain unit, or else the text alone."""
     for sign in ("/", ",", ":", "_", " "):
         name, found, last = text.rpartition(sign)
         unit = unit_alone(last)
@@ -80,7 +80,7 @@ def _is_compound(words):
 
 
 def symbols_in(heads):
-    """Headers that end in what may be an index, no unit, as "F_N", as no other header has its form."""
+    """Return headers whose unit may be an index, such as "F_N", because no other header has this form."""
     ends = {head: _ended(cleaned(head[:_LONGEST]).strip(" \"'#")) for head in heads}
     signs = [sign for _, sign, _ in ends.values()]
     return {
@@ -98,7 +98,7 @@ def is_result(head):
 
 
 def is_variant(name, each):
-    """Whether a name has one of the exact names of a quantity among other words, as "depth corrected"."""
+    """Whether a name has an exact name of a quantity among other words, such as "depth corrected"."""
     words, squeezed = set(name.split()), name.replace(" ", "")
     names = TAKEN[each][1]
     return name not in names and any(

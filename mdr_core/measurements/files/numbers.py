@@ -1,4 +1,4 @@
-"""Numbers of a table as text: decimal points and commas, and separated thousands."""
+"""Reading of numbers in text: decimal points and commas, and separated thousands."""
 
 import re
 from contextlib import suppress
@@ -13,19 +13,19 @@ _DECIMAL_COMMA = re.compile(rf"[-+]?\d*,\d+{_EXPONENT}")
 _DECIMAL_POINT = re.compile(rf"[-+]?\d*\.\d*{_EXPONENT}")
 _COMMAS = re.compile(_GROUPS % "," + rf"(\.\d+)?{_EXPONENT}")
 _POINTS = re.compile(_GROUPS % r"\." + rf"(,\d+)?{_EXPONENT}")
-#: Thousands parted by a blank or an apostrophe, with either decimal sign.
+#: Thousands separated by a blank or an apostrophe, with either decimal sign.
 _PARTED = re.compile(_GROUPS % "[ \u00a0\u2009\u202f'’]" + rf"([.,]\d*)?{_EXPONENT}")
 _NUMERIC = re.compile(r"[-+−]?[\d.,][\d.,' \u00a0\u2009\u202f’]*(?:[eE][-+−]?\d+)?")
 
 
-#: Numbers from which on they are written where there is none, as 1.8e308.
+#: Numbers of this size and larger are placeholders of missing values, for example 1.8e308.
 _NONE = 1e30
-#: Number of rows that tell how numbers are written.
+#: Approximate number of rows that determine the notation of numbers.
 _ENOUGH = 5000
 
 
 class _Ambiguous(Exception):
-    """A comma that may be a decimal sign, or separate thousands."""
+    """Error for a comma that may be a decimal sign, or separate thousands."""
 
 
 def numeric(cell):
@@ -34,25 +34,25 @@ def numeric(cell):
 
 
 def with_comma(cell):
-    """Whether a cell is a number with a comma: as decimal sign, or between thousands."""
+    """Whether a cell is a number with a comma as decimal sign or between thousands."""
     return "," in cell and bool(
         _DECIMAL_COMMA.fullmatch(cell) or _COMMAS.fullmatch(cell) or _POINTS.fullmatch(cell)
     )
 
 
 def number_reader(rows, count, name):
-    """Function from a cell to its number, NaN for words, by what the cells of all rows of a file tell.
+    """Return a function that converts a cell to its number, NaN for words, in the notation of a file.
 
-    `rows(step)` are the cells of each of the `count` rows, or of each step-th one.
+    `rows(step)` returns the cells of every step-th of the `count` rows.
 
-    A comma is a decimal sign or separates thousands: "1,5" and "0,500" tell the first, "1,234.5" and
-    "1,234,567" the second. Raises ValueError where nothing tells it.
+    A comma is a decimal sign or separates thousands: "1,5" and "0,500" imply the first, "1,234.5" and
+    "1,234,567" the second. Raises MDRError if no number determines the notation.
     """
     few = count // _ENOUGH + 1
     if not any("," in cell for row in rows() for cell in row):
         _refuse_doubtful_points(rows(few), name)
         return _plain
-    # A part of a long file tells it, or all of it does.
+    # Look at a part of a long file first, then at all of it.
     for step in dict.fromkeys((few, 1)):
         cells = {cell for row in rows(step) if _is_row(row) for cell in row}
         with suppress(_Ambiguous):
@@ -64,26 +64,29 @@ def number_reader(rows, count, name):
 
 
 def _refuse_doubtful_points(rows, name):
-    """Refuse a column of "1.234" and "17": the point separates thousands, or "17" has lost its decimals."""
+    """Raise MDRError for a column of "1.234" and "17".
+
+    Either the point separates thousands, or "17" has lost its decimals.
+    """
     for column in zip_longest(*filter(_is_row, rows), fillvalue=""):
         cells = {cell.strip() for cell in column}
         points = {cell for cell in cells if "." in cell and numeric(cell)}
         whole = any(cell.strip("+-0").isdecimal() for cell in cells if cell not in points)
         if points and whole and all(_POINTS.fullmatch(c) and c.lstrip("+-")[0] != "0" for c in points):
             raise MDRError(
-                f"{name}: the point of {min(points)!r} may be a decimal sign, or separate thousands, as no "
-                "other number of its column has one with another number of digits behind it: write numbers "
-                "without separators of thousands"
+                f"{name}: the point of {min(points)!r} may be a decimal sign, or separate thousands, as "
+                "all points of its column have three digits behind them: write numbers without separators "
+                "of thousands"
             )
 
 
 def _is_row(row):
-    """Whether half of the cells that are not empty may be numbers."""
+    """Whether at least half of the cells with content may be numbers."""
     return 2 * sum(map(numeric, row)) >= sum(map(bool, row))
 
 
 def _reader(cells, name):
-    """`number_reader` for the cells of rows."""
+    """Return the function of `number_reader` for the cells of rows."""
     commas = {cell for cell in cells if "," in cell and with_comma(cell)}
     if not commas:
         return _plain
@@ -104,20 +107,20 @@ def _reader(cells, name):
         doubtful = [cell for cell in points if _POINTS.fullmatch(cell)]
         if doubtful and len(doubtful) == len(points):
             raise MDRError(
-                f"{name}: beside {min(decimal)!r} with a decimal comma, {min(doubtful)!r} may be a "
-                "thousand times larger: write numbers without separators of thousands"
+                f"{name}: {min(decimal)!r} has a decimal comma, so {min(doubtful)!r} may be a thousand "
+                "times larger: write numbers without separators of thousands"
             )
         return lambda cell: _plain(cell.replace(",", "."))
     if thousands or points:
         return lambda cell: _plain(cell.replace(",", "") if _COMMAS.fullmatch(cell) else cell)
-    # All have three digits after the comma: with a fixed number of decimals there are none without it.
+    # All commas have three digits behind them: with fixed decimals, every number would have a comma.
     if any(re.fullmatch(r"[-+]?\d+", cell) and cell.strip("+-0") for cell in cells):
         raise _Ambiguous
     return lambda cell: _plain(cell.replace(",", "."))
 
 
 def _thousands(cell):
-    """Whether the comma of "1,234" may separate thousands; that of "0,234" does not."""
+    """Whether a comma may separate thousands, as in "1,234" but not in "0,234"."""
     return bool(_COMMAS.fullmatch(cell)) and not re.match(r"[-+]?0", cell)
 
 

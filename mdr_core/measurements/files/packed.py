@@ -1,18 +1,19 @@
-"""Bounds on packed files, whose contents may be a thousand times larger."""
+"""Size limits for packed files, whose contents may be a thousand times larger."""
 
 import re
 import zipfile
 
 from ...base.errors import MDRError
 
-#: Most bytes of a file, and of what is packed in one; and by how much what is larger may be packed.
+#: Largest sizes (bytes) of a file and of its unpacked contents, and largest ratio for larger contents.
 _BYTES, _UNPACKED, _RATIO = 2_000_000_000, 500_000_000, 20
 
 
 def refuse_large(path, sheets=None):
-    """Refuse a packed file that is too large, before it is unpacked; `sheets` is the most of a workbook.
+    """Raise MDRError for a packed file that is too large, before unpacking it.
 
-    Other files than workbooks may be larger, if they are not packed to a twentieth.
+    `sheets` is the largest number of sheets in a workbook. Files other than workbooks may be larger, unless
+    they are packed to less than a twentieth.
     """
     size = path.stat().st_size
     if size > _BYTES:
@@ -24,10 +25,10 @@ def refuse_large(path, sheets=None):
             inside = file.infolist()
     except NotImplementedError as error:
         raise MDRError(
-            f"{path.name} is packed in a way that cannot be read, {error}: unpack it and read its files"
+            f"{path.name} is packed in an unsupported way, {error}: unpack it and read its files"
         ) from None
     except (zipfile.BadZipFile, OSError, ValueError):
-        # Its reader says what is wrong.
+        # The reader of the file raises its own error.
         return
     unpacked = sum(each.file_size for each in inside)
     if unpacked > _UNPACKED and (sheets is not None or unpacked > _RATIO * size):
@@ -41,7 +42,7 @@ def refuse_large(path, sheets=None):
 
 
 def is_binary(data):
-    """Whether the bytes are no text: zeros, which only UTF-16 has, or other control characters."""
+    """Whether the bytes are not text: they contain zeros outside UTF-16, or other control characters."""
     head = data[:4096]
     marked = head.startswith((b"\xff\xfe", b"\xfe\xff"))
     utf16 = marked or (b"\0" in head[:2] and head[:200].count(b"\0") > 0.4 * len(head[:200]))

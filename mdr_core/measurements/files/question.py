@@ -1,4 +1,4 @@
-"""The question that is asked where a table does not say plainly what its columns are."""
+"""Errors for tables with ambiguous columns, with a suggestion, and for tables without a curve."""
 
 from typing import Any
 
@@ -6,11 +6,11 @@ from ...base.errors import MDRError
 from ...base.remark import Remedy
 from .units import is_deflection, is_voltage
 
-#: Most columns that a question shows, and columns of words.
+#: Largest numbers of columns of numbers and of words in a message.
 _SHOWN, _WORDS = 14, 3
-#: Constants of a cantilever by the names of arguments, and their units.
+#: Units of the constants of a cantilever by argument name.
 CONSTANTS = {"spring_constant": "N/m", "sensitivity": "m/V"}
-#: The names of the constants in a sentence.
+#: Names of the constants in a sentence.
 WORDS_OF_CONSTANTS = {
     "spring_constant": "the spring constant of the cantilever",
     "sensitivity": "its sensitivity",
@@ -18,26 +18,26 @@ WORDS_OF_CONSTANTS = {
 
 
 class NoCurve(MDRError):
-    """A table that is none of a curve, but of results or settings."""
+    """Error for a table without a curve, for example of results or settings."""
 
 
 class UnknownColumns(MDRError):
-    """Raised for a table that does not say what its columns are, with a suggestion to confirm.
+    """Error for a table with ambiguous columns, with a suggestion to confirm.
 
-    ``read_curves(path, **error.suggestion)`` reads the file as suggested, where that is right and complete.
-    A piezo or a deflection also needs ``spring_constant=``; the message says so.
+    ``read_curves(path, **error.suggestion)`` reads the file with the suggestion, if it is right and
+    complete. A piezo or a deflection also needs ``spring_constant=``; the message says so.
 
     Attributes
     ----------
     why : str
-        What is asked, in words. The message has the columns and a line to paste besides.
+        The question as text. The message also has the columns and a line to paste.
     suggestion : dict
-        Arguments of `read_curves`, "columns" and perhaps "by", as far as they are known; empty if nothing
-        is. "?" stands for a unit that is open.
+        Arguments of `read_curves`, "columns" and perhaps "by", as far as they are known; otherwise empty.
+        "?" stands for an unknown unit.
     complete : bool
-        Whether the suggestion has both columns, and no unit is open.
+        Whether the suggestion has both columns with known units.
     table : Table
-        The heads and the numbers that are asked about; `table.name` is that of a sheet.
+        The headers and numbers of the table; `table.name` is the name of a sheet.
 
     Examples
     --------
@@ -65,7 +65,7 @@ class UnknownColumns(MDRError):
         self.why, self.table, self.file, self._hint = why, table, file, hint
         self._text, self.remedy = text or why, remedy
         self.suggestion: dict[str, Any] = suggestion or {}
-        #: Whether the rows are rather those of tests, one each, than samples of a curve.
+        #: Whether each row is likely a test, not a sample of a curve.
         self.results = results
         columns = self.suggestion.get("columns") or {}
         parts = columns if isinstance(columns, list) else [columns]
@@ -86,11 +86,11 @@ class UnknownColumns(MDRError):
         return _again, self._with(self.suggestion)
 
     def elsewhere(self, suggestion: dict[str, Any]) -> "UnknownColumns":
-        """The same question with another suggestion."""
+        """Return the error with another suggestion."""
         return _again(*self._with(suggestion))
 
     def of_files(self, count: int) -> "UnknownColumns":
-        """The same question for a number of files with these heads."""
+        """Return the error for a number of files with these headers."""
         again, (*given, options) = self.__reduce__()
         end = "" if f"{self.why}{self._hint}".endswith((".", "?")) else "."
         return again(*given, options | {"hint": f"{self._hint}{end} {count} files have this header"})
@@ -105,7 +105,7 @@ def _again(why, table, file, suggestion, given):
 
 
 def _shown(table):
-    """The heads with their first numbers, one line each."""
+    """Return the headers with their first numbers, one line each."""
     lines = []
     if not any(table.heads.values()):
         lines = [f"      {line.strip()[:90]}" for line in table.header[-5:]]
@@ -122,7 +122,7 @@ def _shown(table):
 
 
 def _paste(suggestion):
-    """The suggestion as it is pasted behind the name of the file."""
+    """Return a line with the suggestion, to paste behind the name of the file."""
     columns = suggestion.get("columns")
     if not columns:
         return 'Give the columns and their units: columns={"depth": (0, "nm"), "force": (1, "mN")}'
@@ -137,7 +137,10 @@ def _paste(suggestion):
 
 
 def constants_needed(columns):
-    """Whether columns need each constant of a cantilever: for a piezo, a deflection, or one in V."""
+    """Return for each constant of a cantilever whether the columns need it.
+
+    A piezo or a deflection needs the spring constant, and a deflection in V the sensitivity.
+    """
     _, unit = columns.get("force") or (None, "N")
     return {
         "spring_constant": is_deflection(unit) or columns.get("piezo") is not None,
@@ -146,7 +149,7 @@ def constants_needed(columns):
 
 
 def as_python(columns):
-    """The value of `columns=` as it is written in a script."""
+    """Return the value of `columns=` as Python code."""
     if isinstance(columns, list):
         return f"[{', '.join(map(as_python, columns))}]"
     pairs = []
@@ -158,12 +161,12 @@ def as_python(columns):
 
 
 def lacks_constants(table, name, layout, lacking, deflection, asked):
-    """The question for constants of a cantilever that lack."""
+    """Return the error for missing constants of a cantilever."""
     head = table.heads[layout["force" if deflection else "piezo"][0]]
     what = (
         f"{head!r} is a deflection in {layout['force'][1]}"
         if deflection
-        else f"{head!r} is the position of a piezo, from which the deflection F/k is subtracted"
+        else f"{head!r} is the position of a piezo, which includes the deflection F/k"
     )
     hint = "" if deflection else ', or columns={"depth": …} if it is the depth of the tip'
     words = "" if deflection else ", or choose it as the depth of the tip if it is"

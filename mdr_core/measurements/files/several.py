@@ -1,4 +1,4 @@
-"""Curves of several tables: of a text, or of the sheets of a workbook."""
+"""Curves of several tables in a text, or in the sheets of a workbook."""
 
 from contextlib import suppress
 from dataclasses import replace
@@ -17,11 +17,11 @@ from .table import read_tables
 
 
 def curves_of_text(text, file, options):
-    """Functions that make the curves of a text: of a known format, or of its tables."""
+    """Return functions that make the curves of a text, in a known format or as tables."""
     columns, by, given = options["columns"], options["by"], options["given"]
     known = format_of(text)
     if known and columns is None and by is None:
-        # What is not as the format has it, is read as a table.
+        # If the text deviates from the format, read it as a table.
         with suppress(LookupError):
             return known.curves(text, file, given)
     tables = read_tables(known.body(text) if hasattr(known, "body") else text, file)
@@ -35,12 +35,12 @@ def curves_of_text(text, file, options):
 
 
 def curves_of_tables(tables, file, options):
-    """Functions that make the curves of tables, read plainly, as told, or asked about when they are taken.
+    """Return functions that make the curves of tables; a function of an ambiguous table raises the error.
 
-    What is told holds for the tables with the heads and units of the one that is asked about (`_asked`), or
-    of the first one that has the columns that are told by their names. Tables of results and settings are
-    left out, with a remark. Plain tables come first, or without any the one that is asked about, so that an
-    unclear one keeps its number after its columns are given.
+    `columns` and `by` hold for all tables with the headers and units of one table. This is the first table
+    with the given column names, or else the table chosen by `_asked`. Tables of results and settings are
+    left out, with a remark. Unambiguous tables come first. If there are none, the table chosen by `_asked`
+    comes first. Thus an ambiguous table keeps its number after its columns are given.
     """
     columns, by, given = options["columns"], options["by"], options["given"]
     plain = [_tried(table, file, None, None, given) for table in tables]
@@ -70,7 +70,7 @@ def curves_of_tables(tables, file, options):
 
 
 def _tried(table, file, columns, by, given):
-    """Functions that make the curves of a table, or the error that is raised instead."""
+    """Return functions that make the curves of a table, or the error of this table."""
     try:
         return curves_of(table, file, columns, by, given)
     except ValueError as error:
@@ -82,9 +82,10 @@ def _no_curve(outcome):
 
 
 def _asked(tables, plain):
-    """Number of the table that is asked about, or of the first one with a curve.
+    """Return the number of the first ambiguous table, or of the first table with a curve.
 
-    Without a plain one it is that with a length, a force and the most rows: others are of a motor, say.
+    If no table is unambiguous, it is the ambiguous table with a length, a force and the most rows. The
+    other tables may describe a motor, for example.
     """
 
     def rank(i):
@@ -100,12 +101,12 @@ def _asked(tables, plain):
 
 
 def _key_of_told(tables, plain, columns):
-    """Heads and units of the tables for which `columns` and `by` are told."""
+    """Return the headers and units of the tables to which `columns` and `by` apply."""
     parts = columns if isinstance(columns, list | tuple) else [columns or {}]
     cells = [c for part in parts if isinstance(part, dict) for c in part.values()]
     names = [c[0] if isinstance(c, list | tuple) else c for c in cells]
     for table in tables if any(isinstance(name, str) for name in names) else ():
-        # A name that a table does not have is of another one.
+        # An unknown name belongs to another table.
         with suppress(ValueError):
             for part in parts:
                 told(table, "", part)
@@ -114,7 +115,7 @@ def _key_of_told(tables, plain, columns):
 
 
 def _for_pasting(error, table, tables, first):
-    """A question whose suggestion names the columns, if their numbers would be another table's."""
+    """Return an `UnknownColumns` with names of columns, if the numbers would apply to another table."""
     if not isinstance(error, UnknownColumns) or table.key == tables[first].key or not error.suggestion:
         return error
 
@@ -136,13 +137,13 @@ def _refuse(error):
 
 
 def _said(make, left):
-    """A curve that also says which tables are left out."""
+    """Make a curve with remarks on the omitted tables."""
     curve = make()
     return replace(curve, remarks=(*curve.remarks, *left))
 
 
 def _ask_for_segments(tables, file, given):
-    """Ask where a further header follows while the depth goes on: parts of one curve."""
+    """Raise `UnknownColumns` if the depth continues below a further header, as in parts of one curve."""
     same = [table for table in tables if table.key == tables[0].key]
     try:
         layout = taken(tables[0], file, {}, given.get("spring_constant"))
@@ -150,13 +151,13 @@ def _ask_for_segments(tables, file, given):
         return
     span = np.ptp(known_depths(same, layout))
     if any(goes_on([before], table, layout, span) for before, table in pairwise(same)):
-        why = "a second header follows where the depth goes on"
+        why = "the depth continues below a second header"
         hint = ": parts of one curve, or by='whole' for several"
         raise UnknownColumns(why, tables[0], file, {"columns": layout, "by": "segments"}, hint=hint)
 
 
 def _of_parts(tables, file, columns, given):
-    """Functions that make curves whose parts have a header each: a part goes on where one ends."""
+    """Return functions that make curves from tables, each a part that continues the part before."""
     layout = told(tables[0], file, columns) if columns else taken(tables[0], file, {})
     groups = [[tables[0]]]
     span = np.ptp(known_depths([table for table in tables if table.key == tables[0].key], layout))
@@ -167,7 +168,7 @@ def _of_parts(tables, file, columns, given):
         elif same:
             groups.append([table])
     if all(len(group) == 1 for group in groups):
-        text = f"no parts of a curve are in {file}: no table goes on where one ends"
+        text = f"{file} has no parts of a curve: no table continues the table before"
         raise MeasurementError(text, Remedy("give", "by"))
     layout = {each: column for each, column in layout.items() if column}
     label = f"{file}, curve {{}}" if len(groups) > 1 else file

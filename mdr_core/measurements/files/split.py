@@ -1,4 +1,4 @@
-"""Where a table of one depth and one force holds several curves, or parts of one: by its numbers alone."""
+"""Search for several curves, or parts of a curve, in the numbers of a table of one depth and force."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -9,32 +9,34 @@ from ...base.errors import MDRError
 from ...base.remark import MeasurementError, Remedy
 from .question import UnknownColumns
 
-#: Jump of the depth back to its beginning, and the rise after it, as shares of the range; in median steps.
+#: Smallest jump of the depth back to its beginning, and smallest rise after it, as shares of the range.
+#: Smallest jump in median steps.
 _JUMP, _RISE, _STEPS = 0.2, 0.3, 5.0
 #: Largest step of the force between approach and retract, as a share of its range.
 _MEET = 0.3
-#: Largest distance of the end of a part of a curve from the beginning of the next, and largest range of a
+#: Largest distance between the end of a part and the beginning of the next part, and largest range of a
 #: hold, as shares of the range.
 _NEXT, _STILL = 0.1, 0.02
-#: Turns of the depth over its range, per row, above which it is scatter; and least one.
+#: Largest path of depth or force over its range: per row, and in a table with few rows. Above it, the rows
+#: are scattered.
 _SCATTER, _TURNS = 0.2, 3.0
 #: Share of the values at each end that may be outliers.
 _EXTREMES = 0.02
-#: Range, as a share of the largest value, and rows below which the numbers are those of repeated tests.
+#: Repeated tests have a smaller range, as a share of the largest value, and fewer rows.
 _SAME, _MANY = 0.3, 100
-#: Fewest rows of a curve.
+#: Smallest number of rows of a curve.
 FEWEST = 5
-#: Words that `by=` may be.
+#: Words that `by=` accepts.
 WORDS = "gaps", "restart", "segments", "whole"
 
 
 def place_of(columns):
-    """Number of the column of the depth, or of the position of the piezo."""
+    """Return the number of the column of the depth, or of the position of the piezo."""
     return (columns.get("depth") or columns["piezo"])[0]
 
 
 def restarts(depth):
-    """Rows at which the depth starts anew: it jumps back to its beginning, and rises again from there."""
+    """Return the rows at which the depth starts anew: it jumps back to its beginning and rises again."""
     known = np.flatnonzero(np.isfinite(depth))
     depth = depth[known]
     span = np.ptp(depth) if depth.size else 0.0
@@ -42,7 +44,7 @@ def restarts(depth):
         return []
     steps = np.diff(depth)
     size = max(_JUMP * span, _STEPS * np.median(np.abs(steps)))
-    # A height falls where a depth grows.
+    # A column of heights falls while the depth grows.
     ends = depth[: max(2, depth.size // 20)]
     low = ends.mean() < np.median(depth) or depth[0] - depth.min() < 0.5 * span
     sign = 1.0 if low else -1.0
@@ -56,10 +58,10 @@ def restarts(depth):
 
 
 def is_path(depth, force):
-    """Whether depth and force go along a path, as those of one test, and are not scattered."""
+    """Whether depth and force follow a path, like one test, and are not scattered."""
     known = np.isfinite(depth) & np.isfinite(force)
     depth, force = (_without_extremes(each[known]) for each in (depth, force))
-    # A dead curve of a map has no force, and is one.
+    # A dead curve of a map is a curve with constant force.
     moving = [each for each in (depth, force) if each.size and np.ptp(each)]
     if depth.size < 3 or not moving:
         return False
@@ -69,7 +71,7 @@ def is_path(depth, force):
 
 
 def _without_extremes(values):
-    """Values within their range but for a fiftieth at each end, as outliers; all if the rest has none."""
+    """Clip a fiftieth of the values at each end, as outliers, unless the other values are all equal."""
     if values.size < FEWEST:
         return values
     low, high = np.quantile(values, [_EXTREMES, 1 - _EXTREMES])
@@ -77,7 +79,7 @@ def _without_extremes(values):
 
 
 def has_path(table):
-    """Whether two columns go along a path, and one of them not in equal steps or stairs, as a map's do."""
+    """Whether two columns follow a path, one of them without equal steps or stairs, unlike a map."""
     paths, bent = 0, 0
     for values in table.values.values():
         good = values[np.isfinite(values)]
@@ -90,7 +92,7 @@ def has_path(table):
 
 
 def several(table, columns):
-    """Why a table of one depth and force may hold several curves, and rows at which they begin; or None."""
+    """Return the reason to split a table into several curves, and their first rows, or None."""
     depth = table.values[place_of(columns)]
     rows = restarts(depth)
     if rows:
@@ -103,8 +105,8 @@ def several(table, columns):
 
 
 def _marks(table, columns):
-    """What may part curves whose depth does not jump: gaps, labels and a time that starts again."""
-    yield "empty lines or words part the rows", _gaps(table)
+    """Yield possible separations of curves without a jump of the depth: gaps, labels, restarts of time."""
+    yield "empty lines or words separate the rows", _gaps(table)
     for number, cells in labels(table, columns).items():
         yield f"column {number} changes", _changes(cells)
     if columns.get("time"):
@@ -112,7 +114,7 @@ def _marks(table, columns):
 
 
 def _begin_again(depth, rows):
-    """Whether each of the parts that begin at some rows begins where the first one does, and rises."""
+    """Whether the parts with the given first rows all begin at the depth of the first part, and rise."""
     edges = [0, *rows, depth.size]
     if not rows or len(rows) > depth.size // 4 or min(np.diff(edges)) < 3:
         return False
@@ -123,13 +125,13 @@ def _begin_again(depth, rows):
 
 
 def labels(table, columns):
-    """Cells of the columns that may tell curves apart: all that are not used, by their numbers."""
+    """Return the cells of all unused columns, which may distinguish curves, by column number."""
     used = {column[0] for column in columns.values() if column}
     found = {k: values for k, values in table.values.items() if k not in used}
     for key, cells in table.words.items():
         filled = [cells[0]]
         for cell in cells[1:]:
-            # A name may stand at the first sample alone.
+            # A name may occur only at the first sample.
             filled.append(cell or filled[-1])
         found[int(key.split()[0]) - 1] = np.array(filled)
     return found
@@ -144,14 +146,14 @@ def _falls(values):
 
 
 def _gaps(table):
-    """Rows behind an empty line or words between rows."""
+    """Return the rows after an empty line or words between rows."""
     return sorted({int(np.searchsorted(table.lines, gap)) for gap in table.gaps})
 
 
 def key_columns(table, columns, rows):
-    """Numbers of the column, or of the two columns, whose values tell apart the curves that begin at rows.
+    """Return the columns, or the first pair of columns, whose values distinguish some curves.
 
-    Those of all columns that do, the first ones first.
+    The curves begin at `rows`. The columns are in order of their numbers.
     """
     edges, found = {*rows}, {}
     for number, cells in labels(table, columns).items():
@@ -168,12 +170,12 @@ def key_columns(table, columns, rows):
 
 
 def at_gaps(table, rows):
-    """Whether the curves that begin at some rows are those between the gaps."""
+    """Whether curves begin exactly after the gaps."""
     return set(_gaps(table)) == set(rows)
 
 
 def parts(table, by, columns):
-    """Names and tables of the curves of a table, as `by` says."""
+    """Return the names and tables of the curves of a table, separated by `by`."""
     if by in (None, "whole"):
         return [("", table)]
     if by not in ("restart", "gaps"):
@@ -194,7 +196,7 @@ def parts(table, by, columns):
 
 
 def _grouped(table, by):
-    """Names and tables of the rows that have the same values in one or more columns."""
+    """Return the names and tables of rows with the same values in one or more columns."""
     chosen = [_column(table, each) for each in (by if isinstance(by, list | tuple) else [by])]
     if not chosen:
         raise MDRError("by = [] must name columns")
@@ -232,7 +234,7 @@ def _shown(cell):
 
 
 def _column(table, which):
-    """Name and cells of a column that is told by its number or its name."""
+    """Return the name and the cells of a column with a given number or name."""
     cells = labels(table, {})
     names = {int(key.split()[0]) - 1: key.partition(" ")[2] for key in table.words} | table.heads
     found = [k for k, head in names.items() if which in (k, head)]
@@ -245,9 +247,10 @@ def _column(table, which):
 
 
 def goes_on(before, table, columns, span):
-    """Whether a table begins where the tables before end, and not where they begin if these are no hold.
+    """Whether a table begins where the tables before end.
 
-    `span` is the range of the depth of a curve, of which that of a hold is a small share.
+    Unless these are a hold, it must not begin where they begin. `span` is the range of the depth of a
+    curve; the range of a hold is a small share of it.
     """
     first, second = (known_depths(each, columns) for each in (before, [table]))
     if not first.size or not second.size or abs(second[0] - first[-1]) >= _NEXT * span:
@@ -256,13 +259,13 @@ def goes_on(before, table, columns, span):
 
 
 def known_depths(tables, columns):
-    """Depths of tables below each other, without those that are missing."""
+    """Return the depths of tables below each other, without missing values."""
     depth = np.concatenate([table.values[place_of(columns)] for table in tables])
     return depth[np.isfinite(depth)]
 
 
 def below(tables):
-    """One table of several with the same columns."""
+    """Return one table from several tables with the same columns."""
     first = tables[0]
     values = {k: np.concatenate([table.values[k] for table in tables]) for k in first.values}
     words = {key: [c for t in tables for c in t.words.get(key, [""] * len(t.lines))] for key in first.words}
@@ -272,9 +275,10 @@ def below(tables):
 
 
 def joined(table, layouts, file):
-    """One table of parts of a curve that stand side by side, each below the one before, and its columns.
+    """Return one table of the parts of a curve that are side by side, and its columns.
 
-    The first part ends with its largest force, and each other one begins where the one before ends.
+    Each part is below the part before. The first part ends with its largest force, and each other part
+    begins where the part before ends.
     """
     ordered, end = [], None
     for layout in layouts:
@@ -306,7 +310,7 @@ def joined(table, layouts, file):
 
 
 def _refuse_step(table, layouts, ordered, file):
-    """Ask where the force of the second part does not begin with that with which the first one ends."""
+    """Raise `UnknownColumns` if the force of the second part does not begin where the first part ends."""
     first, second = (
         table.values[layout["force"][0]][rows]
         for layout, rows in zip(layouts[:2], ordered[:2], strict=True)
@@ -314,14 +318,14 @@ def _refuse_step(table, layouts, ordered, file):
     if abs(second[0] - first[-1]) > _MEET * np.ptp(first):
         a, b = (table.heads[place_of(layout)] for layout in layouts[:2])
         why = (
-            f"approach and retract do not meet: the force is {first[-1]:.4g} where {a!r} ends, and "
-            f"{second[0]:.4g} at the same place of {b!r}; one of the two may run the other way round"
+            f"approach and retract do not meet: the force is {first[-1]:.4g} at the end of {a!r}, and "
+            f"{second[0]:.4g} at the same place of {b!r}; one of the two may be in reversed order"
         )
         raise UnknownColumns(why, table, file, {"columns": layouts})
 
 
 def continues_beside(table, layouts):
-    """Whether the second of two pairs of columns begins or ends where the first has its largest force."""
+    """Whether the second of two pairs of columns begins or ends at the largest force of the first pair."""
     if len(layouts) != 2:
         return False
     tops = []

@@ -1,4 +1,4 @@
-"""Tables of numbers in text: cells, the rows, and the names above them."""
+"""Tables of numbers in text: cells, rows, and the names above them."""
 
 import csv
 import re
@@ -15,18 +15,18 @@ from .names import normal, parted, symbols_in
 from .numbers import number_reader, numeric, with_comma
 from .units import cleaned, unit_alone
 
-#: Most characters of a line, and of one that is searched for names and constants; most columns.
+#: Largest number of characters of a line, of characters of a header line, and of columns.
 _LONGEST_LINE, LONGEST_HEADER, _MOST_COLUMNS = 10_000, 2_000, 1_000
-#: Most samples of a table: each needs some 0.2 kB while the table is read.
+#: Largest number of samples of a table; reading needs about 0.2 kB for each sample.
 _MOST_ROWS = 2_000_000
-#: Ends of lines, as those of `str.splitlines`.
+#: Ends of lines, as in `str.splitlines`.
 _ENDS = re.compile("\r\n|[\n\r\v\f\x1c-\x1e\x85\u2028\u2029]|$")
-#: Most lines above the rows in which names are looked for.
+#: Number of lines above the rows to search for names.
 _ABOVE = 8
 _BRACKETS = " ()[]{}<>/"
 #: Words before the names or units of the columns.
 _LABELS = {"units", "columns", "names", "fields", "channels"}
-#: Units of other quantities, in small letters.
+#: Units of other quantities, in lower case.
 _OTHER_UNITS = {
     "pa", "kpa", "mpa", "gpa", "nm/s", "µm/s", "um/s", "mn/s", "µn/s", "un/s", "1/s", "hz", "khz", "%", "c",
     "°c", "k", "deg", "°", "rad", "j", "nj", "µj", "nm^2", "µm^2", "um^2", "-", "a.u.",
@@ -35,13 +35,14 @@ _OTHER_UNITS = {
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """Columns of numbers of a text file, by the number of the column from 0 on.
+    """Columns of numbers of a text file, by column number, starting at 0.
 
-    `heads` are their names and `values` their numbers, NaN for cells that are none. `lines` are the line
-    numbers of the rows, `odd` the text of lines with another number of cells or a cell that is no number,
-    by their number. `words` are the cells of the columns that have no numbers in most rows. `units` are the
-    cells of a line of units of its own, `header` the lines before the rows, and `gaps` the line numbers of
-    empty lines and of words between rows. `name` is that of the sheet, or of one table of several.
+    `heads` are the names of the columns and `values` their numbers, NaN for other cells. `lines` are the
+    line numbers of the rows. `odd` has the text of irregular lines by line number: another number of cells,
+    or a cell without a number. `words` are the cells of columns without numbers in most rows. `units` are
+    the cells of a separate line of units, and `header` the lines before the rows. `gaps` are the line
+    numbers of empty lines and of words between rows. `name` is the name of the sheet, or of one of several
+    tables.
     """
 
     heads: dict[int, str]
@@ -55,7 +56,7 @@ class Table:
     name: str = ""
 
     def parted(self, column):
-        """Name of a column, and kind and name of its unit."""
+        """Return the name of a column, and kind and name of its unit."""
         return self._parted[column]
 
     @cached_property
@@ -70,16 +71,16 @@ class Table:
         return found
 
     def unit(self, column):
-        """Plain unit of a column, as in `COLUMN_UNITS`; else the empty text."""
+        """Return the plain unit of a column, as in `COLUMN_UNITS`, or an empty text."""
         return self.parted(column)[2]
 
     @property
     def key(self):
-        """What tables have in common for which the same columns may be told: heads and units."""
+        """Headers and units. The same `columns=` applies to tables with equal keys."""
         return tuple(self.heads.items()), tuple(self.units.items()), tuple(self.words)
 
     def rows(self, chosen):
-        """The table with some of its rows, a slice or numbers, and the odd lines between them."""
+        """Return the table with the chosen rows, a slice or numbers, and irregular lines between them."""
         lines = self.lines[chosen]
         first, last = (lines.min(), lines.max()) if lines.size else (0, -1)
         cells = {key: np.asarray(each)[chosen].tolist() for key, each in self.words.items()}
@@ -93,55 +94,55 @@ class Table:
         )
 
     def few(self, count=3):
-        """The heads and the first rows, which are enough to ask what the columns are."""
+        """Return the headers and the first rows, which an error message needs."""
         return replace(self.rows(slice(0, count)), odd={}, header=self.header[-_ABOVE:])
 
 
 class _Lines:
-    """The lines of a text that are not empty.
+    """Lines of a text that are not empty.
 
-    `each` has a column for a line: its number, where it begins and ends in the text, how many cells it has,
-    how many of them are empty and how many are numbers, and where they begin in `values`, NaN for words.
-    Cells are split anew when they are asked for: kept, they need half a kilobyte a line.
+    `each` has a column for each line: its number, its begin and end in the text, the numbers of its cells,
+    empty cells and cells with numbers, and the index of its first cell in `values`. `values` has NaN for
+    words. Cells are split on each access, because storing them would need half a kilobyte per line.
     """
 
     def __init__(self, text, split, each, values):
         self.text, self.split, self.each, self.values = text, split, each, values
         self.number, self.begin, self.end = each[:3]
         self.cells, empty, self.finite, self.first = each[3:]
-        #: How many cells are neither numbers nor empty.
+        #: Number of cells with words.
         self.spare = self.cells - empty - self.finite
-        #: How many cells a row has; 0 for other lines.
+        #: Number of cells of a row; 0 for other lines.
         self.width = np.where((self.finite > 0) & (self.finite >= self.spare), self.cells, 0)
 
     def __len__(self):
         return self.number.size
 
     def __getitem__(self, chosen):
-        """Some of the lines: a slice, numbers or a mask."""
+        """Return the chosen lines: a slice, numbers or a mask."""
         return _Lines(self.text, self.split, self.each[:, chosen], self.values)
 
     def texts(self):
-        """Texts of the lines, one after the other."""
+        """Return an iterator over the texts of the lines."""
         return _parts(self.text, self.begin, self.end)
 
     def rows(self):
-        """Cells of the lines, one line after the other."""
+        """Return an iterator over the cells of each line."""
         return map(self.split, self.texts())
 
     def by_number(self):
-        """Texts of the lines by their numbers."""
+        """Return the texts of the lines by line number."""
         return dict(zip(self.number.tolist(), self.texts(), strict=True))
 
 
 def _parts(text, begin, end):
-    """Parts of a text between places, one after the other."""
-    # A memory view gives one integer at a time; the list of an array has all at once.
+    """Return an iterator over the parts of a text between two places."""
+    # A memory view makes one integer at a time; a list would hold all integers at once.
     return map(text.__getitem__, map(slice, memoryview(begin), memoryview(end)))
 
 
 def decoded(data):
-    """Text of the bytes of a file in UTF-8, UTF-16 or Windows-1252."""
+    """Decode the bytes of a file in UTF-8, UTF-16 or Windows-1252."""
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         return data.decode("utf-16", "replace")
     if b"\0" in data[:2]:
@@ -153,15 +154,16 @@ def decoded(data):
 
 
 def read_table(text, name, limit=_MOST_ROWS):
-    """The table of a text: a header, and rows of numbers separated by commas, semicolons, tabs or blanks.
+    """Return the table of a text: a header, and rows of numbers.
 
-    Lines that start with # belong to the header, or are comments. More samples than `limit` are refused.
+    Commas, semicolons, tabs or blanks separate the numbers. Lines that start with # belong to the header or
+    are comments. More samples than `limit` raise ValueError.
     """
     return _table(_lines(text, name, limit), name, limit)
 
 
 def read_tables(text, name, limit=_MOST_ROWS):
-    """All tables of a text: each begins with a line that has a word for each column."""
+    """Return all tables of a text; each begins with a line that has a word for each column."""
     lines = _lines(text, name, limit)
     places, others = np.flatnonzero(lines.width), np.flatnonzero(lines.width == 0)
     whole = np.cumsum((lines.width > 0) & (lines.width == lines.finite))
@@ -170,7 +172,7 @@ def read_tables(text, name, limit=_MOST_ROWS):
         if whole[i] > before + 1:
             k = np.searchsorted(places, i)
             if _is_header(line, *lines.width[places[k - 1 : k + 1]].tolist()):
-                # What stands above a header, as a title, is the table's.
+                # Lines above a header, such as a title, belong to its table.
                 starts, before = [*starts, places[k - 1] + 1], whole[i]
     parts = [lines[a:b] for a, b in zip(starts, [*starts[1:], len(lines)], strict=True)]
     parts = [part for part in parts if part.width.any()] or parts
@@ -190,12 +192,12 @@ def _is_header(line, *widths):
 
 
 def _lines(text, name, limit):
-    """`_Lines` of a text."""
+    """Return the `_Lines` of a text."""
     number, begin, end = _places(text, name, limit)
     if not number.size:
         raise MDRError(f"{name} is empty")
     if np.max(end - begin) > _LONGEST_LINE:
-        raise MDRError(f"{name}: a line is longer than {_LONGEST_LINE} characters; use one line per sample")
+        raise MDRError(f"{name}: a line is longer than {_LONGEST_LINE} characters: use one line per sample")
 
     def texts(step=1):
         return _parts(text, begin[::step], end[::step])
@@ -221,9 +223,9 @@ def _lines(text, name, limit):
 
 
 def _places(text, name, limit):
-    """Number, begin and end of each line that is not empty."""
+    """Return number, begin and end of each line that is not empty."""
     found, begin, most = array("q"), 0, 2 * limit
-    # The usual ends are counted at once.
+    # Counting the usual line ends is fast.
     if max(text.count("\n"), text.count("\r")) > most:
         raise _too_many(name, limit)
     for number, match in enumerate(_ENDS.finditer(text), 1):
@@ -237,25 +239,25 @@ def _places(text, name, limit):
 
 
 def _too_many(name, limit):
-    return ValueError(f"{name}: more than {limit} samples; give fewer samples")
+    return ValueError(f"{name}: more than {limit} samples: give fewer samples")
 
 
 def _cells(line):
-    """Cells of a line, separated by tabs, semicolons or bars, else by blanks or commas."""
+    """Return the cells of a line, separated by tabs, semicolons or bars, or else by blanks or commas."""
     for sign in ("\t", ";", "|"):
         if sign in line:
             return [cell.strip() for cell in line.replace('"', "").strip(" ").split(sign)]
     if '"' in line and "," in line:
         return [cell.strip() for cell in next(csv.reader([line.strip()], skipinitialspace=True))]
     cells = line.replace('"', "").split()
-    # A comma is a decimal sign where the cells are separated otherwise.
+    # A comma is a decimal sign if another sign separates the cells.
     if "," not in line or (len(cells) > 1 and any(map(with_comma, cells))):
         return cells
     return [cell.strip() for cell in line.replace('"', "").split(",")]
 
 
 def _head_cells(line, width, open_end=True):
-    """Cells of a line of a header, `width` of them, or None; `open_end`: rows end in a separator."""
+    """Return the `width` cells of a header line, or None; with `open_end`, rows end in a separator."""
     line = line.lstrip("#%/ ").rstrip(" ")
     label, found, after = line.partition(":")
     if found and label.strip().lower() in _LABELS:
@@ -263,7 +265,8 @@ def _head_cells(line, width, open_end=True):
     splits = [_cells(line)]
     if "," in line:
         splits.append([cell.strip() for cell in line.split(",")])
-    # Where the rows end in a separator, the header need not; else a name lacks, perhaps the first one.
+    # If the rows end in a separator, the header may omit it. Otherwise a name is missing, perhaps the
+    # first.
     splits += [[*cells, ""] for cells in splits[:1] if open_end and ("\t" in line or ";" in line)]
     splits += [cells[:-1] for cells in splits if cells and not cells[-1]]
     if not any(sign in line for sign in "\t;,|"):
@@ -274,7 +277,7 @@ def _head_cells(line, width, open_end=True):
 
 
 def _table(lines, name, limit):
-    """`Table` of lines."""
+    """Return the `Table` of lines."""
     width, first = _begin(lines, name)
     above, below = lines[:first], lines[first:]
     header = list(above.texts())
@@ -290,7 +293,7 @@ def _table(lines, name, limit):
     known = np.isfinite(values)
     numbers = [k for k in range(width) if _has_numbers(known[:, k], k, rows)]
     odd = below[(below.cells > 0) & ~np.isin(below.number, rows.number[known[:, numbers].all(axis=1)])]
-    # A row of numbers before the rows, after which the header goes on.
+    # The header may contain a row of numbers.
     early = above[(above.width == width) & (above.finite == width)]
     begin, end = rows.number[[0, -1]]
     return Table(
@@ -306,16 +309,16 @@ def _table(lines, name, limit):
 
 
 def _begin(lines, name):
-    """Number of columns of the rows, and the place of the first row."""
+    """Return the number of columns of the rows, and the place of the first row."""
     if not lines.width.any():
         raise MDRError(f"{name}: no samples; expected rows of numbers")
     width = _most_common(lines.width[lines.width > 0])
     if width > _MOST_COLUMNS:
         raise MDRError(f"{name} has {width} columns: at most {_MOST_COLUMNS} are read")
-    # Lines of a header, as "Depth limit, 200", have fewer numbers than rows.
+    # Header lines, such as "Depth limit, 200", have fewer numbers than rows.
     some = lines.width == width
     whole = some & (lines.finite >= _most_common(lines.finite[some]))
-    # Two rows that follow each other, but for comments.
+    # The first two consecutive rows, apart from comments.
     kept = np.flatnonzero(lines.cells)
     for good in (whole, some):
         pairs = kept[:-1][good[kept[:-1]] & good[kept[1:]]]
@@ -325,7 +328,7 @@ def _begin(lines, name):
 
 
 def _rows(lines, width):
-    """Lines that are rows: of the usual number of cells, and not words with a number, as "Test 2"."""
+    """Return the lines that are rows: the usual number of cells, but not words with a number ("Test 2")."""
     rows = lines[(lines.cells == width) & (lines.finite > 0)]
     usual = _most_common(rows.finite)
     words = _most_common(rows.spare[rows.finite == usual])
@@ -333,12 +336,12 @@ def _rows(lines, width):
 
 
 def _most_common(numbers):
-    """The most frequent number, of several the first."""
+    """Return the most frequent number, the first of them in a tie."""
     return Counter(numbers.tolist()).most_common(1)[0][0]
 
 
 def _has_numbers(known, column, lines):
-    """Whether half of the cells of a column are numbers, or all that are not empty."""
+    """Whether at least half of the cells of a column, or all cells with content, are numbers."""
     count = np.count_nonzero(known)
     return 2 * count >= known.size or (
         count > 1 and count == sum(bool(cells[column]) for cells in lines.rows())
@@ -346,7 +349,7 @@ def _has_numbers(known, column, lines):
 
 
 def _heads(header, width, open_end):
-    """Names of the columns, and their units in a line of its own: the lines nearest to the rows."""
+    """Return the names of the columns, and their units from a separate line, nearest to the rows."""
     near = []
     for line in [line for line in header if any(map(str.isalpha, line))][: -_ABOVE - 1 : -1]:
         cells = _head_cells(line, width, open_end)
@@ -356,13 +359,13 @@ def _heads(header, width, open_end):
     units = next((i for i, cells in enumerate(near) if _are_units(cells)), None)
     if units is None:
         return (near[0] if near else nothing), nothing
-    # Names stand above their units; below them where there is nothing above.
+    # Names are above their units, or below them if nothing is above.
     names = near[units + 1] if units + 1 < len(near) else near[units - 1] if units else nothing
     return names, near[units]
 
 
 def _are_units(cells):
-    """Whether most cells of a line are units, one of them of more than a letter; or all are."""
+    """Whether all cells of a line are units, or most are and a unit has more than one letter."""
     cells = [cleaned(cell[:80]).strip(_BRACKETS) for cell in cells]
     cells = [cell for cell in cells if cell]
     units = [cell for cell in cells if unit_alone(cell) or cell.lower() in _OTHER_UNITS]
@@ -371,12 +374,12 @@ def _are_units(cells):
 
 
 def _refuse_decimal_commas(header, width, place):
-    """Refuse rows that have more cells than the header has names with units, as "1,5,2,3" has."""
+    """Raise MDRError for rows with twice as many cells as names with units, such as "1,5,2,3"."""
     line = header[-1] if header else ""
     count = sum(bool(parted(cell.strip())[2]) for cell in line[:LONGEST_HEADER].split(","))
     if count > 1 and width == 2 * count and count == line.count(",") + 1:
         names = "two" if count == 2 else count
         raise MDRError(
-            f"{place}: expected {names} numbers, as the header names {names} units, found {width}; "
-            "where commas are decimal ones, separate columns by semicolons"
+            f"{place}: expected {names} numbers, as the header names {names} units, found {width}: "
+            "if commas are decimal signs, separate columns by semicolons"
         )

@@ -1,4 +1,4 @@
-"""Samples of a profile from a text file, as of a measured tip."""
+"""Samples of a profile, such as a measured tip, from a text file."""
 
 from pathlib import Path
 
@@ -9,14 +9,14 @@ from .units import unit_named
 
 
 def samples_in(path, unit, limit):
-    """Radii and heights (m) in a text file, at most `limit` of them; `unit` if its header names none."""
+    """Return at most `limit` radii and heights (m) of a text file; `unit` if its header has no unit."""
     return samples_of(decoded(Path(path).read_bytes()), str(path), unit, limit, "; or give unit='nm'")
 
 
 def samples_of(text, name, unit, limit, remedy=""):
-    """Radii and heights (m) in a text, at most `limit` of them; `unit` if its header names none.
+    """Return at most `limit` radii and heights (m) of a text; `unit` if its header has no unit.
 
-    `remedy` is what else the caller can do where no unit is named.
+    The message about a missing unit ends with `remedy`, an alternative for the caller.
     """
     if unit is not None:
         check.one_of("unit", unit, (*LENGTHS, "um"))
@@ -32,7 +32,7 @@ def samples_of(text, name, unit, limit, remedy=""):
     named = [u if u in LENGTHS else None for u in map(table.unit, columns)]
     if unit is None and None in named:
         raise check.MDRError(
-            f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', out of "
+            f"{name}: the header must name the units of r and z, as in 'r (nm), z (nm)', from "
             f"{', '.join(LENGTHS)}{remedy}"
         )
     units = named if unit is None else [unit_named(unit)] * 2

@@ -1,4 +1,4 @@
-"""Plain units of columns: symbols and their English words. Nothing that scales a unit is understood."""
+"""Plain units of columns: symbols and English words, without scaling factors."""
 
 import unicodedata
 from functools import lru_cache
@@ -8,12 +8,12 @@ from ...solver.profiles.samples import LENGTHS
 
 
 def _sizes(kind, *names):
-    """Sizes (SI) of units of a kind by their names."""
+    """Return the sizes (SI) of units of a kind by name."""
     known = {unit.name: unit.factor for unit in UNITS[kind]}
     return {name: known[name] for name in names}
 
 
-#: Sizes (SI) of the units that a column of a file may have, by their kind.
+#: Sizes (SI) of the units that a column of a file may have, by kind.
 COLUMN_UNITS = {
     "length": LENGTHS | {"in": 0.0254},
     "force": _sizes("force", "kN", "N", "mN", "µN", "nN", "pN", "MN")
@@ -28,9 +28,9 @@ COLUMN_UNITS = {
 }  # fmt: skip
 _PREFIXES = {"": "", "pico": "p", "nano": "n", "micro": "µ", "milli": "m", "kilo": "k"}
 _NOUNS = {"meter": "m", "meters": "m", "metre": "m", "metres": "m", "newton": "N", "newtons": "N"}
-#: Units that are words or letters of names, too: understood in brackets and in a row of units alone.
+#: Units that may also be words or letters of names: valid only in brackets and in a row of units.
 IN_BRACKETS = {"in", "g", "lb"}
-#: English words of units, in small letters without blanks and hyphens.
+#: English words of units, in lower case without blanks and hyphens.
 _WORDS = {
     "micron": "µm", "microns": "µm", "angstrom": "Å", "angstroms": "Å", "centimeter": "cm",
     "centimeters": "cm", "centimetre": "cm", "centimetres": "cm", "sec": "s", "secs": "s", "second": "s",
@@ -42,27 +42,27 @@ _WORDS = {
     for prefix, symbol in _PREFIXES.items()
     for noun, unit in _NOUNS.items()
 }  # fmt: skip
-#: Kind and name of each unit by its symbols; "um" and "uN" are µm and µN.
+#: Kind and name of each unit by symbol; "um" and "uN" are µm and µN.
 _SYMBOLS = {name: (kind, name) for kind, sizes in COLUMN_UNITS.items() for name in sizes}
 _SYMBOLS |= {name.replace("µ", "u"): known for name, known in _SYMBOLS.items()}
 _BY_WORD = {word: _SYMBOLS[name] for word, name in _WORDS.items() if name in _SYMBOLS}
-#: µ as other encodings leave it, UTF-8, GBK, Shift-JIS and EUC-KR read as Windows-1252; as TeX and HTML.
+#: µ of UTF-8, GBK, Shift-JIS and EUC-KR read as Windows-1252, and µ of TeX and HTML.
 _MU = ("Âµ", "Î¼", "¦Ì", "ƒÊ", "¥ì", "μ", "$\\mu$", "\\mu", "&micro;")
 _DASHES = str.maketrans("−–—‐‑", "-----")
 
 
 @lru_cache(maxsize=4096)
 def cleaned(text):
-    """Text with one character for each sign: µ, Å and -."""
+    """Return a text with a unique character for each of µ, Å and -."""
     for each in _MU:
         text = text.replace(each, "µ")
     return unicodedata.normalize("NFKC", text).replace("μ", "µ").translate(_DASHES)
 
 
 def unit_alone(text):
-    """Kind and name of a text that is a plain unit and nothing else, or None.
+    """Return kind and name of a text that is exactly a plain unit, or None.
 
-    MN is none: where a depth is measured, a header in capitals means mN.
+    MN is excluded: next to a measured depth, a header in capitals means mN.
     """
     unit = _unit_told(text)
     return None if unit == ("force", "MN") else unit
@@ -74,7 +74,7 @@ def _unit_told(text):
 
 
 def unit_named(text):
-    """Name of a unit that is told, as in `COLUMN_UNITS`, or None."""
+    """Return the name in `COLUMN_UNITS` of a given unit, or None."""
     unit = _unit_told(str(text).strip(" ()[]"))
     return unit and unit[1]
 
@@ -89,7 +89,7 @@ def is_voltage(unit):
 
 
 def size_of(unit):
-    """Size (SI) of a unit by its name, negative for "−nm"."""
+    """Return the size (SI) of a unit by name, negative for "−nm"."""
     if unit.startswith("−"):
         return -size_of(unit[1:])
     kind, name = _SYMBOLS[unit]

@@ -1,4 +1,4 @@
-"""Curves of the sheets of Excel files."""
+"""Curves in the sheets of Excel files."""
 
 import warnings
 from contextlib import closing
@@ -11,26 +11,26 @@ from .several import curves_of_tables
 from .table import read_tables
 
 _SUFFIXES = ".xls", ".xlsx", ".xlsm"
-#: Most sheets, and most cells (rows times columns) of one.
+#: Largest number of sheets, and of cells (rows times columns) in a sheet.
 _SHEETS, _CELLS = 1_000, 10_000_000
 
 
 def is_workbook(path):
-    """Whether a file with a suffix of Excel is one: programs of instruments give it to text, too."""
+    """Whether a file is an Excel file: programs of instruments also give the suffix to text."""
     if path.suffix.lower() not in _SUFFIXES:
         return False
     with path.open("rb") as file:
         head = file.read(4096)
     if head.lstrip(b"\xef\xbb\xbf \r\n").startswith(b"<"):
         raise MDRError(
-            f"{path.name} is HTML or XML, and no Excel file: open it in a program for spreadsheets, and "
+            f"{path.name} is HTML or XML, not an Excel file: open it in a program for spreadsheets, and "
             "save it as .xlsx or as a CSV table"
         )
     return not head.strip() or is_binary(head)
 
 
 def from_workbook(path, options):
-    """Functions that make the curves of the sheets of an Excel file that have depth and force."""
+    """Return functions that make the curves of all sheets of an Excel file with depth and force."""
     engine = "xlrd" if path.suffix.lower() == ".xls" else "openpyxl"
     reader = imported(engine, f"reading {path.name}", "openpyxl xlrd")
     refuse_large(path, sheets=_SHEETS)
@@ -50,25 +50,25 @@ def from_workbook(path, options):
 
 
 def _texts(path, reader, texts_of):
-    """Names of the sheets, and their cells as text separated by tabs."""
+    """Return the names of the sheets, and their cells as text separated by tabs."""
     try:
         with warnings.catch_warnings():
-            # They are about styles and other things without numbers.
+            # The warnings concern styles and other things without numbers.
             warnings.simplefilter("ignore")
             return [(name, _text(path, name, rows)) for name, rows in texts_of(reader, path)]
     except _TooLarge:
         raise
     except Exception as error:
-        # Each package has errors of its own for what is no Excel file.
+        # Each package raises different errors for invalid Excel files.
         raise MDRError(f"{path.name} cannot be read as an Excel file: {error}") from error
 
 
 class _TooLarge(MDRError):
-    """A sheet with more cells than are read."""
+    """Error for a sheet with too many cells."""
 
 
 def _text(path, name, rows):
-    """Rows of cells as text."""
+    """Return rows of cells as text."""
     lines, width = [], 0
     for row in rows:
         if not row:
@@ -80,27 +80,27 @@ def _text(path, name, rows):
         lines.append(line)
         if line and width * len(lines) > _CELLS:
             raise _TooLarge(
-                f"{path.name}, {name}: {len(lines)} rows times {width} columns are more than {_CELLS} "
-                "cells; save the columns of the curve as a CSV table"
+                f"{path.name}, {name}: {len(lines)} rows times {width} columns exceed {_CELLS} cells: "
+                "save the columns of the curve as a CSV table"
             )
-    # A row that ends in empty cells has as many as the others.
+    # Pad rows that end in empty cells to the common width.
     return "\n".join(line + "\t" * (width - 1 - line.count("\t")) if line else "" for line in lines)
 
 
 def _rows_of_xlsx(openpyxl, path):
-    """Names and rows of the sheets; one of a chart has none."""
+    """Yield the names and rows of the sheets; a chart has no rows."""
     book = openpyxl.load_workbook(path, read_only=True, data_only=True, keep_links=False)
     with closing(book):
         for name in book.sheetnames:
             sheet = book[name]
             if hasattr(sheet, "reset_dimensions"):
-                # What a file says of its size may be wrong.
+                # The size in the file may be wrong.
                 sheet.reset_dimensions()
             yield name, sheet.iter_rows(values_only=True) if hasattr(sheet, "iter_rows") else ()
 
 
 def _rows_of_xls(xlrd, path):
-    """Names and rows of the sheets."""
+    """Yield the names and rows of the sheets."""
     with xlrd.open_workbook(path) as book:
         for name in book.sheet_names():
             yield name, _rows_of_sheet(book.sheet_by_name(name), name)
@@ -108,9 +108,7 @@ def _rows_of_xls(xlrd, path):
 
 def _rows_of_sheet(sheet, name):
     if sheet.nrows * sheet.ncols > _CELLS:
-        raise _TooLarge(
-            f"{name}: {sheet.nrows} rows times {sheet.ncols} columns are more than {_CELLS} cells"
-        )
+        raise _TooLarge(f"{name}: {sheet.nrows} rows times {sheet.ncols} columns exceed {_CELLS} cells")
     numbers = {1, 2, 3}
     for i in range(sheet.nrows):
         yield [cell.value if cell.ctype in numbers else None for cell in sheet.row(i)]

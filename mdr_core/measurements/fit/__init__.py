@@ -1,1 +1,1 @@
-"""Fits of media to measurements: force–depth curves, hardness at several radii."""
+"""Fits of media to measurements: force–depth curves, and hardness at several radii."""

@@ -1,13 +1,13 @@
 """Curves of elastic media with adhesion: states with derivatives, and the samples in contact.
 
-With D the end of the live interval, a = a(D), Δl the stretch at the rim and p = Δl/(2a g′(a)),
+With the end D of the live interval, a = a(D), the stretch Δl at the rim, and p = Δl/(2a g′(a)),
 
     ∂F/∂d = 2E* (a − 3Δl/(2g′))/(1 − p)     w ∂F/∂w = −E* Δl²/(g′ (1 − p))     E* ∂F/∂E* = F − w ∂F/∂w
 
-Contact is made and lost in jumps, at which the sum of squares would jump, too. Which samples are in contact
-is therefore held while the other parameters are searched: the jumps of the model, each moved to the sample
-where it fits best. Beyond the end of their stable range the states have the force at this end. Samples next
-to a jump have no weight.
+Contact is made and lost in jumps, at which the sum of squares would also jump. Therefore the set of samples
+in contact is fixed while the other parameters are searched. It has the jumps of the model, each moved to
+the sample where it fits best. Beyond the end of their stable range the states have the force at this end.
+Samples next to a jump have no weight.
 """
 
 from dataclasses import dataclass, replace
@@ -27,15 +27,15 @@ from ...solver.medium.medium import Medium
 from .curves import NO_WEIGHT, Curves
 from .model import States
 
-#: Least 1 − p in derivatives, which are infinite at the end of the stable range.
+#: Smallest 1 − p in derivatives, which are infinite at the end of the stable range.
 _LEAST = 0.01
-#: Most searches, between which the samples in contact are found anew.
+#: Largest number of searches; between them the samples in contact are updated.
 _SEARCHES = 8
 
 
 @dataclass(frozen=True)
 class AdhesiveCurves(Curves):
-    """`Curves` of elastic media with adhesion; `contact` (R, N) says which samples are in contact."""
+    """`Curves` of elastic media with adhesion; `contact` (R, N) marks the samples in contact."""
 
     contact: np.ndarray | None = None
 
@@ -63,20 +63,20 @@ class AdhesiveCurves(Curves):
         return minimum
 
     def contact_of_model(self, x):
-        """Which samples are in contact (R, N) in the model at scaled parameters x."""
+        """Return a mask of the samples in contact (R, N) in the model at scaled parameters x."""
         values = self.values(x)
         _, low, shortest = _end_of_contact(self.profile, values)
         return in_contact(self.depth - values["contact_point"], low - shortest)
 
     def contact_of_data(self, x):
-        """Which samples are in contact (R, N): the jumps of the model, moved to where they fit best."""
+        """Return a mask of the samples in contact (R, N): the jumps of the model, moved to the best fit."""
         contact = self.contact_of_model(x)
         outside, inside = (
             replace(self, contact=np.full_like(contact, there)).residuals(x)[0] ** 2
             for there in (False, True)
         )
         for row, gain in zip(contact, outside - inside, strict=True):
-            # The gain from contact up to each jump is that of all samples before it.
+            # Cumulative gain of contact at all samples before each jump.
             total = np.append(0.0, np.cumsum(gain))
             jumps = np.flatnonzero(np.diff(row, prepend=False, append=False))
             for k in range(len(jumps)):
@@ -89,14 +89,14 @@ class AdhesiveCurves(Curves):
 
 
 def adhesive_states(profile, values, depth, contact):
-    """`States` at depths (m) from first contact, arrays (R, N); without force out of contact."""
+    """Return the `States` at depths (m) from first contact, arrays (R, N); no force out of contact."""
     medium, low, shortest = _end_of_contact(profile, values)
     modulus, first, known = 2 * medium.E_star, low - shortest, profile.known_depth
     last = known - stretch(medium, profile.radius_at(np.asarray(known))) if known < np.inf else np.inf
-    # Above the known depth the states are those at it.
+    # Beyond the known depth, the states are those at the known depth.
     clamped, at_end = depth < first, np.minimum(np.maximum(depth, first), last)
     _, length = contact_interval(profile, medium, np.zeros_like(depth), at_end, low, known)
-    # There two roots meet, and D has half of its digits.
+    # Two roots meet at the end of the stable range, where D has only half of its digits.
     length = np.where(clamped, shortest, length)
     interval = LiveInterval.elastic(at_end + length)
     a = profile.radius_at(interval.upper)
@@ -126,14 +126,14 @@ def adhesive_states(profile, values, depth, contact):
 
 
 def _end_of_contact(profile, values):
-    """The medium, D and the stretch at the rim (m) at the end of the stable range."""
+    """Return the medium, and D and the stretch at the rim (m) at the end of the stable range."""
     medium = Medium(values["E_star"], work_of_adhesion=values["work_of_adhesion"])
     low = stable_ranges(profile, medium, AT_DEPTH)[0][0]
     return medium, low, stretch(medium, profile.radius_at(low))
 
 
 def in_contact(depth, lost):
-    """Contact (…, N) along paths that begins at first touch and ends below a depth `lost` (m)."""
+    """Return a mask (…, N) of contact along paths, from first touch until a depth below `lost` (m)."""
     order, jumps = np.arange(depth.shape[-1]), (depth >= 0, depth < lost)
     begins, ends = (np.maximum.accumulate(np.where(each, order, -1), axis=-1) for each in jumps)
     return begins > ends

@@ -2,7 +2,7 @@
 
 All classes have equally many parameters. With sums of squares S₁ and S₂ of their residuals and n
 independent samples, the likelihoods of two classes differ by the factor (S₂/S₁)^(n/2). n is the number of
-samples over the number in a block of correlated residuals.
+samples over the number of samples in a block of correlated residuals.
 """
 
 from dataclasses import dataclass
@@ -18,19 +18,19 @@ from .depth_noise import turning_points_of
 from .parameters import BACKGROUND, CLASSES
 from .solution import problems, solved
 
-#: Least n ln(S₂/S₁) by which two classes are told apart: the square of three standard deviations.
+#: Smallest n ln(S₂/S₁) that distinguishes two classes: the square of three standard deviations.
 _TOLD = 9.0
-#: Least misfit of the best class, with correlated residuals, at which none describes the curve.
+#: Largest misfit of the best class, with correlated residuals, if this class describes the curve.
 _NONE = 0.01
 
 
 @dataclass(frozen=True, eq=False)
 class ClassFit:
-    """A fit with the hardness of one class alone, of one curve or of many.
+    """Fit with the hardness of one class alone, for one or many curves.
 
     `misfit` is the root mean square of the residuals over the largest force, or over the range of the force
-    where a part of the background (baseline, tilt, drag) is free; `medium` the fitted medium, and
-    `block_length` the number of samples over which residuals are correlated.
+    if a part of the background (baseline, tilt, drag) is free. `medium` is the fitted medium.
+    `block_length` is the number of samples over which residuals are correlated.
     """
 
     misfit: Array
@@ -39,9 +39,9 @@ class ClassFit:
 
 
 def fits_of_classes(profile, measured, held, depth_noise):
-    """`ClassFit` of each class that is modelled under the profile, by its letter.
+    """Return the `ClassFit` of each class that the profile supports, by its letter.
 
-    `held` are the values (R,) of held parameters by name; constants of the hardness are not looked at.
+    `held` are the values (R,) of held parameters by name; constants of the hardness are ignored.
     """
     others = {name: value for name, value in held.items() if name not in CLASSES.values()}
     zero = np.zeros(len(measured.depth))
@@ -73,20 +73,20 @@ def _fit(profile, measured, held, depth_noise):
 
 
 def _misfit(solution):
-    """Root mean square of the residuals over a force that is the same for all classes (R,)."""
+    """Return the root mean square of the residuals over a force that is equal for all classes (R,)."""
     curves, (values, _) = solution.curves, solution.values_and_states
     force = curves.load[:, 0]
-    # A background that is fitted differs between the classes, and may be much larger than the record.
+    # A fitted background differs between the classes, and may be much larger than the record.
     if not set(BACKGROUND) & set(curves.free):
         force = np.max(np.abs(curves.force - curves.background(values)), axis=1)
     return np.sqrt(np.mean(solution.deviation**2, axis=1)) / force
 
 
 def class_of_hardness(fits, samples, free):
-    """`HardnessClass` of one curve of so many samples from its `fits_of_classes`.
+    """Return the `HardnessClass` of one curve with a number of samples from its `fits_of_classes`.
 
-    Possible are classes at three standard deviations. The best one describes the curve if its misfit is
-    within 1 %, or its residuals are not correlated. `free` are the names of the free parameters.
+    Classes within three standard deviations are possible. The best class describes the curve if its misfit
+    is within 1 %, or its residuals are not correlated. `free` are the names of the free parameters.
     """
     best = min(fits, key=lambda letter: fits[letter].misfit)
     least = max(fits[best].misfit, np.finfo(float).tiny)
@@ -102,9 +102,9 @@ def class_of_hardness(fits, samples, free):
 
 
 def fit_again(fits, found, free):
-    """Row of a report on a fit of one class that the curve rules out; none where it does not.
+    """Yield a row of a report if the curve excludes the fitted class.
 
-    `found` is the `HardnessClass`, `free` are the names of the free parameters.
+    `found` is the `HardnessClass`, and `free` are the names of the free parameters.
     """
     taken = [letter for letter, name in CLASSES.items() if name in free]
     if len(taken) != 1 or not set(taken) <= set(fits):
@@ -120,7 +120,7 @@ def fit_again(fits, found, free):
 
 
 def rows_on_class(found, depth, force, depth_noise):
-    """Rows of a report on one curve: its `HardnessClass` and the assumptions."""
+    """Yield rows of a report on one curve: its `HardnessClass` and the assumptions."""
     yield "class of hardness", f"{found}: {found.reason}"
     turns, starts = turning_points_of(depth, force, depth_noise)
     record = f"this record has {len(starts)} loadings" * (len(starts) > 1)

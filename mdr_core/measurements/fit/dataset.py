@@ -1,4 +1,4 @@
-"""The dataset of a fit: `fit.to_xarray()`."""
+"""Dataset of a fit: `fit.to_xarray()`."""
 
 import numpy as np
 
@@ -8,17 +8,18 @@ from ...show.report import attributes as attributes_of
 from ...show.report import dimensions, imported
 from .parameters import PARAMETERS
 
-#: Names of what a fit has of each sample.
+#: Fields of a fit with a value for each sample.
 SAMPLES = ("depth", "force", "time", "residuals")
 
 
 def dataset_of(fit, position=None):
-    """The `xarray.Dataset` of an `IndentationFit`, with positions (m) on the surface, (R, 2), where given.
+    """Return the `xarray.Dataset` of an `IndentationFit`, with optional positions (m), (R, 2).
 
-    It has parameters, errors and covariance, and of each sample what was measured, the model, the residual.
+    It has parameters, errors and covariance. For each sample it has the measured values, the model and the
+    residual.
     """
     xarray = imported("xarray", "to_xarray()")
-    # Zarr has no specification of texts of fixed length.
+    # Zarr does not specify texts of fixed length.
     dims, parameters = dimensions(fit), np.array(list(fit.standard_errors), object)
     variables = {}
     for name, value in fit.to_dict().items():

@@ -1,9 +1,9 @@
-"""Curves whose depths have noise: turning points, branches and the nearest states.
+"""Curves with noise of the depth: turning points, branches and the nearest states.
 
-A running maximum of noisy depths would grow with every jitter. The largest depth d_max at each turning
-point is therefore a parameter, and each sample is assigned to the nearest point of its branch, in units of
-both noises (orthogonal distances: Boggs, Byrd & Schnabel, SIAM J. Sci. Stat. Comput. 8, 1987, 1052). The
-residual is the distance in units of √(σ_F² + (S σ_d)²), S the slope at that point.
+A running maximum of noisy depths would grow with the noise. Therefore the largest depth d_max at each
+turning point is a parameter. Each sample is assigned to the nearest point of its branch, in units of both
+noises (orthogonal distances: Boggs, Byrd & Schnabel, SIAM J. Sci. Stat. Comput. 8, 1987, 1052). The
+residual is the distance in units of √(σ_F² + (S σ_d)²) with the slope S at this point.
 """
 
 from dataclasses import dataclass
@@ -19,8 +19,8 @@ from .curves import Curves
 class NoisyDepthCurves(Curves):
     """`Curves` with noise of the depth, and with K turning points each.
 
-    `turning_points` (R, K) and `loading_starts`, where the loading before each of them starts, are indices
-    of samples; a curve that ends on a loading has one more start.
+    `turning_points` (R, K) and the starts of the loadings before them, `loading_starts`, are indices of
+    samples. A curve that ends on a loading has one more start.
     """
 
     turning_points: np.ndarray
@@ -28,7 +28,7 @@ class NoisyDepthCurves(Curves):
 
     @cached_property
     def branches(self):
-        """Index of the last turning point before each sample (−1: none), and whether it is on a loading."""
+        """Index of the last turning point before each sample, or −1, and a mask of samples on a loading."""
         sample = np.arange(self.depth.shape[1])
         last = np.sum(sample > self.turning_points[:, :, None], axis=1) - 1
         loading = np.zeros(self.depth.shape, bool)
@@ -45,7 +45,7 @@ class NoisyDepthCurves(Curves):
         return np.where(loading, depth, largest), loading
 
     def states(self, x):
-        """Parameters by name, and the state of each branch that is nearest to its sample."""
+        """Return the parameters by name, and the state of its branch that is nearest to each sample."""
         values = self.values(x)
         measured = self.depth - values["contact_point"]
         load = self.force - self.background(values)
@@ -56,7 +56,7 @@ class NoisyDepthCurves(Curves):
 
         state = self.states_at(values, measured)
         nearest, least = state.depth, distance(state)
-        # The slope is 0 without contact: the search also starts just within the contact.
+        # Without contact the slope is 0, so the search also starts just within the contact.
         state = self.states_at(values, np.maximum(measured, state.live_interval.lower + self.depth_noise))
         for _ in range(6):
             sum_of_squares = distance(state)
@@ -81,7 +81,7 @@ class NoisyDepthCurves(Curves):
 
 
 def with_depth_noise(curves):
-    """Yields numbers of curves with equally many turning points, and their `NoisyDepthCurves`."""
+    """Yield numbers of curves with equally many turning points, and their `NoisyDepthCurves`."""
     samples = zip(curves.depth, curves.force, strict=True)
     indices = [turning_points_of(*row, curves.depth_noise) for row in samples]
     elastic = np.isinf(curves.held.get("q_c", np.zeros(len(curves.depth))))
@@ -95,9 +95,9 @@ def with_depth_noise(curves):
 
 
 def turning_points_of(depth, force, depth_noise):
-    """`turning_points` of a curve (N,), whose depth and force turn back at the same sample.
+    """Return the `turning_points` of a curve (N,), whose depth and force turn back at the same sample.
 
-    Both are added in units in which the quieter one weighs more.
+    The path is the weighted sum of depth and force; the quieter of the two has the larger weight.
     """
     path, variance, threshold = 0.0, 0.0, 0.0
     for values, sigma in ((depth, depth_noise), (force, roughness(force[None])[0, 0])):
@@ -110,7 +110,7 @@ def turning_points_of(depth, force, depth_noise):
 
 
 def turning_points(path, threshold):
-    """Indices where a path turns back from a new largest value, and where each of these loadings starts.
+    """Return the indices where a path turns back from a new largest value, and where the loadings start.
 
     Moves of less than `threshold` are noise. A path that ends at a new largest value has one more start
     than turning points.

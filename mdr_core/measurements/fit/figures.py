@@ -15,7 +15,7 @@ _RESIDUAL_ROWS = (
 
 
 def plot_fit(fit):
-    """Two overlays of one fit, one below the other: `IndentationFit.plot`."""
+    """Return two overlays of one fit, one below the other: `IndentationFit.plot`."""
     given = np.isfinite(fit.residuals)
     depth, force, residual = (values[given] for values in (fit.depth, fit.force, fit.residuals))
     size = fit.residual_noise[given]

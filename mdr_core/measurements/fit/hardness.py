@@ -41,9 +41,10 @@ def fit_hardness(
     """Fit the hardness to mean pressures at several contact radii, and find its class.
 
     The mean pressure p_m = F/(π a²) under load, `Indentation.mean_pressure` on a first loading, is less
-    than the hardness σ_c(a) = hardness + q_c/a + f_c/a², because the outer ring of the contact is elastic:
-    σ_c at each radius is the root of F(σ_c) = π a² p_m at depth g(a). The constants have the least squares
-    of ln σ_c for pressures of one relative error. The class follows from the power of a in σ_c.
+    than the hardness σ_c(a) = hardness + q_c/a + f_c/a², because the outer ring of the contact is elastic.
+    Thus σ_c at each radius is the root of F(σ_c) = π a² p_m at depth g(a). The constants minimize the
+    squared residuals of ln σ_c, for pressures of equal relative error. The class follows from the power of
+    a in σ_c.
 
     Parameters
     ----------
@@ -52,13 +53,13 @@ def fit_hardness(
     mean_pressure : array_like
         Mean contact pressures p_m (Pa), positive.
     radius : array_like
-        Contact radii a (m) at which they were measured, positive.
+        Contact radii a (m) of these pressures, positive.
     E_star : float
         Effective modulus E* (Pa), which mean pressures do not determine.
     q_c, hardness, f_c : float, optional
-        Constants of the hardness (N/m, Pa, N): None is free, a number is held, and constants that are not
-        given are 0. If no constant is given, the constant of the class is free; if no single class fits,
-        the constant with the nearest power of a; at a single radius q_c.
+        Constants of the hardness (N/m, Pa, N). None is free, a number is held, and other constants are 0.
+        If no constant is given, the constant of the class is free. If no single class fits, it is the
+        constant with the nearest power of a; at a single radius it is q_c.
 
     Returns
     -------
@@ -68,9 +69,9 @@ def fit_hardness(
     Raises
     ------
     ValueError
-        If no mean pressure is below that of an elastic contact: then nothing has yielded. If several
-        constants are free, and there are not more measurements, or not as many radii. If a hardness is free
-        under a shape that is not convex.
+        If no mean pressure is below that of an elastic contact, so nothing has yielded. If several
+        constants are free, and there are not more measurements, or fewer radii, than constants. If a
+        hardness is free under a shape that is not convex.
 
     Examples
     --------
@@ -81,7 +82,7 @@ def fit_hardness(
     >>> print(f"{fit.medium.hardness:.9g}", fit.class_of_hardness)
     500000000 (a)
 
-    A size effect, of two constants:
+    A size effect with two constants:
 
     >>> medium = Medium(E_star=10e9, hardness=0.5e9, q_c=20.0)
     >>> state = indent(Cone(slope=0.3), medium, [20e-9, 40e-9, 80e-9, 160e-9])
@@ -113,7 +114,7 @@ def fit_hardness(
     weight = profile.radius_at(depth - cap) * cap / area
     constants, minimum, covariance = _constants(a, values / a, weight, held)
     medium = Medium(E_star, **constants)
-    # Refuses shapes that are not convex.
+    # Raises an error for shapes that are not convex.
     yield_rule(profile, medium)
     free = [name for name in constants if name not in held]
     errors = np.sqrt(np.diag(covariance))
@@ -133,15 +134,15 @@ def fit_hardness(
 
 
 def _constants(a, hardness, weight, held):
-    """Constants of the hardness by name, the `Minimum` of the weighted ln σ_c, and their covariance."""
+    """Return the hardness constants by name, the `Minimum` of the weighted ln σ_c, and their covariance."""
     powers = {name: a**-power for power, name in enumerate(CLASSES.values())}
     free = [name for name in powers if name not in held]
     if not free:
-        raise check.MDRError("hardness, q_c and f_c are all held: give None for those to be fitted")
+        raise check.MDRError("hardness, q_c and f_c are all held: give None for each constant to fit")
     if len(free) > 1 and (a.size <= len(free) or np.unique(a).size < len(free)):
         raise check.MDRError(
-            f"{a.size} measurements that yield, at {np.unique(a).size} radii, do not determine "
-            f"{' and '.join(free)}: give more, or fit one of them"
+            f"{a.size} measurements with yield, at {np.unique(a).size} radii, do not determine "
+            f"{' and '.join(free)}: give more, or fit one constant"
         )
     units = np.array([np.median(hardness / powers[name]) for name in free])
     columns = units[:, None] * np.array([powers[name] for name in free])
@@ -162,7 +163,7 @@ def _constants(a, hardness, weight, held):
 
 
 def _measured(profile, mean_pressure, radius):
-    """Mean pressures (Pa) and contact radii (m) as arrays, checked against the profile."""
+    """Return mean pressures (Pa) and contact radii (m) as arrays, checked against the profile."""
     p_m = np.atleast_1d(check.positive("mean_pressure", mean_pressure, unit="Pa")).ravel()
     a = np.atleast_1d(check.positive("radius", radius, unit="m")).ravel()
     if p_m.shape != a.shape or not p_m.size:
@@ -177,7 +178,7 @@ def _measured(profile, mean_pressure, radius):
 
 
 def _caps(profile, depth, area):
-    """Cap u_c (m) with ∫ a ds = `area` (m²) over [d − u_c, d], and whether there is one."""
+    """Return the cap u_c (m) with ∫ a ds = `area` (m²) over [d − u_c, d], and whether it exists."""
 
     def integral(cap):
         interval = LiveInterval(depth - cap, depth, cap)
@@ -196,9 +197,7 @@ def _remarks(yielded, constants, errors, free, found):
         yield Remark(f"{count} {text}", "left out")
     used = [letter for letter, constant in CLASSES.items() if constants[constant] or constant in free]
     if len(used) == 1 and found.best and not (found.describes and used[0] in found.possible):
-        text = (
-            f"not of class ({used[0]}) alone: {found.reason}; two constants of the hardness may be fitted"
-        )
+        text = f"not of class ({used[0]}) alone: {found.reason}; two constants of the hardness may fit"
         yield Remark(
             text, "misfit", *(Remedy("free", each) for each in CLASSES.values() if each not in free)
         )
@@ -213,9 +212,9 @@ def _remarks(yielded, constants, errors, free, found):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class HardnessFit(Fit):
-    """A medium fitted to mean pressures at several radii, a `Fit` returned by `fit_hardness`.
+    """Medium fitted to mean pressures at several radii, a `Fit` returned by `fit_hardness`.
 
-    Residuals are those of the mean pressure, relative; remarks name measurements that were left out.
+    Residuals are the relative residuals of the mean pressure. Remarks report omitted measurements.
 
     Examples
     --------
@@ -228,7 +227,7 @@ class HardnessFit(Fit):
     standard_errors: dict[str, float]
     #: Class of hardness, with the power of the radius in σ_c as its slope.
     class_of_hardness: HardnessClass
-    #: a σ_c (N/m) at each radius that has yielded: q_c for class (b).
+    #: a σ_c (N/m) at each radius with yield: q_c for class (b).
     q_c_values: Array
     remarks: tuple[Remark, ...]
 

@@ -46,24 +46,27 @@ def fit_indentation(
 ) -> IndentationFit:
     """Fit a medium to a measured force–depth curve by least squares: the inverse of `indent`.
 
-    A parameter that is None is free, and a number holds it. The model is the force of the contact with a
-    background F₀ + F₁ z + ζ ż, z being the measured depth. The page *What a fit does* describes the model,
-    its errors and remarks, and what is not in it.
+    A parameter with the value None is free, and a number holds it. The model is the force of the contact
+    with a background F₀ + F₁ z + ζ ż at the measured depth z. The page *What a fit does* describes the
+    model, its limits, its errors and remarks.
 
     Parameters
     ----------
     profile : Profile
         The indenter, one for all curves.
     depth, force : array_like
-        Measured depths (m) and forces (N) in the order of time: one curve (N,), many (R, N), or lists of R
-        arrays. Samples with NaN are left out. Instead of both, a `MeasuredCurve` or `MeasuredCurves`.
+        Measured depths (m) and forces (N) in order of time: one curve (N,), many (R, N), or lists of R
+        arrays. Samples with NaN are omitted. Alternatively, `depth` is a `MeasuredCurve` or
+        `MeasuredCurves`.
     time : array_like, optional
-        Increasing times (s), needed for `eta` and `drag`. A `MeasuredCurve` has its own; None ignores them.
+        Increasing times (s), required for `eta` and `drag`. The default is the time of a `MeasuredCurve`;
+        None ignores it.
     E_star : float, optional
         Effective modulus (Pa).
     q_c, hardness, f_c : float, optional
         Constants of the hardness σ_c = hardness + q_c/a + f_c/a² (N/m, Pa, N). By default q_c is free and
-        the others are 0. `hardness=None` is for a glass or a metal, `q_c=np.inf` for an elastic medium.
+        the other constants are 0. Use `hardness=None` for a glass or a metal, and `q_c=np.inf` for an
+        elastic medium.
     eta : float, optional
         Viscosity η (Pa·s) of the medium, 0 by default. Not with `hardness` or `f_c`.
     contact_point : float, optional
@@ -77,7 +80,7 @@ def fit_indentation(
     force_noise : float or array_like, optional
         Standard deviation (N) of the measured force; None estimates it from the residuals.
     invalid : {"raise", "nan"}
-        What to do with a curve that cannot be fitted: raise an error, or give NaN and a reason in
+        Action for a curve that cannot be fitted: raise an error, or return NaN and a reason in
         `fit.invalid`.
 
     Returns
@@ -87,8 +90,9 @@ def fit_indentation(
     Raises
     ------
     MDRError
-        If data are infinite, of different shapes, have no force above the baseline, or fewer samples than
-        free parameters; if times are missing or do not increase; if parameters are not fitted together.
+        If data are infinite or have different shapes, no force above the baseline, or not more samples than
+        free parameters. If times are missing or do not increase. If the combination of free parameters is
+        not supported.
 
     Examples
     --------
@@ -103,7 +107,7 @@ def fit_indentation(
     check_pair(profile, Medium(1.0), "a fit")
     check.one_of("invalid", invalid, ("raise", "nan"))
     if isinstance(hardness, HardnessLaw):
-        instead = "find its parameters by scipy.optimize.curve_fit over indent, as the gallery does"
+        instead = "fit its parameters with scipy.optimize.curve_fit and indent, as in the gallery"
         refuse_own_law(Medium(1.0, hardness=hardness), "a fit", instead)
     hardnesses = hardness_by_default(hardness=hardness, q_c=q_c, f_c=f_c)
     given = {"E_star": E_star} | hardnesses | {"eta": eta, "work_of_adhesion": work_of_adhesion}
@@ -135,7 +139,7 @@ def fit_indentation(
 
 
 def _solutions(rows, curves, noise_known, reasons):
-    """Solutions of curves with numbers `rows`; those that have none are added to `reasons` if there are."""
+    """Return solutions of the curves `rows`; add errors to `reasons`, unless this is None."""
     try:
         solution = solved(rows, curves, noise_known)
         solution.medium()
@@ -151,7 +155,7 @@ def _solutions(rows, curves, noise_known, reasons):
 
 
 def _held(profile, given, count, noise, time):
-    """Values (R,) of the held parameters by name, checked against each other."""
+    """Return the values (R,) of the held parameters by name, checked against each other."""
     held = held_values(count, **given)
     _refuse_with_other_classes(profile, held)
     in_time = _in_time(held)
@@ -167,15 +171,15 @@ def _held(profile, given, count, noise, time):
 
 
 def _in_time(held):
-    """Names of the parameters that need times and are not held at 0."""
+    """Return the names of the parameters that need times and are not held at 0."""
     needs_time = (name for name, parameter in PARAMETERS.items() if parameter.in_time)
     return [name for name in needs_time if name not in held or held[name].any()]
 
 
 def _without_invalid(profile, depth, force, time, held, unread):
-    """Depths, forces and times with NaN for the curves that cannot be fitted, and the reasons by number.
+    """Return depths, forces and times, with NaN for invalid curves, and the reasons by number.
 
-    `unread` are the reasons of those that could not be read.
+    `unread` has the reasons of curves that could not be read.
     """
     columns = [depth, force] if time is None else [depth, force, time]
     sizes = [len(column) for column in columns]
@@ -209,27 +213,27 @@ def _refuse_all_invalid(reasons, count):
 
 
 def _refuse_with_adhesion(held, noise):
-    """Refuses adhesion with what its curves are not fitted with."""
+    """Raise MeasurementError for adhesion with yield, viscosity or noise of the depth."""
     q_c = held.get("q_c", np.array([np.nan]))
     if not np.all(np.isinf(q_c)):
         given = "free" if np.isnan(q_c[0]) else engineering(q_c, "N/m")
         raise MeasurementError(
-            f"adhesion is fitted for an elastic medium only, and q_c is {given}",
+            f"adhesion requires an elastic medium, but q_c is {given}",
             Remedy("class", "elastic"),
             Remedy("hold", "work_of_adhesion", 0.0),
         )
     for name, given in (("eta", "eta" not in held or held["eta"].any()), ("depth_noise", noise > 0)):
         if given:
-            what = "the viscosity" if name == "eta" else "a noise of the depth"
+            what = "a viscosity" if name == "eta" else "a noise of the depth"
             raise MeasurementError(
-                f"the work of adhesion is not fitted together with {what}",
+                f"the work of adhesion cannot be fitted together with {what}",
                 Remedy("hold", "work_of_adhesion", 0.0),
                 Remedy("hold" if name == "eta" else "give", name, 0.0),
             )
 
 
 def _refuse_with_other_classes(profile, held):
-    """Refuses what is fitted with a hardness q_c/a only, class (b)."""
+    """Raise MeasurementError for combinations that require a hardness q_c/a, class (b)."""
 
     def used(name):
         return name not in held or held[name].any()
@@ -242,7 +246,7 @@ def _refuse_with_other_classes(profile, held):
     for name in ("eta", "work_of_adhesion"):
         if used(name) and (used("hardness") or used("f_c")):
             raise MeasurementError(
-                f"{symbols([name])} is fitted with a hardness of class (b) only",
+                f"{symbols([name])} cannot be fitted with a hardness of class (a) or (c)",
                 Remedy("hold", name, 0.0),
                 Remedy("class", "b"),
             )
@@ -256,7 +260,9 @@ def _refuse_empty(measured, held):
     if counts[i] <= len(free):
         which = "" if measured.single else f"curve {i}: "
         names = symbols(free) or "a residual"
-        text = f"{which}{counts[i]} samples do not determine {names}: hold some of these, or give more"
+        text = (
+            f"{which}{counts[i]} samples do not determine {names}: hold some of these, or give more samples"
+        )
         raise MeasurementError(text, Remedy("part", "all"))
     lowest, highest = np.nanmin(force, axis=1), np.nanmax(force, axis=1)
     width = np.nanmax(depth, axis=1) - np.nanmin(depth, axis=1)

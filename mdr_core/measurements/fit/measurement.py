@@ -1,4 +1,4 @@
-"""Measured curves: their samples, those that are left out, and rates of depth from times."""
+"""Measured curves: their samples, omitted samples, and rates of depth from times."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,16 +9,17 @@ from ...base import check
 from ...solver.numerics.blocks import chunks
 from ..common.columns import arrays_of, padded
 
-#: A rate jumps where it changes by this share of the largest one, and so many times as much as two samples
-#: before and after.
+#: A rate jumps if it changes by more than this share of the largest rate, and by more than this multiple of
+#: its changes two samples before and after.
 _JUMP, _ISOLATED = 0.03, 10.0
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """Measured curves, one a row (R, N), NaN where there is no sample; `lengths` are as given (R,).
+    """Measured curves, one in each row (R, N), NaN for missing samples.
 
-    `single` says whether one curve was given, `used` (R, N) which samples are fitted.
+    `lengths` (R,) are the given lengths. `single` is true if one curve was given. `used` (R, N) marks the
+    samples to fit.
     """
 
     depth: np.ndarray
@@ -30,19 +31,19 @@ class Measurement:
 
     @cached_property
     def used(self):
-        """Samples with finite values (R, N)."""
+        """Mask of samples with finite values (R, N)."""
         given = (self.depth, self.force, self.time, self.force_noise)
         return np.logical_and.reduce([np.isfinite(values) for values in given if values is not None])
 
     def rows(self, rows):
-        """The curves at some rows."""
+        """Return the curves at some rows."""
         values = (self.depth, self.force, self.time, self.force_noise, self.lengths)
         return Measurement(*(v if v is None else v[rows] for v in values), single=self.single)
 
     def groups(self):
-        """Yields curves with equally many samples: their numbers, depth, force, time and force noise.
+        """Yield curves with equally many samples: their numbers, depth, force, time and force noise.
 
-        They are arrays (R, N) of at most 64 curves; of times and noise that are not given None.
+        They are arrays (R, N) of at most 64 curves, or None for missing times and noise.
         """
         counts = np.count_nonzero(self.used, axis=1)
         for count in np.unique(counts):
@@ -54,7 +55,7 @@ class Measurement:
 
 
 def measurement(depth, force, time, force_noise):
-    """A `Measurement` of arrays, one curve (N,) or many (R, N), or of lists of arrays, one each."""
+    """Return the `Measurement` of arrays, one curve (N,) or many (R, N), or of lists of arrays."""
     given = {"depth": (depth, "m"), "force": (force, "N"), "time": (time, "s")}
     values, lengths = arrays_of(given)
     shape = values["depth"].shape
@@ -69,13 +70,13 @@ def measurement(depth, force, time, force_noise):
     values = {name: values.get(name) for name in ("depth", "force", "time", "force_noise")}
     measured = Measurement(**values, lengths=np.array(lengths), single=len(shape) == 1)
     if not measured.used.any():
-        raise check.MDRError("no sample of depth and force has finite values of both")
+        raise check.MDRError("no sample has finite values of both depth and force")
     return measured
 
 
 def rates(depth, time):
-    """Rates (m/s) by central differences, and at which samples they jump, arrays (R, N)."""
-    advice = "sort the samples, drop repeated times, and count time on from one segment to the next"
+    """Return rates (m/s) by central differences, and a mask of their jumps, arrays (R, N)."""
+    advice = "sort the samples, drop repeated times, and continue the time from one segment to the next"
     back = np.diff(time, prepend=-np.inf, axis=1) <= 0
     check.raise_if("time", time, back, "does not increase", unit="s", advice=advice)
     rate = np.array([np.gradient(z, t) for z, t in zip(depth, time, strict=True)])

@@ -1,14 +1,14 @@
-"""The force of a contact with its derivatives: elastic, yielding and viscous, with a linear background.
+"""Force of a contact with its derivatives: elastic, yielding and viscous, with a linear background.
 
-With a = a(e) the radius of the contact, c = a(d_p) that of the plastic zone, a* = a(d_max) that of the
-largest depth so far, and the cap u_c = (π/2E*)(H a* + q_c + f_c/a*), so that d_p = d_max − u_c,
+With the radii a = a(e) of the contact, c = a(d_p) of the plastic zone, and a* = a(d_max) at the largest
+depth so far, the cap is u_c = (π/2E*)(H a* + q_c + f_c/a*), and d_p = d_max − u_c:
 
     F = 2E* ∫ a ds + 8η a max(ḋ, 0)     over [d_p, e],  e = d + min(τḋ, 0),  τ = 4η/E*
     ∂F/∂E* = 2 ∫ a ds − 2c u_c − 2a min(τḋ, 0)       ∂F/∂η = 8a ḋ
     ∂F/∂H = π c a*          ∂F/∂q_c = π c             ∂F/∂f_c = π c/a*
     ∂F/∂d = 2E* a           ∂F/∂d_max = −2E* c p′     p′ = 1 − du_c/dd_max
 
-On a first loading d_max is d itself, and the last two add up. At e elements are released. The measured
+On a first loading d_max = d, and the last two derivatives add up. Elements are released at e. The measured
 force is F + F₀ + F₁ z + ζ ż at the measured depth z.
 """
 
@@ -27,10 +27,10 @@ from ...solver.medium.hardness import SumOfClasses
 class States:
     """States of the contact at the samples of R curves, arrays (R, N).
 
-    `loading` says whether the depth (m) is the largest so far; `cap` is u_c (m) at the largest one;
-    `uniform_load` is the line load (N/m) of dashpots, 4ηḋ, or of adhesion; `slope` is ∂F/∂d (N/m),
-    `memory_slope` ∂F/∂d_max where the depth is not the largest so far, `gradient` the derivatives of the
-    force by the parameters of the medium, by name.
+    `loading` marks samples at the largest depth (m) so far, and `cap` is u_c (m) at this largest depth.
+    `uniform_load` is the line load (N/m) of dashpots, 4ηḋ, or of adhesion. `slope` is ∂F/∂d (N/m), and
+    `memory_slope` is ∂F/∂d_max below the largest depth so far. `gradient` has the derivatives of the force
+    with respect to the parameters of the medium, by name.
     """
 
     depth: np.ndarray
@@ -45,10 +45,10 @@ class States:
 
 
 def states(profile, values, cap_at, depth, largest, loading, rate):
-    """`States` at depths (m) and rates (m/s), with the largest depths (m) so far.
+    """Return the `States` at depths (m) and rates (m/s), with the largest depths (m) so far.
 
-    `values` are the parameters by name, `cap_at` is `constant_cap` or `radius_cap`. Above the known depth
-    the states are those at it.
+    `values` are the parameters by name, and `cap_at` is `constant_cap` or `radius_cap`. Beyond the known
+    depth, the states are those at the known depth.
     """
     E_star, known, modulus = values["E_star"], profile.known_depth, 2 * values["E_star"]
     lag = 4 * values["eta"] / E_star * rate
@@ -72,7 +72,7 @@ def states(profile, values, cap_at, depth, largest, loading, rate):
     uniform_load = np.where(contact, E_star * np.maximum(lag, 0.0), 0.0)
     if uniform_load.any():
         force = force + 2 * uniform_load * a
-        # da/dd may be infinite at first contact: that at the mean distance of samples is the largest.
+        # da/dd may be infinite at first contact: its bound is the value at the mean distance of samples.
         inside = np.maximum(interval.upper, np.ptp(depth, axis=1, keepdims=True) / depth.shape[1])
         growing = contact & (a < profile.wall)
         growth_rate = radius_rate(profile, np.minimum(inside, known))
@@ -82,18 +82,18 @@ def states(profile, values, cap_at, depth, largest, loading, rate):
 
 
 def _plastic(c, rate):
-    """c times a rate, 0 where nothing has yielded, c = 0, and the rate may be infinite."""
+    """Return c times a rate, or 0 without yield, where c = 0 and the rate may be infinite."""
     with np.errstate(invalid="ignore"):
         return np.where(c > 0, c * rate, 0.0)
 
 
 def constant_cap(profile, values, largest):
-    """`radius_cap` for the hardness q_c/a alone: a constant."""
+    """Return the values of `radius_cap` for the hardness q_c/a alone, where the cap is constant."""
     return ConstantCap.of(profile, values["E_star"], values["q_c"]).critical_depth, 1.0, {"q_c": 1.0}
 
 
 def radius_cap(profile, values, largest):
-    """Cap u_c (m) at the largest depths (m), dp/ds, and ∂u_c by each constant over π/2E*, by name."""
+    """Return the cap u_c (m) at the largest depths (m), dp/ds, and ∂u_c/∂constant over π/2E*, by name."""
     share = np.pi / 2 / values["E_star"]
     law = SumOfClasses(*(share * values[name] for name in ("hardness", "q_c", "f_c")))
     rule, a = RadiusCap(profile, law), profile.radius_at(np.maximum(largest, 0.0))

@@ -1,13 +1,13 @@
 """Tests whether a tilt, a drag, a drift of the depth or another force on unloading fits a curve better.
 
-Each is one more linear parameter. With residuals r, their derivatives J by the fitted parameters and c by
-another one, v, the least squares of r + J δ + c v give v and the change δ of the parameters. It is said
-where it is significant and lowers the misfit clearly, or changes E* by more than its error: then the error
-that the fit states is too small. The misfit is the root mean square of the residuals in contact, which a
-long baseline does not hide. A drift v (m/s) makes the depth z − v t.
+Each of them is an additional linear parameter v. With residuals r, their derivatives J by the fitted
+parameters and c by v, the least squares of r + J δ + c v give v and the change δ of the parameters. A
+remark reports v if it is significant and clearly lowers the misfit. It also reports v if E* changes by more
+than its error, because the error of the fit is then too small. The misfit is the root mean square of the
+residuals in contact, which a long baseline does not hide. A drift v (m/s) makes the depth z − v t.
 
-In a medium that yields a slow drift changes E* and hardly the residuals. Its rate is that of the depth in
-a hold, where the force is constant.
+In a medium that yields, a slow drift changes E* but hardly the residuals. The rate of the drift is the rate
+of the depth in a hold, where the force is constant.
 """
 
 from typing import NamedTuple
@@ -20,7 +20,7 @@ from ..common.errors import SIGNIFICANT, SINGULAR, block_length, roughness
 
 
 class _Test(NamedTuple):
-    """Kind of a remark, words, unit, the factor by which the misfit falls clearly, and what one can do."""
+    """Kind of a remark, text, unit, smallest factor of a clear decrease of the misfit, and remedies."""
 
     kind: str
     what: str
@@ -31,40 +31,42 @@ class _Test(NamedTuple):
 
 _CAUSES = "creep or hysteresis of the scanner or the medium, or a drag"
 _LOADING = (Remedy("part", "loading"),)
-#: The misfit of measured curves without a tilt falls up to 1.2 times by one.
+#: With a tilt, the misfit of measured curves without a tilt decreases by a factor of up to 1.2.
 _TESTS = {
     "tilt": _Test(
         "tilt", "a tilt of {}", "N/m", 1.5, (Remedy("free", "tilt"), Remedy("free", "baseline"))
     ),
     "drag": _Test("drag", "a drag of {}", "N·s/m", 1.3, (Remedy("free", "drag"),)),
-    # Of a medium that yields, which is too stiff for the drag of a liquid.
+    # A medium that yields is too stiff for the drag of a liquid.
     "rate": _Test(
-        "unloading", f"a force that goes with the rate ({{}}), by {_CAUSES},", "N·s/m", 1.3, _LOADING
+        "unloading", f"a force that depends on the rate ({{}}), by {_CAUSES},", "N·s/m", 1.3, _LOADING
     ),
     "drift": _Test("drift", "a drift of {}, or a relaxation of the medium,", "m/s", 1.6),
     "unloading": _Test(
         "unloading", f"a force that changes by {{}} on unloading, by {_CAUSES},", "%", np.inf, _LOADING
     ),
 }  # fmt: skip
-#: Standard deviations from which on one of them is significant, and change of E* in its errors beyond which
-#: these do not cover what is left out.
+#: Smallest significant number of standard deviations, and largest change of E*, in its errors, that these
+#: errors cover.
 _SIGNIFICANT, _UNCOVERED = 3.3, 1.0
-#: Factor of the misfit that is worth a word.
+#: Smallest factor of the misfit for a remark.
 _LOWERED = 1.005
-#: Least number of samples in contact and without, and least misfit as a share of the range of force.
+#: Smallest number of samples with and without contact, and smallest misfit as a share of the range of
+#: force.
 _FEW, _SMALL = 10, 1e-5
-#: Least share of the samples in contact before and after the depth is within a share of the largest one.
+#: Smallest share of the samples in contact before and after the depth almost reaches its largest value, and
+#: the remaining distance as a share of the range of depth.
 _TURNS, _REACHED = 0.1, 0.02
-#: Deviation of the force in a hold, its least force and duration, as shares of those of the curve.
+#: Largest deviation of the force in a hold, its smallest force and its duration, as shares of the curve.
 _HOLD_FORCE, _LEAST_FORCE, _HOLD_TIME = 0.005, 0.05, 0.05
-#: Standard deviations of noise that the force deviates by in a hold.
+#: Standard deviations of noise for the deviation of the force in a hold.
 _HOLD_NOISE = 5.0
-#: Least change of ln E* by a drift that is said.
+#: Smallest change of ln E* by a drift for a remark.
 _LEAST_CHANGE = 0.005
 
 
 def nested_tests(solved, i):
-    """Remarks on what a tilt, a drag or a drift changes in curve i of a `Solution`."""
+    """Yield remarks on the effect of a tilt, a drag or a drift on curve i of a `Solution`."""
     curves, (_, state) = solved.curves, solved.values_and_states
     contact = state.live_interval.length[i] > 0
     if "E_star" not in curves.free or solved.minimum.at_bound[i, 0] or curves.adhesive:
@@ -80,10 +82,10 @@ def nested_tests(solved, i):
 
 
 def _left_out(solved, i, contact):
-    """Yields remarks on the parameters with which a curve fits better.
+    """Yield remarks on parameters with which a curve fits better.
 
-    Of those that are clearly better the first one of `_TESTS` is taken, else the best one. Each later one
-    is tried beside those before it.
+    The first clearly better parameter in the order of `_TESTS` comes first, or else the best parameter.
+    Each later parameter is tried together with those before it.
     """
     curves, minimum, noise = solved.curves, solved.minimum, solved.noise[i]
     _, state = solved.values_and_states
@@ -106,11 +108,12 @@ def _left_out(solved, i, contact):
 
 
 class _Trial(NamedTuple):
-    """A fit with one parameter more, `name`, of the value `size` (SI).
+    """Fit with an additional parameter `name` of the value `size` (SI).
 
-    The residuals (N,) that it leaves, their derivatives by all of its parameters (N, P), the factor by
-    which the misfit in contact falls, the decrease of χ² (in variances of a residual; and that of
-    `independent` residuals, where neighbours are correlated), and the change of E* in its errors.
+    It has the remaining residuals (N,), and their derivatives by all parameters (N, P). `factor` is the
+    decrease of the misfit in contact, and `decrease` the decrease of χ² in variances of a residual.
+    `independent` is this decrease over the length of a block of correlated residuals. `change` is the
+    change of E* in its errors.
     """
 
     name: str
@@ -124,7 +127,7 @@ class _Trial(NamedTuple):
 
     @classmethod
     def of(cls, name, solved, i, before, jacobian, contact):
-        """The one whose derivatives are the last column of the Jacobian, after the residuals `before`."""
+        """Try the parameter of the last column of the Jacobian; `before` are the residuals without it."""
         first = solved.minimum.residual[i]
         step = _step(jacobian, first)
         residual = first + jacobian @ step
@@ -139,14 +142,14 @@ class _Trial(NamedTuple):
 
     @property
     def rank(self):
-        """Infinite if it is clearly better, else the decrease if E* changes; 0 if nothing is to be said."""
+        """Infinite for a clearly better fit, else the decrease if E* changes; 0 for no remark."""
         if self.factor > _TESTS[self.name].clearly and self.decrease > SIGNIFICANT**2:
             return np.inf
         said = self.independent > _SIGNIFICANT**2 and abs(self.change) > _UNCOVERED
         return self.decrease if said else 0.0
 
     def remark(self, free):
-        """What it is, what it does to misfit and E*, and what one can do that is not done yet."""
+        """Return a remark on the parameter, its effect on misfit and E*, and the remaining remedies."""
         test = _TESTS[self.name]
         what = f"{test.what.format(engineering(self.size, test.unit))} would "
         if self.factor > _LOWERED:
@@ -164,13 +167,13 @@ def _rms(values):
 
 
 def _step(matrix, residual):
-    """Change of the parameters to the least squares of the residual."""
+    """Return the change of the parameters that minimizes the squares of the residual."""
     scale = np.maximum(np.linalg.norm(matrix, axis=0), 1e-300)
     return np.linalg.lstsq(matrix / scale, -residual, rcond=SINGULAR)[0] / scale
 
 
 def _columns(curves, state, i, contact):
-    """Yields each name with the derivatives (N, K) of measured minus modelled force."""
+    """Yield each name with the derivatives (N, K) of measured minus modelled force."""
     depth, free = curves.depth[i], curves.free
     baseline = np.count_nonzero(~contact) >= _FEW
     if baseline and "tilt" not in free:
@@ -193,19 +196,19 @@ def _columns(curves, state, i, contact):
 
 
 def _increases(curves, i):
-    """Whether there are times that increase, of single samples perhaps not."""
+    """Whether there are times that increase; some neighbouring times may be equal."""
     return curves.time is not None and 0 <= np.diff(curves.time[i]).min() < np.ptp(curves.time[i])
 
 
 def _drift(curves, state, i, contact):
-    """Derivative (N·s/m) of measured minus modelled force by a drift from first contact on."""
+    """Return the derivative (N·s/m) of measured minus modelled force by a drift since first contact."""
     depth, time = curves.depth[i], curves.time[i] - curves.time[i][np.argmax(contact)]
     reached = np.where(depth >= np.maximum.accumulate(depth), np.arange(depth.size), 0)
     return state.slope[i] * time + state.memory_slope[i] * time[np.maximum.accumulate(reached)]
 
 
 def _in_a_hold(curves, state, i, contact, change):
-    """Remark on the drift in a hold; `change` is that of ln E* by 1 m/s."""
+    """Yield a remark on the drift in a hold; `change` is the change of ln E* for 1 m/s."""
     depth, time = curves.depth[i], curves.time[i]
     duration, hold = time[-1] - time[np.argmax(contact)], _longest_hold(curves, state, i)
     if hold.stop - hold.start < _FEW or time[hold][-1] - time[hold][0] < _HOLD_TIME * duration:
@@ -214,16 +217,16 @@ def _in_a_hold(curves, state, i, contact, change):
     if abs(rate * change) > _LEAST_CHANGE:
         text = (
             f"in the hold at {engineering(curves.force[i][hold.start], 'N')} the depth changes by "
-            f"{engineering(rate, 'm/s')}: this is creep, or a drift that since first contact would "
+            f"{engineering(rate, 'm/s')}: this is creep, or a drift, which since first contact would "
             f"change E* by {100 * change * rate:+.2g} %"
         )
         yield Remark(text, "creep")
 
 
 def _longest_hold(curves, state, i):
-    """The longest part of a curve in contact at one force, as a slice.
+    """Return the longest part of a curve in contact at constant force, as a slice.
 
-    Compared are means over as many samples that their noise is within the deviation of a hold.
+    The search compares means over enough samples to bring their noise within the deviation of a hold.
     """
     time, limit = curves.time[i], _HOLD_FORCE * curves.load[i, 0]
     noise = _HOLD_NOISE * roughness(curves.force[[i]])[0, 0]
@@ -235,11 +238,11 @@ def _longest_hold(curves, state, i):
         if abs(force[start + _FEW] - force[start]) < limit:
             away = ~pressed[start:] | (np.abs(force[start:] - force[start]) > limit)
             stop = start + int(np.argmax(away)) if away.any() else force.size
-            # Without the samples that are averaged with those before and after the hold.
+            # Omit means that include samples before or after the hold.
             part = slice(start + width - 1, stop)
             if part.stop - part.start < 2 or np.ptp(time[part]) <= np.ptp(time[longest]):
                 continue
-            # A slow ramp is within the noise sample by sample, but its trend is not.
+            # A slow ramp is within the noise of single samples, but its trend is not.
             trend = np.polyfit(time[part], curves.force[i][part], 1)[0] * np.ptp(time[part])
             if abs(trend) < 2 * _HOLD_FORCE * curves.load[i, 0]:
                 longest = part

@@ -12,47 +12,47 @@ from ...show.quantities import engineering
 from ..common.errors import SIGNIFICANT, autocorrelation, roughness
 from .parameters import BACKGROUND, CLASSES, symbols
 
-#: Size of the residuals of the arithmetic, as a share of the range of force.
+#: Size of the residuals due to rounding, as a share of the range of force.
 EXACT = 1e-7
-#: Root mean square of correlated residuals over the range of force above which the model does not fit, of
-#: elastic media and of those that yield, whose unloading is a small part of the curve.
+#: Largest root mean square of correlated residuals over the range of force if the model fits: for elastic
+#: media, and for media that yield, whose unloading is a small part of the curve.
 _MISFIT, _MISFIT_YIELDING = 0.05, 0.01
-#: The same of elastic media where residuals are so many times the noise of neighbours and so correlated, as
-#: on a layer or beyond the range of a sensor. Interference of light stays below.
+#: The same for elastic media with residuals above a multiple of the noise of neighbours and with a strong
+#: correlation, for example on a layer or beyond the range of a sensor. Interference of light stays below.
 _SYSTEMATIC, _ABOVE_NOISE, _CORRELATED = 0.003, 5.0, 0.9
-#: Least number of samples in the lower half of the depth by which E* of the whole is judged.
+#: Smallest number of samples in the lower half of the depth for a comparison of E*.
 _HALF = 10
-#: Standard deviations from the neighbours, by their lower quartile, from which on a sample is an outlier,
-#: and least number of samples for it; the quartile of absolute normal deviations is 0.3186.
+#: Smallest deviation of an outlier from its neighbours, in standard deviations by the lower quartile, and
+#: smallest number of samples for this test. The quartile of absolute normal deviations is 0.3186.
 _OUTLIER, _ENOUGH = 6.0, 30
-#: Modulus (Pa) from which on a medium that is not elastic is one that yields, rather than one that sticks,
-#: flows or is pressed in a liquid.
+#: Above this modulus (Pa), a medium that is not elastic probably yields. Below it, the medium may stick or
+#: flow, or be in a liquid.
 _YIELDS = 1e9
-#: Number of samples in contact beyond that of the parameters from which on errors are known.
+#: Smallest excess of samples in contact over parameters for reliable errors.
 _SPARE = 3
-#: Least noise of the depth that counts, as a share of the depth that is recovered on unloading, and share
-#: of the largest force above which that is: E* changes by about that share.
+#: Smallest significant noise of the depth, as a share of the depth recovered on unloading; E* changes by
+#: about this share. The recovered depth counts above the second number, a share of the largest force.
 _COUNTS, _LOADED = 1e-3, 0.05
 #: Number of blocks of correlated residuals below which the errors of a medium that yields are too small.
 _BLOCKS = 20
 
 
 def tests_of_noise(solved, i):
-    """Remarks on the residuals of curve i of a `Solution`."""
+    """Yield remarks on the residuals of curve i of a `Solution`."""
     for check in (_depth_noise, _misfit, _few):
         yield from check(solved, i)
     size = np.sqrt(np.mean(solved.deviation[i] ** 2))
-    # Smaller ones are those of the arithmetic.
+    # Smaller residuals are due to rounding.
     if size > EXACT * solved.curves.load[i, 0]:
         yield from _outliers(solved, i)
         yield from _blocks(solved, i)
 
 
 def depth_noise_of(depth, force):
-    """Noise (m) of depths (N,) that go back and forth, and how often; 0 where the noise hardly counts.
+    """Return the noise (m) of depths (N,) that go back and forth, and the number of reversals.
 
-    Taken for real maxima of the depth it changes E* by about its share of the recovered depth. Below a
-    thousandth that is less than what the model misses.
+    Noise that counts as new largest depths changes E* by about its share of the recovered depth. Below a
+    thousandth, the change is smaller than the errors of the model, and both results are 0.
     """
     steps, noise = np.diff(depth), roughness(depth[None])[0, 0]
     reversals = np.count_nonzero(steps[1:] * steps[:-1] < 0)
@@ -66,19 +66,19 @@ def depth_noise_of(depth, force):
 
 
 def _depth_noise(solved, i):
-    """Depths that go back and forth although they are taken as exact: without memory they may."""
+    """Yield a remark on noisy depths that the fit takes as exact, in a medium with memory."""
     depth, curves = solved.curves.depth[i], solved.curves
     noise, reversals = depth_noise_of(depth, curves.force[i])
     if reversals and not (curves.depth_noise or curves.held_elastic):
         text = (
             f"the depth goes back and forth at {reversals} of {depth.size - 1} samples, and its noise of "
-            f"some {engineering(noise, 'm')} is taken for new largest depths: E* is biased"
+            f"about {engineering(noise, 'm')} counts as new largest depths: E* is biased"
         )
         yield Remark(text, "noise", Remedy("give", "depth_noise", float(f"{noise:.2g}")))
 
 
 def _misfit(solved, i):
-    """Residuals that are not noise."""
+    """Yield a remark on residuals that are not noise, or larger than the given noise."""
     curves, residual = solved.curves, solved.minimum.residual[i]
     degrees_of_freedom, chi = solved.minimum.degrees_of_freedom, solved.reduced_chi_square[i]
     correlation = autocorrelation(residual[solved.orders[i]])
@@ -100,7 +100,7 @@ def _misfit(solved, i):
         remedy = *_other_class(solved, i, letters), *[Remedy("give", "time")] * timeless
         text += ", or there is a drag or a drift" * timeless
         if ratio := _whole_over_lower_half(solved, i):
-            text += f". E* of the whole is {ratio:.3g} times that of the lower half of the depth"
+            text += f". E* of the whole curve is {ratio:.3g} times E* of the lower half of the depth"
         yield Remark(text, "misfit", *remedy)
     elif solved.noise_known and chi > 1 + 6 * np.sqrt(2 / degrees_of_freedom) and size > EXACT:
         text = (
@@ -111,7 +111,7 @@ def _misfit(solved, i):
 
 
 def _whole_over_lower_half(solved, i):
-    """E* of an elastic medium over that of the samples up to half of the depth; None if it is not known."""
+    """Return E* of an elastic medium over E* of the samples up to half the depth, None if unknown."""
     curves = solved.curves.rows([i])
     if not curves.held_elastic or curves.adhesive or curves.depth_noise or "E_star" not in curves.free:
         return None
@@ -128,7 +128,7 @@ def _whole_over_lower_half(solved, i):
 
 
 def _other_class(solved, i, letters):
-    """The class of hardness to try in the place of one that does not fit."""
+    """Return remedies with another class of hardness to try instead of a class that does not fit."""
     if solved.curves.held_elastic:
         stiff = solved.values_and_states[0]["E_star"][i, 0] > _YIELDS
         return (Remedy("class", "a"),) if stiff else ()
@@ -136,7 +136,7 @@ def _other_class(solved, i, letters):
 
 
 def _outliers(solved, i):
-    """Samples far from both neighbours that have most of the squares of the residuals."""
+    """Yield a remark on samples far from both neighbours with most of the squares of the residuals."""
     residual = solved.minimum.residual[i][~solved.curves.left_out[i]]
     if residual.size < _ENOUGH or solved.curves.adhesive:
         return
@@ -144,7 +144,7 @@ def _outliers(solved, i):
     size = np.abs(distance)
     far = size > _OUTLIER * np.quantile(size, 0.25) / 0.3186
     if np.sum(distance[far] ** 2) > 0.5 * np.sum(residual**2):
-        # Of an outlier both neighbours are half as far from theirs.
+        # Both neighbours of an outlier are half as far from their neighbours.
         single = np.count_nonzero(far & (size > 0.6 * size.max()))
         text = (
             f"about {single} of {residual.size} samples are outliers, more than {_OUTLIER:g} standard "
@@ -154,7 +154,7 @@ def _outliers(solved, i):
 
 
 def _blocks(solved, i):
-    """Noise that is correlated over a large part of a curve that yields."""
+    """Yield a remark on noise that is correlated over a large part of a curve with yield."""
     curves, length = solved.curves, solved.block_length[i]
     count = curves.depth.shape[1]
     elastic = curves.held_elastic or solved.elastic[i]
@@ -167,7 +167,7 @@ def _blocks(solved, i):
 
 
 def _few(solved, i):
-    """Fewer samples in contact than standard errors need."""
+    """Yield a remark on too few samples in contact for standard errors."""
     _, state = solved.values_and_states
     count = np.count_nonzero(state.live_interval.length[i] > 0)
     names = [name for name in solved.curves.free if name not in BACKGROUND]

@@ -1,7 +1,7 @@
-"""The parameters of a fit: their units, the values that they may have, and how they are searched.
+"""Parameters of a fit: units, ranges and scaling.
 
-A search is in scaled parameters x of about 1: logarithms, or numbers in a unit that the data give. One more
-parameter is an argument of `fit_indentation`, a row of `PARAMETERS`, and a derivative of the force in
+The search uses scaled parameters x of about 1: logarithms, or numbers in a unit from the data. A new
+parameter needs an argument of `fit_indentation`, a row of `PARAMETERS`, and a derivative of the force in
 `model.py`.
 """
 
@@ -15,7 +15,7 @@ from ...base import check
 from ...show.quantities import QUANTITIES, Quantity
 from ...solver.medium.medium import Medium
 
-#: First contact is searched down to so many ranges of depth below the record.
+#: Largest distance of first contact below the record, in ranges of depth.
 REACH = 30.0
 _ADHESION = QUANTITIES["work_of_adhesion"]
 _TILT, _DRAG = Quantity("F₁", "N/m", "tilt of the baseline"), Quantity("ζ", "N·s/m", "drag")
@@ -25,11 +25,11 @@ _FARTHEST = 16.0
 
 @dataclass(frozen=True)
 class Parameter:
-    """A parameter, searched in units (R, 1) that `unit` gives of `Curves`.
+    """Parameter, searched in the units (R, 1) that `unit` returns for `Curves`.
 
-    It is held at positive numbers or, if `zero` or `infinite`, at these. `start` is its first value for a
-    trial medium t of `start.py`, whose constants of the hardness are over E*; `in_time` says whether it
-    needs times.
+    It may be held at positive numbers, with `zero` also at 0, and with `infinite` at ∞. `start` returns its
+    first value for a trial medium t of `start.py`, whose hardness constants are over E*. `in_time` is true
+    if the parameter needs times.
     """
 
     quantity: Quantity
@@ -40,29 +40,29 @@ class Parameter:
     in_time: bool = False
 
     def checked(self, name, value):
-        """A value at which it may be held, a number or an array."""
+        """Return a valid value to hold, a number or an array; raise MDRError for other values."""
         allowed = {"zero": self.zero, "infinite": self.infinite}
         return check.positive(name, value, unit=self.quantity.unit, **allowed)
 
     def value(self, x, curves):
-        """Value (R, 1) of a scaled parameter."""
+        """Return the value (R, 1) of a scaled parameter."""
         return self.unit(curves) * x
 
     def scaled(self, value, curves):
-        """Scaled parameter (R, 1) of a value."""
+        """Return the scaled parameter (R, 1) of a value."""
         return value / self.unit(curves)
 
     def rate(self, value, curves):
-        """Derivative (R, 1) of the value by the scaled parameter."""
+        """Return the derivative (R, 1) of the value with respect to the scaled parameter."""
         return self.unit(curves)
 
     def bounds(self, start, curves):
-        """Least and largest scaled parameter (R, 1) in a search from a start."""
+        """Return the bounds (R, 1) of the scaled parameter in a search from a start."""
         return -np.inf, np.inf
 
 
 class Logarithm(Parameter):
-    """A positive parameter that is searched as its logarithm."""
+    """Positive parameter, searched as its logarithm."""
 
     def value(self, x, curves):
         return np.exp(x)
@@ -71,7 +71,7 @@ class Logarithm(Parameter):
         return np.log(value)
 
     def rate(self, value, curves):
-        # Of elastic media a constant of the hardness is infinite, or 0 beside one that is.
+        # The hardness constants of elastic media are infinite or 0; scale them by 1.
         return np.where((value > 0) & np.isfinite(value), value, 1.0)
 
     def bounds(self, start, curves):
@@ -79,14 +79,14 @@ class Logarithm(Parameter):
 
 
 class Background(Parameter):
-    """A parameter of the force without contact, of any sign."""
+    """Parameter of the force without contact, of any sign."""
 
     def checked(self, name, value):
         return check.finite_array(name, value, unit=self.quantity.unit)
 
 
 class ContactPoint(Background):
-    """The measured depth at first contact, searched as the logarithm of the largest depth of contact."""
+    """Measured depth at first contact, searched as the logarithm of the largest depth of contact."""
 
     def value(self, x, curves):
         return curves.top - np.exp(x)
@@ -103,36 +103,36 @@ class ContactPoint(Background):
 
 
 class NotNegative(Parameter):
-    """A parameter that is 0 or positive."""
+    """Parameter that is 0 or positive."""
 
     def bounds(self, start, curves):
         return 0.0, np.inf
 
 
 class HardnessTerm(Parameter):
-    """A constant of the hardness beside others: practically 0 or positive, since their sum is positive."""
+    """One of several constants of the hardness: practically 0 or positive, as their sum is positive."""
 
     def bounds(self, start, curves):
         return 1e-9, np.inf
 
 
 def _viscosity(curves):
-    """Viscosity (Pa·s) with which the dashpots carry the range of force at the largest speed."""
+    """Return the viscosity (Pa·s) with which dashpots carry the range of force at the largest speed."""
     radius = curves.profile.radius_at(np.minimum(curves.length, curves.profile.known_depth))
     return curves.load / (8 * radius * curves.speed)
 
 
 def _pressed_radius(curves):
-    """Radius (m) of the contact under the largest force, about, from the depths with half of it."""
+    """Estimate the contact radius (m) at the largest force, from the depths in the upper half of it."""
     pressed = curves.force > curves.force.max(axis=1, keepdims=True) - curves.load / 2
     depth = 3 * np.ptp(np.where(pressed, curves.depth, curves.top), axis=1, keepdims=True)
     return curves.profile.radius_at(np.clip(depth, 1e-3 * curves.length, curves.profile.known_depth))
 
 
-#: The constants of the hardness σ_c = H + q_c/a + f_c/a², by the letters of their classes.
+#: Constants of the hardness σ_c = H + q_c/a + f_c/a², by the letters of their classes.
 CLASSES = {"a": "hardness", "b": "q_c", "c": "f_c"}
 _HARDNESS, _Q_C, _F_C = (QUANTITIES[name] for name in CLASSES.values())
-#: Parameters of the medium, with their starts for a trial medium, and of the background with their units.
+#: Parameters of the medium with their starts for a trial medium, and of the background with their units.
 MEDIUM = {
     "E_star": Logarithm(QUANTITIES["E_star"], lambda t: t["E_star"]),
     "hardness": Logarithm(_HARDNESS, lambda t: t["E_star"] * t["hardness"], zero=True),
@@ -148,7 +148,7 @@ BACKGROUND = {
     "tilt": Background(_TILT, unit=lambda curves: curves.load / curves.length),
     "drag": Background(_DRAG, unit=lambda curves: curves.load / curves.speed, in_time=True),
 }
-#: Constants of the hardness where there are several.
+#: Constants of the hardness if there are several.
 TOGETHER = {
     "hardness": HardnessTerm(_HARDNESS, unit=lambda curves: curves.load / _pressed_radius(curves) ** 2),
     "q_c": HardnessTerm(_Q_C, unit=lambda curves: curves.load / _pressed_radius(curves)),
@@ -159,12 +159,12 @@ PARAMETERS = MEDIUM | {"contact_point": ContactPoint(Quantity("z₀", "m", "firs
 
 
 def symbols(names):
-    """Symbols of parameters as a text, as "E* and q_c"."""
+    """Return the symbols of parameters as a text, such as "E* and q_c"."""
     return " and ".join(PARAMETERS[name].quantity.symbol for name in names)
 
 
 def held_values(count, **values):
-    """Values (R,) of the parameters of `count` curves that are held, by name: those that are not None."""
+    """Return the values (R,) of the held parameters, which are not None, of `count` curves by name."""
     held = {}
     for name in (name for name, value in values.items() if value is not None):
         if isinstance(values[name], str):
@@ -179,14 +179,14 @@ def held_values(count, **values):
         held[name] = np.broadcast_to(value, (count,)).astype(float)
     for name in CLASSES.values():
         if np.any(held.get(name, 0.0)) and not np.all(held[name]):
-            raise check.MDRError(f"{name} is 0 for some of the curves only: fit these apart")
-    # Refuses a hardness of 0, and an infinite q_c beside another constant.
+            raise check.MDRError(f"{name} is 0 for some curves only: fit these curves separately")
+    # Raises an error for a hardness of 0, and for an infinite q_c with another constant.
     Medium(1.0, **{name: held.get(name, 1.0) for name in CLASSES.values()})
     return held
 
 
 def hardness_by_default(**given):
-    """Constants of the hardness as they are given or `...`, which is 0, or a free q_c if none is given."""
+    """Return the hardness constants with `...` replaced by 0, or by a free q_c if no constant is given."""
     if all(value is ... for value in given.values()):
         return given | {"q_c": None, "hardness": 0.0, "f_c": 0.0}
     return {name: 0.0 if value is ... else value for name, value in given.items()}

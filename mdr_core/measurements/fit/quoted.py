@@ -1,4 +1,4 @@
-"""The modulus to quote from a fit, and the results of Oliver and Pharr for the fitted curve."""
+"""Modulus to quote from a fit, and results of Oliver and Pharr for the fitted curve."""
 
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -16,15 +16,15 @@ from ..unloading.oliver_pharr_result import OliverPharr
 from .noise import EXACT
 from .remarks import DOUBTS
 
-#: Remarks that say that a model which is elastic does not describe the curve, or that E* is not determined.
+#: Kinds of remarks that show that an elastic model does not describe the curve, or that E* is undetermined.
 NOT_COMPARABLE = DOUBTS | {"unloading", "outliers"}
-#: Remarks that say that the force is not that of the contact, whatever the medium.
+#: Kinds of remarks that show that the force is not that of the contact, for any medium.
 OF_THE_FORCE = {"units", "no contact", "tilt", "drag", "drift"}
-#: Share of the largest depth and force, below which those of the first sample are those of first contact.
+#: Largest depth and force of the first sample at first contact, as shares of the largest depth and force.
 _SMALL = 1e-3
-#: Residuals over the noise of neighbours, and their correlation, up to which a model describes a curve.
+#: Largest residuals over the noise of neighbours, and largest correlation, if a model describes a curve.
 _NOISE, _CORRELATED = 1.5, 0.3
-#: Misfit of the best class of hardness above which the curve is none of a contact.
+#: Misfit of the best class of hardness above which the curve is not that of a contact.
 _NO_CLASS = 0.05
 #: Words for the sources of a number.
 _SOURCES = {"fit": "by the fit", "unloading": "by Oliver and Pharr"}
@@ -32,11 +32,11 @@ _SOURCES = {"fit": "by the fit", "unloading": "by Oliver and Pharr"}
 
 @dataclass(frozen=True, repr=False)
 class Quoted:
-    """The modulus of one curve that is comparable with tables and other instruments: `fit.quoted`.
+    """Modulus of one curve for comparison with tables and other instruments: `fit.quoted`.
 
-    If the medium is elastic, or the model describes the curve to its noise, it is that of the fit. If not,
-    it is that of the unloading by Oliver and Pharr. Without either, `value`, `standard_error` and `source`
-    are None, `reason` says why, and `kind` and `remedy` are as those of a `Remark`.
+    If the medium is elastic, or the model describes the curve to its noise, the modulus comes from the fit.
+    If not, it comes from the unloading (Oliver and Pharr). Without either, `value`, `standard_error` and
+    `source` are None. `reason` then has the cause, and `kind` and `remedy` are those of a `Remark`.
 
     Examples
     --------
@@ -48,21 +48,21 @@ class Quoted:
     E* 10 GPa by the fit: the medium is elastic
     """
 
-    #: Name of the quantity, as among the parameters of a fit.
+    #: Name of the quantity, as in the parameters of a fit.
     quantity: str
     #: Value and standard error (Pa).
     value: float | None
     standard_error: float | None
-    #: Whether it is a parameter of the fit, or of the unloading alone.
+    #: Source of the value: the fit, or the unloading alone.
     source: Literal["fit", "unloading"] | None
-    #: Why it is this one, or why there is none.
+    #: Reason for this source, or for the missing value.
     reason: str
-    #: What is doubted where there is none, one of the kinds of remarks, and what one can do.
+    #: Kind of the remark on a missing value, and remedies.
     kind: str | None = None
     remedy: tuple[Remedy, ...] = ()
 
     def sample_modulus(self, nu: float, tip: tuple[float, float] | None = None) -> SampleModulus:
-        """Young's modulus of the sample and its standard error (Pa), see `OliverPharr.sample_modulus`."""
+        """Compute Young's modulus of the sample and its error (Pa), see `OliverPharr.sample_modulus`."""
         if self.value is None:
             raise MDRError(f"there is no E* to quote: {self.reason}")
         return sample_modulus(self.value, self.standard_error, nu, tip)
@@ -75,7 +75,7 @@ class Quoted:
 
 
 def quoted(fit):
-    """`Quoted` of one curve."""
+    """Return the `Quoted` of one curve."""
     for kind in ("invalid", "deflection"):
         if doubt := _doubt(fit, {kind}):
             return _none(doubt)
@@ -100,12 +100,12 @@ def quoted(fit):
 
 
 def _none(doubt):
-    """Nothing is to be quoted because of a doubt, a `Remark`."""
+    """Return a `Quoted` without a value, because of a doubt, a `Remark`."""
     return Quoted("E_star", None, None, None, doubt.text, doubt.kind, doubt.remedy)
 
 
 def _describes(fit):
-    """Whether the residuals are noise, or that of the arithmetic."""
+    """Whether the residuals are noise, or due to rounding."""
     residual = fit.residuals[np.isfinite(fit.residuals)]
     size, noise = np.sqrt(np.mean(residual**2)), roughness(residual[None])[0, 0]
     if size <= EXACT * np.ptp(fit.path.force):
@@ -114,7 +114,7 @@ def _describes(fit):
 
 
 def _of_the_fit(fit, reason):
-    """`Quoted` of a medium that is elastic, or whose model describes the curve."""
+    """Return the `Quoted` of an elastic medium, or of a model that describes the curve."""
     if doubt := _doubt(fit, NOT_COMPARABLE):
         model = next((name for _, name in _others(fit)), "elastic")
         return _none(doubt.after(f"the {model} model does not fit: "))
@@ -127,30 +127,31 @@ def _of_the_fit(fit, reason):
 
 
 def _others(fit):
-    """Yields parameters with which a medium is more than elastic and plastic, and what it is then."""
+    """Yield names of parameters beyond elasticity and plasticity, with an adjective for the medium."""
     for name, text in (("eta", "viscous"), ("work_of_adhesion", "adhesive")):
         if name in fit.standard_errors or getattr(fit.medium, name) > 0:
             yield name, text
 
 
 def _doubt(fit, kinds):
-    """The first remark of some kinds, or None."""
+    """Return the first remark of some kinds, or None."""
     return next((remark for remark in fit.remarks if remark.kind in kinds), None)
 
 
 def unloading(fit) -> tuple[OliverPharr | None, Remark]:
-    """Results of Oliver and Pharr for one fitted curve, and what first contact is; or None, and why.
+    """Return results of Oliver and Pharr for one fitted curve and the source of first contact.
 
-    First contact is that of the record where it begins in the air, or at its own zero; else that of the
-    fit, with its error, unless the model does not fit, of which its remarks tell.
+    If there are no results, return None and the reason. First contact comes from the record if it begins in
+    the air, or at its zero. Otherwise it comes from the fit, with its error, unless remarks report that the
+    model does not fit.
     """
     for name, text in _others(fit):
         text = f"the medium is {text}: its unloading does not follow a power law"
         return None, Remark(text, "no unloading", Remedy("hold", name, 0.0))
-    # Beside a law of hardness that does not fit, these are of the law, not of the force.
+    # If the law of hardness does not fit, these remarks concern the law, not the force.
     if not _doubt(fit, {"misfit"}) and (doubt := _doubt(fit, OF_THE_FORCE)):
         return None, doubt.after("the force of the contact is not known: ")
-    # Without background the measured force is that of the contact plus the residual.
+    # Without background, the measured force is the force of the contact plus the residual.
     force = fit.path.force + fit.residuals
     try:
         if "contact_point" in fit.standard_errors and _begins_at_contact(fit.depth, force):
@@ -163,7 +164,7 @@ def unloading(fit) -> tuple[OliverPharr | None, Remark]:
         if "contact_point" not in fit.standard_errors:
             return result, _first("is held")
         if doubt := _doubt(fit, DOUBTS):
-            return None, doubt.after("the model does not fit, so that first contact is not known: ")
+            return None, doubt.after("the model does not fit, so first contact is not known: ")
         shift = fit.standard_errors["contact_point"]
         shifted = _evaluated(fit, fit.path.depth + shift, force)
     except MDRError as error:
@@ -180,7 +181,7 @@ def _first(text):
 
 
 def _evaluated(fit, depth, force):
-    """Results of Oliver and Pharr, corrected for creep where times are given and it is not small."""
+    """Return results of Oliver and Pharr, corrected for creep if times are given and creep is not small."""
     steps = np.zeros(1) if fit.time is None else np.diff(fit.time[np.isfinite(fit.time)])
     increases = np.any(steps) and not np.any(steps < 0)
     result = oliver_pharr(fit.profile, depth, force, time=fit.time if increases else None)
@@ -190,7 +191,7 @@ def _evaluated(fit, depth, force):
 
 
 def _begins_at_contact(depth, force):
-    """Whether the first sample has no depth and no force within the noise, which is small."""
+    """Whether depth and force of the first sample are 0 within a small noise."""
     used = np.isfinite(depth) & np.isfinite(force)
     depth, force = depth[used], force[used]
     noise = SIGNIFICANT * roughness(force[None])[0, 0]

@@ -12,30 +12,33 @@ from .nested import nested_tests
 from .noise import tests_of_noise
 from .parameters import TOGETHER, symbols
 
-#: Those that say that the model does not fit, and its first contact may be wrong by more than its error.
+#: Kinds of remarks that show that the model does not fit, and that first contact may be wrong by more than
+#: its error.
 DOUBTS = {"units", "order", "no contact", "undetermined", "tilt", "drag", "drift", "misfit", "noise"}
-#: Those that take the parameters for those of a minimum, with the errors there.
+#: Kinds of remarks that require parameters at a minimum, with their errors.
 _OF_MINIMUM = {"tilt", "drag", "drift", "misfit", "unloading", "outliers", "errors", "vague", "creep"}
-#: Relative error of E* above which it counts as not determined, in general and from loading alone.
+#: Largest relative error of a determined E*, in general and from loading alone.
 _VAGUE, _VAGUE_LOADING = 0.2, 0.01
-#: Relative error of a parameter from which on it is not determined at all.
+#: Relative error above which a parameter is not determined at all.
 _NOT_AT_ALL = 10.0
-#: Number of standard errors below which a constant of the hardness beside another one may be 0.
+#: Number of standard errors below which one of several constants of the hardness may be 0.
 _TOLD = 2.0
-#: Largest range of depth (m), and least share of the variance of the force that a contact explains.
+#: Largest range of depth (m), and smallest share of the variance of the force explained by a contact.
 _LONGEST, _EXPLAINED = 1e-3, 0.75
-#: Least share that noise does not reach, and least ratio of the unexplained shares of other columns.
+#: Smallest explained share that exceeds noise, and smallest ratio of the unexplained shares that implies
+#: other columns.
 _SEEN, _BENT = 0.25, 1.1
-#: Ranges of depth (m) that no indentation has, and that few have in soft media; the modulus (Pa) of the
-#: softest ones; contact radius over the radius of the tip beyond which its depths are in another unit.
+#: Largest ranges of depth (m) of indentations, in general and usually in soft media, and largest modulus
+#: (Pa) of very soft media. Contact radius over the radius of the tip above which depths are in another
+#: unit.
 _ENORMOUS, _LARGE, _SOFTEST, _BEYOND_TIP = 1.0, 1e-2, 1e3, 10.0
 _SWAPPED, _NO_CONTACT = "depth and force are swapped", "this record shows no contact"
-#: Least distance of the pull-off from that of the model, as a share of the range of depth.
+#: Smallest distance between measured and modelled pull-off for a remark, as a share of the range of depth.
 _PULL_OFF = 0.02
 
 
 def remarks_of(solved):
-    """Remarks on each curve of a `Solution`."""
+    """Return the remarks on each curve of a `Solution`."""
     checks = (
         _units, _order, _saturated, _ambiguous, _adhesion, of_tension, _undetermined, tests_of_noise,
         nested_tests, _tip,
@@ -47,7 +50,7 @@ def remarks_of(solved):
 
 
 def _not_at_all(solved, i):
-    """Names of parameters in whose direction the residuals do not change."""
+    """Return the names of parameters in whose direction the residuals do not change."""
     errors = solved.errors(i)
     if _sees_no_yield(solved, i, errors):
         return []
@@ -59,36 +62,36 @@ def _sees_no_yield(solved, i, errors):
 
 
 def _consistent(remarks, undetermined):
-    """Remarks on one curve without those that others make void, as by parameters without a minimum."""
+    """Remove remarks that others make void, for example because there is no minimum."""
     made = {remark.kind for remark in remarks}
     void = set(_OF_MINIMUM) if undetermined else set()
-    # The contact may be hidden by what a linear parameter describes.
+    # A tilt, a drag or a drift may hide the contact.
     if {"tilt", "drag", "drift"} & (made - void):
         void |= {"no contact"}
-    # These say more.
+    # These remarks are more specific.
     if {"misfit", "noise"} & (made - void):
         void |= {"unloading", "errors"}
     return [remark for remark in remarks if remark.kind not in void]
 
 
 def by_importance(remarks):
-    """Remarks in the order of `KINDS`."""
+    """Sort remarks in the order of `KINDS`."""
     return tuple(sorted(remarks, key=lambda remark: list(KINDS).index(remark.kind)))
 
 
 def missing(used, samples):
-    """A remark on samples that are left out, if there are any."""
+    """Yield a remark on omitted samples, if there are any."""
     if used < samples:
         text = f"{samples - used} of {samples} samples have no number and are left out"
         yield Remark(text, "left out")
 
 
 def _units(solved, i):
-    """Columns that are swapped or of the other sign, records without contact, and data in other units."""
+    """Yield a remark on swapped or reversed columns, a record without contact, or other units."""
     curves, values = solved.curves, solved.values_and_states[0]
     if _is_enormous(solved, i):
         reached = engineering(np.ptp(curves.depth[i]), "m")
-        text = f"the depths of this record extend over {reached}, too far for an indentation by this tip"
+        text = f"the depths of this record cover {reached}, too much for an indentation by this tip"
         columns = curves.depth[i], curves.force[i]
         swapped = _shares_of_others(*columns).get(_SWAPPED, 0.0) >= max(
             _EXPLAINED, _share_of_contact(*columns)
@@ -128,7 +131,7 @@ def _units(solved, i):
 
 
 def _in_other_units(text, cause):
-    """A remark on what no material has, because of columns or signs, or of units if no cause is known."""
+    """Return a remark on impossible values, with their cause in columns or signs, or else on the units."""
     if not cause:
         return Remark(text, "units", *UNITS, together=True)
     columns = (Remedy("give", "columns"),)
@@ -137,7 +140,7 @@ def _in_other_units(text, cause):
 
 
 def _is_enormous(solved, i):
-    """Whether depths are evidently in another unit than m."""
+    """Whether depths are obviously not in m."""
     profile, values = solved.curves.profile, solved.values_and_states[0]
     reached = float(np.ptp(solved.curves.depth[i]))
     radius = profile.radius_at(np.minimum(reached, profile.known_depth))
@@ -146,19 +149,19 @@ def _is_enormous(solved, i):
 
 
 def _order(solved, i):
-    """Samples that are not in the order in which they were measured, where the order matters."""
+    """Yield remarks on samples that are not in the order of measurement, if the order matters."""
     curves = solved.curves
     if not curves.held_elastic or curves.adhesive:
         yield from out_of_order(curves.depth[i], curves.force[i])
 
 
 def _saturated(solved, i):
-    """A depth at the limit of its sensor."""
+    """Yield a remark on a depth at the limit of its sensor."""
     return saturated(solved.curves.depth[i], solved.curves.force[i])
 
 
 def _shares_of_others(depth, force):
-    """`_share_of_contact` of the columns exchanged or with the other sign, by what is wrong then."""
+    """Return `_share_of_contact` for swapped columns and reversed signs, by the assumed error."""
     others = {
         "the depth has the wrong sign, it must be positive into the medium": (-depth, force),
         "the force has the wrong sign, it must be positive in compression": (depth, -force),
@@ -170,13 +173,13 @@ def _shares_of_others(depth, force):
 
 
 def _pressed(depth):
-    """The loading, or the unloading of a record that begins near its largest depth, as a slice."""
+    """Return the loading, or the unloading if the record begins near its largest depth, as a slice."""
     top = int(np.argmax(depth))
     return slice(top + 1) if top > depth.size / 4 else slice(top, None)
 
 
 def _share_of_contact(depth, force):
-    """Share of the variance of the force that grows as (depth − z₀)^(3/2), with the best z₀."""
+    """Return the share of the variance of the force explained by (depth − z₀)^(3/2) with the best z₀."""
     part = _pressed(depth)
     depth, deviation = depth[part], force[part] - force[part].mean()
     points = np.linspace(depth.min(), depth.max(), 50)[:-1, None]
@@ -196,7 +199,7 @@ def _contact_is_seen(depth, force):
 
 
 def _ambiguous(solved, i):
-    """Parameters at a bound, a second minimum."""
+    """Yield remarks on parameters at a bound, and on a second minimum."""
     curves, sum_of_squares = solved.curves, np.sum(solved.minimum.residual[i] ** 2)
     for name, at_bound in zip(curves.free, solved.minimum.at_bound[i], strict=False):
         if at_bound and name == "eta":
@@ -214,7 +217,7 @@ def _ambiguous(solved, i):
 
 
 def _adhesion(solved, i):
-    """A work of adhesion that is hardly determined, and a pull-off at another depth than in the model."""
+    """Yield remarks on a poorly determined work of adhesion, and on a pull-off at another depth."""
     curves, (values, state) = solved.curves, solved.values_and_states
     if not curves.adhesive:
         return
@@ -238,23 +241,23 @@ def _adhesion(solved, i):
 
 
 def _share(error):
-    """How well a number with a relative error is determined."""
+    """Return a text on the accuracy of a number with a relative error."""
     return f"to {100 * error:.2g} %" if error < _NOT_AT_ALL else "not at all"
 
 
 def _depth_of_loss(depth, contact):
-    """Depth (m) at which contact is lost at last, that of the last sample where it is not lost."""
+    """Return the depth (m) of the last loss of contact, or of the last sample if contact is not lost."""
     losses = np.flatnonzero(contact[:-1] & ~contact[1:])
     return depth[losses[-1] + 1] if losses.size else depth[-1]
 
 
 def _undetermined(solved, i):
-    """Parameters that the data do not determine."""
+    """Yield remarks on parameters that the data do not determine."""
     _, state = solved.values_and_states
     errors = solved.errors(i)
     constants = [name for name in solved.curves.constants if name in errors]
     if _sees_no_yield(solved, i, errors):
-        text = f"no yield is seen beyond the noise: {_hardest(solved, i)}"
+        text = f"no yield is visible beyond the noise: {_hardest(solved, i)}"
         yield Remark(text, "constant", Remedy("class", "elastic"))
         return
     if len(constants) > 1:
@@ -277,13 +280,13 @@ def _undetermined(solved, i):
     for name in _not_at_all(solved, i):
         text = (
             f"the data do not determine {symbols([name])}, or a parameter correlated with it: the "
-            "residuals have no minimum, but a direction in which they do not change"
+            "residuals have no minimum, because they do not change in one direction"
         )
         yield Remark(text, "undetermined", Remedy("hold", name))
 
 
 def _hardest(solved, i):
-    """The least hardness of a curve without yield, as text."""
+    """Return a text on the smallest possible hardness of a curve without yield."""
     values, state = solved.values_and_states
     depth = state.depth[i].max()
     if solved.curves.constants == ("q_c",):
@@ -295,7 +298,7 @@ def _hardest(solved, i):
 
 
 def _constants(solved, i, names):
-    """A constant of the hardness beside others that may as well be 0."""
+    """Yield a remark on one of several constants of the hardness that may be 0."""
     values = dict(zip(solved.curves.free, solved.minimum.x[i], strict=False))
     shares = {name: values[name] / solved.errors(i)[name] for name in names}
     name = min(shares, key=shares.get)
@@ -308,7 +311,7 @@ def _constants(solved, i, names):
 
 
 def _tip(solved, i):
-    """A small contact under an ideal tip, where first contact is held."""
+    """Yield a remark on a small contact under an ideal tip with a held first contact."""
     curves, (_, state) = solved.curves, solved.values_and_states
     largest = min(float(state.depth[i].max()), curves.profile.known_depth)
     if "contact_point" not in curves.free and largest > 0:
@@ -316,17 +319,18 @@ def _tip(solved, i):
         yield from of_ideal_tip(curves.profile, height, held=True)
 
 
-#: Samples of a mean, and least number of those of a branch and of its air.
+#: Number of samples of a mean, and smallest numbers of samples of a branch and of its part in the air.
 _MEAN, _BRANCH, _AIR = 5, 40, 20
-#: Least tension in standard deviations of the air, and as a share of the range of force. Noise that is
-#: correlated over a fifteenth of a curve reaches 1.3 %. E* changes by about the share.
+#: Smallest significant tension, in standard deviations of the air and as a share of the range of force.
+#: Noise that is correlated over a fifteenth of a curve reaches 1.3 %. E* changes by about this share.
 _SIGNIFICANT, _LEAST = 4.0, 0.02
 
 
 def tension(depth, force):
-    """Largest tension (N) of the approach or the retract: the air beyond less the lowest force; else 0.
+    """Return the largest tension (N) of approach or retract: force in the air minus the lowest force, or 0.
 
-    No drag is one, as the rate of a branch is that of its air, nor a viscous medium, which only presses.
+    A drag does not count, because a branch and its air have the same rate. A viscous medium does not count,
+    because it only presses.
     """
     top, found = int(np.argmax(depth)), 0.0
     for branch in (force[top::-1], force[top:]):
@@ -346,28 +350,28 @@ def tension(depth, force):
 
 
 def of_tension(solved, i):
-    """A remark on an adhesion that the fit of an elastic medium leaves out, if there is one."""
+    """Yield a remark on an adhesion that the fit of an elastic medium neglects."""
     curves = solved.curves
     if curves.adhesive or not curves.held_elastic or "E_star" not in curves.free:
         return
     found = remark_on_tension(curves.depth[i], curves.force[i], solved.errors(i)["E_star"])
     if found is None:
         return
-    # That of a soft gel may be on the retract alone.
+    # On a soft gel, adhesion may act on the retract alone.
     retracts = bool(curves.depth.shape[1] - np.argmax(curves.depth[i]) > _BRANCH)
     yield Remark(found.text, found.kind, *found.remedy, *[Remedy("part", "loading")] * retracts)
 
 
 def remark_on_tension(depth, force, error):
-    """Remark on the tension of a curve whose E* has a relative error, None if that covers the tension."""
+    """Return a remark on the tension of a curve, or None if the relative error of E* covers it."""
     largest = tension(depth, force)
     share = largest / (np.ptp(force) - largest)
-    # E* changes by about this share, which the error of a curve that deviates may cover.
+    # E* changes by about this share. The error of a deviating curve may already include it.
     if share <= error:
         return None
     pull = engineering(float(f"{largest:.2g}"), "N")
     text = (
-        f"the force falls {pull} below that of the air, {100 * share:.2g} % of the largest one: an "
-        "adhesion that is left out changes E* by about as much"
+        f"the force falls {pull} below the force in the air, {100 * share:.2g} % of the largest force: "
+        "neglected adhesion changes E* by about as much"
     )
     return Remark(text, "adhesion", Remedy("free", "work_of_adhesion"))

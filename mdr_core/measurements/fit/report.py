@@ -1,4 +1,4 @@
-"""Base class of fits: values and standard errors of their parameters, and how they are printed."""
+"""Base class of fits: values and standard errors of their parameters, and the printed report."""
 
 from dataclasses import dataclass
 from itertools import combinations
@@ -17,7 +17,7 @@ from .parameters import CLASSES, MEDIUM, PARAMETERS
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-LEAST_SQUARES = Model("least squares", "the medium whose model has the least squares of residuals")
+LEAST_SQUARES = Model("least squares", "the medium with the smallest sum of squared residuals")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -29,9 +29,9 @@ class Fit(Record):
     profile, medium
         The indenter, and the medium with fitted and held parameters.
     standard_errors : dict
-        Standard errors of the free parameters by name, in their units; infinite where undetermined.
+        Standard errors of the free parameters by name, in their units; infinite if undetermined.
     covariance : ndarray
-        Covariance of the free parameters, in that order.
+        Covariance of the free parameters, in the same order.
     residuals : ndarray
         Measured minus fitted values.
     remarks : tuple of Remark
@@ -47,12 +47,12 @@ class Fit(Record):
     model = LEAST_SQUARES
     _shown = ("medium",)
     _dimensions = ("fit",)
-    #: Names of all parameters, free or held, and of those that are not shown where they are held at 0.
+    #: Names of all parameters, free or held, and of the parameters to hide if they are held at 0.
     _names: ClassVar[tuple[str, ...]] = ("E_star", *CLASSES.values())
     _zero_unless_asked: ClassVar[tuple[str, ...]] = ()
 
     def _values(self):
-        """Values of all parameters by name."""
+        """Return the values of all parameters by name."""
         return {name: getattr(self.medium if name in MEDIUM else self, name) for name in self._names}
 
     @property
@@ -61,7 +61,7 @@ class Fit(Record):
         return self.medium.shape
 
     def to_dict(self) -> "dict[str, float | NDArray[np.float64]]":
-        """Values of all parameters by name, in SI units, and the standard errors of the free ones.
+        """Return all parameters by name, in SI units, and the standard errors of the free parameters.
 
         The name of an error ends in `_error`.
         """
@@ -70,7 +70,7 @@ class Fit(Record):
 
     @property
     def correlations(self) -> dict[tuple[str, str], float]:
-        """Correlations above 0.9 of two parameters of one fit, by their names."""
+        """Correlations above 0.9 between two parameters of one fit, by their names."""
         if self.shape:
             raise TypeError(
                 "correlations are defined for a single fit: select one, as in fit[0].correlations"
@@ -95,17 +95,17 @@ class Fit(Record):
                 yield "correlation", f"{first}, {second}: {value:+.3f}"
 
     def _text(self, name, value, unit):
-        """A value with its standard error, or the range and the median of those of many fits."""
+        """Return a value with its standard error as text; for many fits, the range and the median error."""
         if name not in self.standard_errors:
             return f"{engineering(np.extract(~np.isnan(value), value), unit)} (held)"
         return with_error(value, self.standard_errors[name], unit)
 
     def _comparable(self):
-        """Rows on what is comparable with tables."""
+        """Yield rows on values that are comparable with tables."""
         yield from ()
 
     def _quality(self):
-        """Rows on how well the model fits."""
+        """Yield rows on the quality of the fit."""
         yield from ()
 
 

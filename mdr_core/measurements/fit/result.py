@@ -36,12 +36,12 @@ _OF_CURVES = ("contact_point", *BACKGROUND, "covariance", "reduced_chi_square", 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class IndentationFit(Fit):
-    """Media fitted to one or many curves, a `Fit` returned by `fit_indentation`; `fit[i]` is one curve's.
+    """Media fitted to one or many curves, a `Fit` returned by `fit_indentation`.
 
-    Parameters and errors are arrays (R,) for many curves, `covariance` is (R, P, P). q_c is infinite where
-    nothing has yielded. Residuals are those of the force (N) at the measured depth. Curves of different
-    numbers of samples are filled with NaN up to the longest; `fit[i]` is not. Curves that are `invalid`
-    have NaN for what was not fitted.
+    `fit[i]` is the fit of one curve. For many curves, parameters and errors are arrays (R,), and
+    `covariance` is (R, P, P). q_c is infinite if nothing has yielded. Residuals are residuals of the force
+    (N) at the measured depth. Shorter curves are padded with NaN; `fit[i]` is not padded. Fitted values of
+    `invalid` curves are NaN.
 
     Examples
     --------
@@ -54,7 +54,7 @@ class IndentationFit(Fit):
     1e+10 ['E_star', 'contact_point']
     """
 
-    #: Measured depth (m), force (N), and time (s), None where it was not given.
+    #: Measured depth (m), force (N), and time (s), None if it was not given.
     depth: Array
     force: Array
     time: Array | None
@@ -65,22 +65,22 @@ class IndentationFit(Fit):
     drag: Array
     #: Sum of squares in units of the noise over the degrees of freedom, NaN for noise from the residuals.
     reduced_chi_square: Array
-    #: Number of samples in a block of the standard errors, 1 where residuals are not correlated.
+    #: Number of samples in a block of the standard errors, 1 for uncorrelated residuals.
     block_length: Array
-    #: Standard deviation of the force (N), given or estimated; of each sample if an array was given.
+    #: Standard deviation of the force (N), given or estimated; for each sample if an array was given.
     force_noise: Array
-    #: Standard deviation of the measured depth (m), as given.
+    #: Given standard deviation of the measured depth (m).
     depth_noise: float
-    #: States of the fitted model, with depth noise at the most probable depths; where a sample is left out,
-    #: that of the sample before.
+    #: States of the fitted model, with depth noise at the most probable depths. An omitted sample has the
+    #: state of the sample before.
     path: Indentation
-    #: Remarks on each curve, those of its file first and those of the fit, and numbers of samples given.
+    #: Remarks on each curve from its file and from the fit, and numbers of given samples.
     _read: tuple[tuple[Remark, ...], ...]
     _remarks: tuple[tuple[Remark, ...], ...]
     _lengths: np.ndarray
-    #: File of each curve, and its number there, from 1 on.
+    #: File of each curve, and its number in the file, starting at 1.
     _places: tuple[tuple[str, int], ...]
-    #: What a table says of files that are not read.
+    #: Line of a table about files that were not read.
     _about: dict[str, str]
 
     _names = tuple(PARAMETERS)
@@ -89,7 +89,7 @@ class IndentationFit(Fit):
 
     @property
     def residual_noise(self) -> Array:
-        """Standard deviation (N) of the residuals by the noise of force and depth, √(σ_F² + (S σ_d)²)."""
+        """Standard deviation (N) of the residuals due to noise of force and depth, √(σ_F² + (S σ_d)²)."""
         stiffness = np.asarray(self.path.stiffness)
         return np.hypot(self._noise_of_samples(), stiffness * self.depth_noise)
 
@@ -98,7 +98,7 @@ class IndentationFit(Fit):
         return not np.all(np.isinf(self.medium.q_c))
 
     def _noise_of_samples(self):
-        """Standard deviation (N) of the force, of an array that broadcasts with the samples."""
+        """Return the standard deviation (N) of the force as an array that broadcasts with the samples."""
         noise = np.asarray(self.force_noise)
         return noise if noise.ndim > len(self.shape) else noise[..., None]
 
@@ -128,10 +128,10 @@ class IndentationFit(Fit):
 
     @property
     def remarks(self) -> tuple[Remark, ...]:
-        """Remarks, those of the file first, then of the fit, the most important first.
+        """Remarks of the file, then remarks of the fit, the most important first.
 
-        Of many curves one of each kind, with the number of the first one that has it, and how many have it.
-        Those of a single one are ``fit[i].remarks``.
+        For many curves, one remark of each kind, with the number of the first affected curve and the number
+        of affected curves. ``fit[i].remarks`` are the remarks on a single curve.
         """
         if not self.shape:
             return (*self._read[0], *self._remarks[0])
@@ -139,7 +139,7 @@ class IndentationFit(Fit):
 
     @property
     def invalid(self) -> dict[int, Remark]:
-        """Reasons why curves were not fitted, by their numbers; see `fit_indentation`."""
+        """Reasons for missing fits by curve number; see `fit_indentation`."""
         return {
             i: remark
             for i, remarks in enumerate(self._remarks)
@@ -155,15 +155,15 @@ class IndentationFit(Fit):
 
     @cached_property
     def classes(self) -> dict[str, ClassFit]:
-        """Fits with the hardness of each class alone by its letter, "a", "b", "c"; found when first read.
+        """Fits with the hardness of each class alone by letter, "a", "b", "c"; computed on first access.
 
-        What else is held or free is as in this fit. Empty for an elastic medium, and with viscosity.
-        `class_of_hardness` has how far the misfits tell the classes apart.
+        All other parameters are held or free as in this fit. Empty for an elastic medium, and with
+        viscosity. `class_of_hardness` shows which classes the misfits distinguish.
         """
         self._refuse_invalid("classes")
         if not self._yields or "eta" in self.standard_errors or np.any(self.medium.eta):
             return {}
-        # Noise from the residuals is NaN in χ²: it was not known.
+        # If the noise comes from the residuals, χ² is NaN.
         known = not np.isnan(self.reduced_chi_square).any()
         noise = np.broadcast_to(self._noise_of_samples(), self.depth.shape) if known else None
         samples = (self.depth, self.force, self.time, noise)
@@ -178,7 +178,7 @@ class IndentationFit(Fit):
 
     @property
     def class_of_hardness(self) -> HardnessClass | None:
-        """The class of hardness that one curve shows, None where there are no `classes`."""
+        """Class of hardness of one curve, or None without `classes`."""
         check_single(self, "class_of_hardness")
         if not self.classes:
             return None
@@ -187,28 +187,28 @@ class IndentationFit(Fit):
 
     @cached_property
     def unloading(self) -> tuple[OliverPharr | None, Remark]:
-        """Results of Oliver and Pharr for one curve, and what first contact is; or None, and why."""
+        """Oliver–Pharr results of one curve and the source of first contact; or None and a reason."""
         check_single(self, "unloading")
         return unloading(self)
 
     @cached_property
     def quoted(self) -> Quoted:
-        """The modulus of one curve that is to be quoted, and of what it is; found when first read."""
+        """Modulus of one curve to quote, with its source; computed on first access."""
         check_single(self, "quoted")
         return quoted(self)
 
     def plot(self) -> Any:
-        """Measured and fitted force over depth, and the residuals, of one curve as HoloViews elements.
+        """Plot measured and fitted force over depth, and the residuals, of one curve as HoloViews elements.
 
-        The band of the residuals is one standard deviation of their noise, √(σ_F² + (S σ_d)²), S the
-        stiffness. Drawn are measured depths and forces, with offset and background.
+        The band of the residuals is one standard deviation of their noise, √(σ_F² + (S σ_d)²) with the
+        stiffness S. Depths and forces include offset and background.
         """
         check_single(self, "plot")
         self._refuse_invalid("plot")
         return plot_fit(self)
 
     def table(self) -> CurveTable:
-        """A table of the curves to be saved: what is `quoted` of each, and H of its unloading."""
+        """Return a table of the curves to save: the `quoted` modulus of each, and H of its unloading."""
         held = {n: v for n, v in self._values().items() if n not in self.standard_errors and np.any(v)}
         quantities = {n: PARAMETERS[n].quantity for n in held}
         texts = [f"{q.symbol} = {engineering(held[n], q.unit)}" for n, q in quantities.items()]
@@ -224,7 +224,7 @@ class IndentationFit(Fit):
 
     @property
     def evaluated(self):
-        """What a `CurveTable` has of one curve."""
+        """Row of a `CurveTable`."""
         E = self.quoted.value, self.quoted.standard_error
         E, H = (np.nan, np.nan) if E[0] is None else E, (np.nan, np.nan)
         result, _ = self.unloading
@@ -233,8 +233,10 @@ class IndentationFit(Fit):
         return (*E, *H, self.quoted.source or "", self.quoted.reason, self.remarks)
 
     def to_xarray(self, position: ArrayLike | None = None) -> "xarray.Dataset":
-        """Everything as a dataset: parameters, errors and covariance, and of each sample what was measured,
-        the model and the residual; `attrs` has the remarks, and how many curves are `invalid`, and why.
+        """Return everything as a dataset: parameters, errors and covariance, and the samples.
+
+        For each sample, the dataset has the measured values, the model and the residual. `attrs` has the
+        remarks, the number of `invalid` curves, and their reasons.
 
         Parameters
         ----------
@@ -244,14 +246,14 @@ class IndentationFit(Fit):
         return dataset_of(self, position)
 
     def _text(self, name, value, unit):
-        # Whichever constant was fitted, an elastic medium has q_c = ∞, and 0 of the others.
+        # For any fitted constant, an elastic medium has q_c = ∞ and the other constants 0.
         fitted = set(self.standard_errors) & set(CLASSES.values())
         if fitted and name in CLASSES.values() and not self.shape and self.medium.q_c == np.inf:
             return "∞"
         return super()._text(name, value, unit)
 
     def _hardness(self):
-        """Rows on the hardness of one curve that yields: its class, and the pressures."""
+        """Yield rows on the hardness of one curve with yield: its class, and the pressures."""
         if self.classes:
             used = np.isfinite(self.residuals)
             samples = self.depth[used], self.force[used], self.depth_noise
@@ -264,7 +266,7 @@ class IndentationFit(Fit):
             yield "mean pressure F/(π a²)", f"{text}, {yielded} where all of it yields"
 
     def _comparable(self):
-        """Rows on the number to quote of one curve, another law to fit, and why the model's E* differs."""
+        """Yield rows on the modulus to quote, another law to fit, and a different E* of the model."""
         if self.shape or self.invalid:
             return
         quote = self.quoted
@@ -280,7 +282,7 @@ class IndentationFit(Fit):
             yield "E* of the model", f"{value}: its contact sinks in elastically, and is smaller"
 
     def _unloading(self):
-        """Row with the results of Oliver and Pharr for one curve with an unloading that the model fits."""
+        """Yield a row with the results of Oliver and Pharr for one curve, if the model fits."""
         result, _ = self.unloading
         if result is None or {"misfit", "noise"} & {remark.kind for remark in self.remarks}:
             return
@@ -312,11 +314,11 @@ class IndentationFit(Fit):
 
 
 def _of_many(remarks):
-    """One remark of each kind, of the first curve that has it, with their number."""
+    """Yield one remark of each kind, from the first affected curve, with the number of affected curves."""
     same = {}
     for i, own in enumerate(remarks):
         for remark in own:
-            # Two parameters at their bounds are two remarks.
+            # Two parameters at their bounds need two remarks.
             named = tuple((each.action, each.what) for each in remark.remedy if remark.kind != "invalid")
             same.setdefault((remark.kind, named), {}).setdefault(i, remark)
     for found in same.values():
@@ -325,21 +327,22 @@ def _of_many(remarks):
 
 
 class _MediumOrNone(Medium):
-    """A medium whose parameters are NaN where a curve was not fitted."""
+    """Medium whose parameters may be NaN, for curves without a fit."""
 
     def __post_init__(self):
-        """Takes any numbers."""
+        """Accept any numbers."""
 
 
 def _medium(medium):
-    """A medium without the class for NaN where it has none."""
+    """Return a medium without NaN as an ordinary `Medium`."""
     return medium if np.isnan(medium.E_star).any() else Medium(**medium.__getstate__())
 
 
 def collected(profile, measured, depth_noise, solutions, reasons, read, places, about):
-    """One result of the solutions, in the order of the curves; `reasons` are those of invalid ones.
+    """Return one result from the solutions, in the order of the curves.
 
-    `read` are the remarks of curves that were read from files, `places` their files and numbers there.
+    `reasons` has the errors of invalid curves. `read` has the remarks of curves from files, and `places`
+    the files and the numbers in the files.
     """
     count, free = len(measured.depth), solutions[0].curves.free
     rows = np.concatenate([solution.rows for solution in solutions])
@@ -378,7 +381,7 @@ def collected(profile, measured, depth_noise, solutions, reasons, read, places, 
 
 
 def _among(values, fitted, count, free):
-    """Values of the fitted curves among all: others have a number that is held for all, or NaN."""
+    """Return values for all curves; a curve without a fit gets the common held value, or NaN."""
     same = not free and values.ndim == 1 and np.all(values == values[0])
     among = np.full((count, *values.shape[1:]), values[0] if same else np.nan)
     among[fitted] = values
@@ -386,11 +389,11 @@ def _among(values, fitted, count, free):
 
 
 def _arrays(solution, used):
-    """Arrays of a `Solution` by name, one row a curve, one column a sample that was given."""
+    """Return the arrays of a `Solution` by name, one row per curve, one column per given sample."""
     curves, (values, state) = solution.curves, solution.values_and_states
     units = curves.units(values)[:, : len(curves.free)]
-    # The path follows the model also where samples have no weight, and the search of a curve with adhesion
-    # has contact where the data have it.
+    # The path follows the model also at samples without weight. With adhesion the search has contact where
+    # the data have contact.
     residuals = np.where(
         curves.left_out | curves.adhesive,
         curves.force - curves.background(values) - state.force,
@@ -404,7 +407,7 @@ def _arrays(solution, used):
         "live_depth": state.live_interval.length,
         "uniform_load": state.uniform_load,
     }
-    # A sample that is left out has the state of the one before.
+    # An omitted sample has the state of the sample before.
     before = np.maximum(np.cumsum(used, axis=1) - 1, 0)
     samples = {name: np.take_along_axis(array, before, axis=1) for name, array in samples.items()}
     samples["residuals"][~used] = np.nan

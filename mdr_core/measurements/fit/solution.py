@@ -1,4 +1,4 @@
-"""Solution of curves: the best minimum of several starts, compared with an elastic medium; its errors."""
+"""Solution of curves: the best minimum from several starts, or an elastic medium, with its errors."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -17,9 +17,9 @@ from .measurement import rates
 from .parameters import CLASSES, MEDIUM, PARAMETERS, REACH
 from .start import first_guesses
 
-#: Constant of the hardness, in any unit, that stands for infinity.
+#: Constant of the hardness, in any unit, that represents infinity.
 _NO_YIELD = 1e130
-#: Gain in squares of the noise below which an elastic medium fits as well.
+#: Largest gain in χ² over an elastic medium for which the elastic medium fits equally well.
 _AS_WELL = 2.0
 
 
@@ -27,8 +27,8 @@ _AS_WELL = 2.0
 class Solution:
     """Solution of the curves `rows` of a measurement, and whether media are elastic (R,).
 
-    `rival` is the second-best minimum in scaled parameters (R, P), with its sum of squares (R,), which is
-    infinite where there is none.
+    `rival` is the second-best minimum in scaled parameters (R, P), and `rival_squares` its sum of squares
+    (R,), which is infinite without a second minimum.
     """
 
     rows: np.ndarray
@@ -41,7 +41,7 @@ class Solution:
 
     @cached_property
     def values_and_states(self):
-        """Parameters by name (R, 1), of elastic media where elastic, and the states at all samples."""
+        """Parameters by name (R, 1), with exact values for elastic media, and the states at all samples."""
         values, state = self.curves.model_states(self.minimum.x)
         elastic = {"hardness": 0.0, "q_c": np.inf, "f_c": 0.0}
         for name, value in elastic.items():
@@ -49,7 +49,7 @@ class Solution:
         return values, state
 
     def medium(self):
-        """The media (R,), which are refused where a parameter is out of its range."""
+        """Return the media (R,). Raise MDRError if a parameter is out of its range."""
         values, _ = self.values_and_states
         return Medium(**{name: values[name][:, 0] for name in MEDIUM})
 
@@ -60,7 +60,7 @@ class Solution:
 
     @cached_property
     def deviation(self):
-        """Residuals (N) at all samples (R, N), 0 at those that have no weight in the fit."""
+        """Residuals (N) at all samples (R, N), 0 at samples without weight in the fit."""
         return self.minimum.residual * self.noise
 
     @cached_property
@@ -70,7 +70,7 @@ class Solution:
 
     @cached_property
     def orders(self):
-        """Indices in the order, of time or (elastic) of depth, in which residuals are more correlated."""
+        """Indices in order of time, or of depth for elastic media whose residuals then correlate more."""
         residual = self.minimum.residual
         orders = np.broadcast_to(np.arange(residual.shape[1]), residual.shape).copy()
         if self.curves.held_elastic:
@@ -88,7 +88,7 @@ class Solution:
 
     @cached_property
     def covariance(self):
-        """Covariance of the scaled free parameters (R, P, P), by blocks if residuals are correlated."""
+        """Covariance of the scaled free parameters (R, P, P), from blocks if residuals are correlated."""
         residual, jacobian, free = self.minimum.residual, self.minimum.jacobian, len(self.curves.free)
         variance = 1.0 if self.noise_known else self.reduced_chi_square
         covariance = covariances(jacobian, variance)[:, :free, :free]
@@ -99,12 +99,12 @@ class Solution:
         return covariance
 
     def errors(self, i):
-        """Standard errors of the scaled free parameters of one curve by name."""
+        """Return the standard errors of the scaled free parameters of one curve by name."""
         return dict(zip(self.curves.free, np.sqrt(np.diag(self.covariance[i])).tolist(), strict=True))
 
 
 def problems(profile, measured, held, depth_noise):
-    """Yields numbers of measured curves, and their `Curves`, which have equally many parameters."""
+    """Yield numbers of measured curves, and their `Curves` with equally many parameters."""
     profile = tabulated(profile, table_depth(profile, measured.depth, held))
     used = [name for name in PARAMETERS if name not in held or held[name].any()]
     adhesive, in_time = "work_of_adhesion" in used, any(PARAMETERS[name].in_time for name in used)
@@ -121,7 +121,7 @@ def problems(profile, measured, held, depth_noise):
 
 
 def table_depth(profile, depth, held):
-    """Depth (m) to which the profile is tabulated: that of the farthest first contact."""
+    """Return the largest depth (m) in the table of the profile, from the farthest first contact."""
     top = np.nanmax(depth, axis=1)
     limit = (1 + REACH) * float((top - np.nanmin(depth, axis=1)).max())
     if "contact_point" in held:
@@ -132,18 +132,18 @@ def table_depth(profile, depth, held):
 
 
 def _sigma(curves):
-    """Standard deviation of the force (N): given, estimated, or its range where it is not known."""
+    """Return the standard deviation of the force (N): given, estimated, or its range if it is unknown."""
     if curves.sigma is not None or not curves.depth_noise:
         return curves.load if curves.sigma is None else curves.sigma
     force = curves.force
-    # Without memory and rates the order of time means nothing; in that of depth the force is smooth.
+    # Without memory and rates the order of samples does not matter; ordered by depth, the force is smooth.
     if curves.held_elastic and not curves.rate.any():
         force = np.take_along_axis(force, np.argsort(curves.depth, axis=1), axis=1)
     return np.maximum(roughness(force), 1e-6 * curves.load)
 
 
 def solved(rows, curves, noise_known):
-    """`Solution` of the curves with these numbers."""
+    """Return the `Solution` of the curves with the numbers `rows`."""
     minimum, *rival = _best_minimum(curves)
     if curves.adhesive:
         curves = replace(curves, contact=curves.contact_of_data(minimum.x))
@@ -157,7 +157,7 @@ def solved(rows, curves, noise_known):
 
 
 def _best_minimum(curves):
-    """The best minimum, and the second-best one that differs in E* or first contact."""
+    """Return the best minimum, and the second-best minimum with another E* or first contact."""
     (_, start), *others = first_guesses(curves)
     best = curves.search(start)
     rival, rival_squares = best.x.copy(), np.full(len(start), np.inf)
@@ -178,9 +178,10 @@ def _best_minimum(curves):
 
 
 def _compared_with_elastic(curves, minimum, noise_known):
-    """The minimum or the elastic one where that is nearer, and whether it is.
+    """Return the minimum, or the elastic minimum if it fits equally well, and whether it is elastic.
 
-    In an elastic medium the hardness has no derivative: a second search starts with less.
+    The force of an elastic medium does not depend on its hardness. Hence a second search starts with a
+    smaller hardness.
     """
     elastic = np.zeros(len(minimum.x), bool)
     values, state = curves.states(minimum.x)

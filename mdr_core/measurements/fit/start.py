@@ -1,8 +1,8 @@
-"""Starts of the search for a curve: the best of a grid of first contacts and media.
+"""Starts of the search for a curve: the best points of a grid of first contacts and media.
 
-The force is E* times a function of first contact, the constants of the hardness over E*, and the
-relaxation time or the work of adhesion, and a background: E* and the parameters of the background follow by
-linear regression.
+The force is a background plus E* times a function of first contact, of the hardness constants over E*, and
+of the relaxation time or the work of adhesion. Linear regression gives E* and the parameters of the
+background.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ from .parameters import BACKGROUND, MEDIUM, REACH
 
 #: Trial depths of contact at the largest depth, in units of the range of depth.
 _DEPTHS = np.geomspace(3e-3, 1 + REACH, 48)
-#: Trial caps at the largest depth, as shares of it, and shares of one, two or three constants in the cap.
+#: Trial caps as shares of the largest depth, and shares of one, two or three constants in the cap.
 _SHARES = np.concatenate([np.geomspace(2e-3, 0.5, 13), [0.65, 0.8, 0.92, 3.0]])
 _MIXTURES = {
     1: np.ones((1, 1)),
@@ -25,17 +25,17 @@ _MIXTURES = {
 }
 #: Trial relaxation times, as shares of the largest depth over the largest rate.
 _LAGS = np.append(0.0, np.geomspace(0.01, 4.0, 10))
-#: Trial stretches at the rim at the largest depth, as shares of it.
+#: Trial stretches at the rim, at the largest depth and as shares of it.
 _STRETCHES = np.geomspace(0.03, 4.0, 14)
-#: Largest share of the cap at which springs carry little beside dashpots: a search from there does not come
-#: back to a medium whose springs count.
+#: Largest cap, as a share of the largest depth, for which springs carry much less than dashpots. A search
+#: from such a start does not return to a medium whose springs matter.
 _DASHPOTS = 0.05
-#: Largest number of starts, and largest sum of squares of a start in units of the smallest one.
+#: Largest number of starts, and largest sum of squares of a start in units of the smallest sum.
 _STARTS, _CLOSE = 4, 20.0
 
 
 def first_guesses(curves):
-    """Starts of a search, the best first, each with its rows and their scaled parameters.
+    """Yield starts of a search, the best first, each with its rows and their scaled parameters.
 
     They are the minima over the trial first contacts.
     """
@@ -53,7 +53,7 @@ def first_guesses(curves):
 
 
 def _guesses(curve, turning_depth, table):
-    """Free parameters of one curve by name at the minima over its first contacts, the best first."""
+    """Return the free parameters of one curve by name at the minima over first contact, the best first."""
     held = {name: float(value[0]) for name, value in curve.held.items()}
     depth = curve.depth[0]
     top, length = float(curve.top[0, 0]), float(curve.length[0, 0])
@@ -86,7 +86,7 @@ def _guesses(curve, turning_depth, table):
 
 
 def _minima(sum_of_squares):
-    """Indices of the smallest minima of the sums of squares over the contact points, the best first."""
+    """Return indices of the smallest minima of the sum of squares over first contact, the best first."""
     around = np.concatenate([[np.inf], sum_of_squares, [np.inf]])
     minima = (
         (sum_of_squares <= around[:-2])
@@ -97,16 +97,16 @@ def _minima(sum_of_squares):
 
 
 def _kinds(curve, media, depth):
-    """Which of the trial media (M,) give starts of their own: those of dashpots alone, where both count."""
+    """Return masks of the trial media (M,) with separate starts: mainly dashpots, and others."""
     cap = media["cap"][0] / depth[0, 0] if "cap" in media and "eta" in curve.free else np.zeros(1)
     few = cap < _DASHPOTS
     return [few, ~few] if few.any() and not few.all() else [np.ones(few.shape, bool)]
 
 
 def _media(curve, held, depth):
-    """Trial media by name, arrays (Z, M), at largest depths (Z, 1).
+    """Return the trial media by name, arrays (Z, M), at largest depths (Z, 1).
 
-    They are the constants of the hardness over E*, τ = 4η/E* (s) and κ = w/E* (m).
+    They have the constants of the hardness over E*, τ = 4η/E* (s) and κ = w/E* (m).
     """
     names = curve.constants
     known = curve.held_elastic or {"E_star", *names} <= set(held)
@@ -136,7 +136,7 @@ def _media(curve, held, depth):
 
 
 def _adhesive_media(curve, held, depth):
-    """`_media` of elastic media with adhesion."""
+    """Return the values of `_media` for elastic media with adhesion."""
     if {"E_star", "work_of_adhesion"} <= set(held):
         kappa = np.full_like(depth, held["work_of_adhesion"] / held["E_star"])
     else:
@@ -146,7 +146,7 @@ def _adhesive_media(curve, held, depth):
 
 
 def _unit_force(largest, depth, rate, media, table):
-    """Force over E* (m²) of trial media, from a table."""
+    """Return the force over E* (m²) of trial media, from a table."""
     depths, area, radius = table
     tau = media["tau"][..., None]
     lag = tau * rate
@@ -159,7 +159,7 @@ def _unit_force(largest, depth, rate, media, table):
 
 
 def _cap(largest, media, table):
-    """Cap (m) of trial media at largest depths (m) so far, from a table."""
+    """Return the cap (m) of trial media at largest depths (m) so far, from a table."""
     depths, _, radii = table
     # The first radius may be 0.
     a = np.maximum(np.interp(largest, depths, radii), radii[1])
@@ -170,7 +170,7 @@ def _cap(largest, media, table):
 
 
 def _adhesive_force(depth, points, kappa, table):
-    """Force over E* (m²) of elastic media with w/E* (m) of adhesion, from a table."""
+    """Return the force over E* (m²) of elastic media with adhesion w/E* (m), from a table."""
     depths, area, radius = table
     force = np.empty((*kappa.shape, depth.size))
     for i, j in np.ndindex(kappa.shape):
@@ -183,7 +183,7 @@ def _adhesive_force(depth, points, kappa, table):
 
 
 def _held_modulus(curve, held, media):
-    """E* (Pa) of trial media where it, or a constant of the hardness, is held; None where it is free."""
+    """Return E* (Pa) of trial media if it, or a constant that determines it, is held; otherwise None."""
     if "E_star" in held:
         return np.full_like(media["tau"], held["E_star"])
     if held.get("work_of_adhesion"):
@@ -195,10 +195,10 @@ def _held_modulus(curve, held, media):
 
 
 def _regression(curve, held, samples, unit_force, media):
-    """The lines E* × unit force + background that are nearest to the force, for each trial (Z, M).
+    """Fit E* × unit force + background to the force, for each trial (Z, M).
 
-    The free parameters of the background are projected out. Returns E*, the sums of squares, and a function
-    that gives these parameters by name, for one medium in each row.
+    The free parameters of the background are projected out. Return E*, the sums of squares, and a function
+    that returns these parameters by name, for one medium in each row.
     """
     force, weight = curve.force[0, samples], curve.sigma[0].min() / curve.sigma[0, samples]
     columns = {name: column[0, samples] for name, column in curve.background_columns.items()}

@@ -1,1 +1,1 @@
-"""Unloadings: E* and H by Oliver and Pharr, first contact, creep, quantities of ISO 14577."""
+"""Evaluation of unloadings: E* and H by Oliver and Pharr, first contact, creep, quantities of ISO 14577."""

@@ -1,4 +1,4 @@
-"""Creep at the start of an unloading: its rate at the end of the hold before."""
+"""Creep at the start of an unloading, from its rate at the end of the hold before."""
 
 from dataclasses import dataclass
 
@@ -9,21 +9,22 @@ from ...show.quantities import engineering
 from ..common.errors import roughness
 from .unloading import last_at_top
 
-#: Least force in a hold and largest deviation from its median, as shares, in standard deviations of noise.
+#: Smallest force in a hold and largest deviation from its median, as shares; the deviation also in standard
+#: deviations of noise.
 _HELD, _STILL, _NOISE = 0.99, 1e-3, 4.0
-#: How far below the force of a hold the lines beside it begin, and where they end, as shares of it. Least
-#: length of a hold in errors of that length: with 5, tips of triangles had holds of 5 to 9 samples.
+#: Start of the lines next to a hold, below its force, and their end, as shares of this force. Smallest
+#: length of a hold, in errors of this length: with 5, tips of triangles had holds of 5 to 9 samples.
 _BELOW, _LOWEST, _CERTAIN = 0.05, 0.7, 10.0
-#: Least number of samples in a hold, and least share of those at the largest force that are still.
+#: Smallest number of samples in a hold, and smallest share of constant samples at the largest force.
 _FEW, _MOST = 5, 0.5
-#: Standard deviations from which on the rate changes in the hold, and the depth grows.
+#: Smallest significant number of standard deviations for a change of the rate or of the force in a hold.
 _SIGNIFICANT = 3.0
-#: Least growth of depth, as a share of the largest depth, while the force falls.
+#: Smallest growth of the depth while the force falls, as a share of the range of depth.
 _GROWTH = 1e-4
-#: Least fall of the depth in a hold that is none, as a share of its range, and its least rate over that in
-#: the unloading.
+#: Smallest fall of the depth in a false hold, as a share of the range of depth, and smallest rate of this
+#: fall over the rate in the unloading.
 _LEAST_FALL, _AS_FAST = 1e-3, 0.3
-#: Share of the compliance 1/S above which creep is said.
+#: Share of the compliance 1/S above which a remark reports creep.
 COUNTS = 0.05
 
 
@@ -37,13 +38,13 @@ class Creep:
     length: float
 
     def without(self, depth, time, deviations=0.0):
-        """Depths (m) without creep after the hold, at the rate or some errors more."""
+        """Return depths (m) without creep after the hold, at the rate plus some standard errors."""
         rate = self.rate + deviations * self.error
         return depth - rate * np.maximum(time - time[self.end], 0.0)
 
 
 def creep(depth, force, time):
-    """`Creep` of one unloading with the hold before it, None where the force is not held."""
+    """Return the `Creep` of an unloading with the hold before it, or None without a hold."""
     held = hold(time, force, depth)
     if held is None:
         return None
@@ -61,15 +62,15 @@ def creep(depth, force, time):
 
 
 def hold(time, force, depth):
-    """Samples at which the largest force is held, None if it is not, or if a sensor shows no larger one."""
+    """Return the samples in the hold of the largest force, or None without a hold or at a sensor limit."""
     held = _held(time, force)
     return None if held is None or _turns(time, force, depth, held) else held
 
 
 def _turns(time, force, depth, held):
-    """Whether the depth comes back in a hold as in the unloading: the force is that of a saturated sensor.
+    """Whether the depth falls in a hold as fast as in the unloading, because the force sensor is saturated.
 
-    In a hold it creeps or drifts, at a small share of the rate of the unloading.
+    In a real hold the depth creeps or drifts, at a small share of the rate of the unloading.
     """
     end, top = held[-1], held[np.argmax(depth[held])]
     fall = depth[top] - depth[end]
@@ -81,10 +82,11 @@ def _turns(time, force, depth, held):
 
 
 def _held(time, force):
-    """Samples at which the largest force is held, None if it is not.
+    """Return the samples in the hold of the largest force, or None.
 
-    They lie between the times at which straight lines through the force before and after meet the median
-    of their forces. At the tip of a triangle each such median is nearer to the tip, until none are left.
+    Straight lines through the force before and after the hold meet the median of its forces at two times.
+    The samples are between these times. At the tip of a triangle, each new median is nearer to the tip,
+    until no samples are left.
     """
     if force.max() <= 0:
         return None
@@ -113,9 +115,9 @@ def _held(time, force):
 
 
 def _branch(time, force, highest):
-    """Time and its rate per force of a straight line through forces below the `highest`, away from a hold.
+    """Fit a line through forces below `highest`, away from a hold; return its time at force 0 and dt/dF.
 
-    The line of a record without such samples is at the first time.
+    If the record has fewer than two such samples, the line is at the first time.
     """
     low = force < _LOWEST * highest
     part = slice(0, int(np.argmax(low)) if low.any() else force.size)
@@ -131,7 +133,7 @@ def _moves(time, force):
     t = (time - time[0]) / max(np.ptp(time), 1e-300)
     for degree in (1, 2):
         coefficients, errors = _line(np.vander(t, degree + 1), force)
-        # How far the force moves between the ends, and the arc of the parabola is above its chord.
+        # Change of the force between the ends, and height of the parabola above its chord.
         change = abs(coefficients[0]) / (1, 4)[degree - 1]
         if abs(coefficients[0]) > _SIGNIFICANT * errors[0] and change > _STILL * np.median(force):
             return True
@@ -139,14 +141,14 @@ def _moves(time, force):
 
 
 def _line(columns, values):
-    """Coefficients of a linear least-squares fit, and their standard errors."""
+    """Return the coefficients of a linear least-squares fit, and their standard errors."""
     coefficients = np.linalg.lstsq(columns, values, rcond=None)[0]
     sum_of_squares = np.sum((values - columns @ coefficients) ** 2) / max(values.size - columns.shape[1], 1)
     return coefficients, np.sqrt(np.diag(np.linalg.pinv(columns.T @ columns)) * sum_of_squares)
 
 
 def share_of_compliance(rate, stiffness, force, time, end):
-    """ḣ/|Ṗ| over 1/S, where Ṗ is the rate of force at the start of the unloading after sample `end`."""
+    """Return ḣ/|Ṗ| over 1/S, with the rate of force Ṗ at the start of the unloading after sample `end`."""
     after = force[end:]
     upper = int(np.argmax(after < 0.5 * force[end])) or after.size
     t, F = time[end : end + upper], after[:upper]
@@ -157,13 +159,13 @@ def share_of_compliance(rate, stiffness, force, time, end):
 
 
 def rise_of_depth(depth, force):
-    """How far (m) the depth grows while the force falls, 0 where it does not beyond its noise."""
+    """Return the growth (m) of the depth while the force falls, 0 within the noise."""
     if force.max() <= 0:
         return 0.0
     noise = roughness(force[None])[0, 0]
     last = int(np.flatnonzero(force >= _HELD * force.max() - _NOISE * noise)[-1])
     top = last_at_top(depth)
-    # Where more than half of the force is lost it is the force that has the wrong sign.
+    # If more than half of the force is lost, the force has the wrong sign.
     if top <= last or not force[last] / 2 < force[top] < force[last] - _NOISE * noise:
         return 0.0
     rise = depth[top] - depth[last]
@@ -172,18 +174,18 @@ def rise_of_depth(depth, force):
 
 
 def no_hold(depth, force, time):
-    """A remark on a record without a hold."""
+    """Return a remark on a record without a hold."""
     text = "no hold of the force before the unloading shows its creep"
     if _held(time, force) is not None:
         text = (
-            "the force stays the same while the depth grows and comes back, as that of a sensor at the end "
-            "of its range, which is no hold"
+            "the force is constant while the depth grows and comes back, like the force of a sensor at the "
+            "end of its range, so this is not a hold"
         )
     return Remark(f"{text}: creep is not corrected", "taken")
 
 
 def of_share(share):
-    """A remark on creep that is not small."""
+    """Return a remark on creep that is not small."""
     return Remark(
         f"the depth creeps at the start of the unloading: ḣ/|Ṗ| at the end of the hold is "
         f"{100 * share:.2g} % of 1/S; the stiffness is corrected for it (Feng and Ngan)",
@@ -192,14 +194,14 @@ def of_share(share):
 
 
 def of_hold(length):
-    """A remark on the hold whose end gives the rate."""
+    """Return a remark on the hold whose end gives the rate."""
     return Remark(f"the force is held for {engineering(length, 's')} before the unloading", "taken")
 
 
 def of_rise(rise, in_time):
-    """A remark on a depth that grows while the force falls; `in_time` says whether times are given."""
+    """Return a remark on a depth that grows while the force falls; `in_time` is true with given times."""
     text = (
-        f"the depth creeps: it grows by {engineering(rise, 'm')} while the force falls, so that the "
-        "stiffness is too large; hold the force longer, or unload faster"
+        f"the depth creeps: it grows by {engineering(rise, 'm')} while the force falls, so the stiffness "
+        "is too large; hold the force longer, or unload faster"
     )
     return Remark(text, "creep", *[Remedy("give", "time")] * (not in_time))

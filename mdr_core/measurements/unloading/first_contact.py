@@ -9,21 +9,22 @@ from ...solver.contact.live_interval import LiveInterval
 from ..common.errors import SIGNIFICANT, block_factors, block_length, roughness
 from ..common.least_squares import least_squares
 
-#: Least number of samples in the air, and least share of the largest depth that these are long.
+#: Smallest number of samples in the air, and their smallest length as a share of the range of depth.
 LEAST_SAMPLES, LEAST_LENGTH = 5, 0.02
-#: Most samples whose median and deviation are those of the air.
+#: Largest number of samples for the median and the deviation in the air.
 _QUIET = 20
-#: Largest force that a trend of the air would have at the largest depth, as a share of the largest force.
+#: Largest force of a trend in the air at the largest depth, as a share of the largest force.
 _CONSTANT = 0.01
-#: Shares of the largest force of a loading up to which a power law is fitted, from large to small.
+#: Shares of the largest force up to which a power law is fitted, from large to small.
 _SHARES = (1.0, 0.5, 0.25, 0.1, 0.05, 0.02, 0.01)
-#: The exponent of the loading may be so much smaller or larger than that of an elastic contact; in a second
-#: search also as small as with a hardness that falls with the radius, and never below a number.
+#: Largest amounts by which the exponent of the loading may be below that of an elastic contact. The second
+#: amount serves a second search, for a hardness that falls with the radius. Smallest exponent. Largest
+#: amount by which the exponent may be above that of an elastic contact.
 _SOFTER, _SOFTEST, _STIFFER = (0.5, 1.2), 0.3, 1.0
-#: Trial first contacts, as shares of the depth between the first sample and the first force that is seen.
+#: Trial first contacts, as shares of the depth between the first sample and the first visible force.
 _STARTS = np.linspace(0.1, 1.0, 4)
-#: Least number of samples of a part that is fitted, standard deviations of noise that its force exceeds,
-#: and within which two first contacts agree.
+#: Smallest number of samples of a fitted part. Standard deviations of noise that its force must exceed, and
+#: within which two first contacts agree.
 _FEW, _SEEN, _AGREE = 10, 10.0, 2.0
 
 
@@ -38,20 +39,20 @@ class FirstContact:
 
 
 def first_contact(profile, depth, force):
-    """`FirstContact` of a loading that begins in the air, or None; and the number of samples before it.
+    """Return the `FirstContact` of a loading that begins in the air, or None, and the samples before it.
 
-    F = F₀ + k (h − z₀)^m is fitted to the samples up to several shares of the largest force. A worn tip, or
-    a medium that begins to yield, follows a power law over the beginning of the loading only: of the shares
-    whose z₀ agrees with those of all smaller ones (Lepski, Theory Probab. Appl. 35, 1990, 454) the one with
-    the smallest error is taken. The difference to smaller ones is part of it. m is within 1/2 below and 1
-    above that of an elastic contact.
+    F = F₀ + k (h − z₀)^m is fitted to the samples up to several shares of the largest force. With a worn
+    tip, or a medium that begins to yield, only the beginning of the loading follows a power law. A share is
+    valid if its z₀ agrees with the z₀ of all smaller shares (Lepski, Theory Probab. Appl. 35, 1990, 454).
+    The valid share with the smallest error gives the result; the error includes the difference to smaller
+    shares. m is from 1/2 below to 1 above the exponent of an elastic contact.
     """
     top = int(np.argmax(force))
     seen, level, noise = _first_seen(force[: top + 1])
     length = depth[top] - depth[0]
     if seen < LEAST_SAMPLES or top - seen < _FEW or depth[seen] - depth[0] <= LEAST_LENGTH * length:
         return None, 0
-    # The last of the samples before may be in contact already, below the noise.
+    # The last samples before may already be in contact, below the noise.
     quiet = slice(max(LEAST_SAMPLES, seen // 2))
     if _trend(depth[quiet], force[quiet]) * length > _CONSTANT * (force[top] - level):
         return None, 0
@@ -59,7 +60,7 @@ def first_contact(profile, depth, force):
         loading = depth[: top + 1], force[: top + 1]
         contact = _contact_of_loading(profile, *loading, seen, level, noise, softer)
         if softer > _SOFTER[0]:
-            # Such a force begins nearly at once, which is seen to the distance of samples.
+            # Such a force begins almost at once; the distance of the samples limits the accuracy.
             step = depth[seen] - depth[seen - 1]
             contact = replace(contact, depth_error=float(np.hypot(contact.depth_error, step)))
         before = np.count_nonzero(depth[:seen] < contact.depth - 2 * contact.depth_error)
@@ -69,16 +70,16 @@ def first_contact(profile, depth, force):
 
 
 def contact_before(profile, depth, force):
-    """`FirstContact` before the first sample of a loading that begins in contact, without an offset."""
+    """Return the `FirstContact` before the first sample of a loading that begins in contact, no offset."""
     noise = roughness(force[None])[0, 0]
     return _contact_of_loading(profile, depth, force, 0, 0.0, noise, _SOFTER[0])
 
 
 def _first_seen(force):
-    """Index of the first sample whose force is seen, and the level and noise (N) of those before."""
+    """Return the index of the first sample with a visible force, and level and noise (N) before it."""
     rough, seen = roughness(force[None])[0, 0], 0
     for _ in range(2):
-        # The first samples may be all that there is of the air; of more of them noise is better known.
+        # The air may consist of the first few samples only; more samples determine the noise better.
         quiet = force[: max(LEAST_SAMPLES, min(_QUIET, seen // 2))]
         level = np.median(quiet)
         noise = max(rough, np.std(quiet), 1e-12 * abs(force[-1] - level))
@@ -88,7 +89,7 @@ def _first_seen(force):
 
 
 def _trend(depth, force):
-    """Slope (N/m) of the force in the air that is beyond its scatter."""
+    """Return the slope (N/m) of the force in the air, 0 within its scatter."""
     x, y = depth - depth.mean(), force - force.mean()
     sum_of_squares = max(x @ x, 1e-300)
     slope = x @ y / sum_of_squares
@@ -97,7 +98,7 @@ def _trend(depth, force):
 
 
 def _contact_of_loading(profile, depth, force, seen, level, noise, softer):
-    """`FirstContact` of a loading whose force is seen from one sample on."""
+    """Return the `FirstContact` of a loading whose force is visible from sample `seen`."""
     least, most = elastic_exponents(profile, depth[-1] - depth[0])
     exponents = max(least - softer, _SOFTEST), most + _STIFFER
     parts, contacts = [], []
@@ -121,7 +122,7 @@ def _contact_of_loading(profile, depth, force, seen, level, noise, softer):
             agreeing.append(replace(each, depth_error=float(np.hypot(each.depth_error, bias))))
     if agreeing:
         return min(agreeing, key=lambda each: each.depth_error)
-    # Where the exponent is not determined contact is between those of its bounds.
+    # If the exponent is undetermined, first contact is between the results for both bounds.
     part = parts[-1] if parts else (depth, force)
     ends = [_power_law(*part, seen, exponent, exponent) for exponent in exponents]
     middle, half = (sum(each.depth for each in ends) / 2, abs(ends[1].depth - ends[0].depth) / 2)
@@ -129,7 +130,7 @@ def _contact_of_loading(profile, depth, force, seen, level, noise, softer):
 
 
 def elastic_exponents(profile, largest):
-    """Least and largest exponent m of F ∝ d^m of elastic contacts up to a depth (m)."""
+    """Return the smallest and the largest exponent m of F ∝ d^m of elastic contacts up to a depth (m)."""
     depth = min(largest, profile.known_depth) * np.array([0.05, 0.2, 1.0])
     force = integrals(profile).radius_integral(LiveInterval.elastic(depth))
     exponents = depth * profile.radius_at(depth) / force
@@ -137,9 +138,10 @@ def elastic_exponents(profile, largest):
 
 
 def _power_law(depth, force, seen, least, most):
-    """`FirstContact` by F₀ + k (h − z₀)^m with m within bounds; its error is infinite where m is at one.
+    """Return the `FirstContact` by F₀ + k (h − z₀)^m with m between bounds.
 
-    Without samples that are `seen` to be in the air F₀ is 0.
+    The error is infinite if m is at a bound. The first `seen` samples are in the air. If there are none,
+    F₀ is 0.
     """
     size, origin, length = np.ptp(force), depth[0], depth[-1] - depth[0]
     level = force[:seen].mean() if seen else 0.0
@@ -157,7 +159,7 @@ def _power_law(depth, force, seen, least, most):
 
     z = np.minimum(_STARTS * x[min(seen, x.size - 1)], 0.98) if seen else -_STARTS
     start = np.column_stack([0 * z, 0 * z + y[-1], z, 0 * z + (least + most) / 2])
-    # Of the baseline and the range of force in units of that of the samples, and of first contact.
+    # Bounds of baseline and range of force, relative to the force range, of first contact, and of m.
     lower, upper = ([-1.0, 1e-3, -2.0 if seen else -50.0, least], [1.0, 10.0, 1.0, most])
     lower, upper = (np.tile(each, (z.size, 1)) for each in (lower, upper))
     minimum = least_squares(function, start, lower, upper, steps=60, tolerance=1e-8)

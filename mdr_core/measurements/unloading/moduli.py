@@ -1,4 +1,4 @@
-"""E* and H by force, stiffness and contact depth: of unloadings, and over depth."""
+"""E* and H from force, stiffness and contact depth: for unloadings, and over depth."""
 
 import numpy as np
 
@@ -10,28 +10,28 @@ from .oliver_pharr_result import OverDepth
 
 
 def moduli(profile, contact_depth, force, stiffness, beta):
-    """E* and H (Pa) at contact depths (m); the radius below the tip is that of its face, or 0."""
+    """Return E* and H (Pa) at contact depths (m); below the tip, the radius is that of its face, or 0."""
     a = profile.radius_at_height(np.maximum(contact_depth, 0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
         return stiffness / (2 * beta * a), force / (np.pi * a**2)
 
 
 def remaining(profile, contact_depth, stiffness, hardness, exponent, epsilon):
-    """Share of the largest depth that remains after an unloading F = α (h − h_f)^m."""
+    """Return the share of the largest depth that remains after an unloading F = α (h − h_f)^m."""
     force = hardness * np.pi * profile.radius_at_height(contact_depth) ** 2
     return 1 - exponent * force / stiffness / (contact_depth + epsilon * force / stiffness)
 
 
 def not_from_contact(text):
-    """The error of depths and forces that may count from elsewhere."""
+    """Return an error for depths and forces with a possibly wrong zero."""
     text = f"{text}: depths must count from first contact, and forces from the baseline"
     return MeasurementError(Remark(text, "no unloading"))
 
 
 def over_depth(profile, depth, force, stiffness, constants, contact, found):
-    """`OverDepth` of samples with a measured stiffness; `found` are remarks on first contact."""
+    """Return the `OverDepth` of samples with a measured stiffness; `found` are remarks on first contact."""
     values, errors, remarks = _values_and_errors(profile, depth, force, stiffness, constants, contact)
-    # Near first contact single samples may be far off.
+    # Near first contact, single samples may deviate strongly.
     middle = [np.nanmedian(values[name]) for name in ("E_star", "hardness")]
     remarks = (*remarks, *found, *doubts(*middle), *profile.remarks)
     remarks = (*remarks, *of_ideal_tip(profile, values["contact_depth"]))
@@ -39,7 +39,7 @@ def over_depth(profile, depth, force, stiffness, constants, contact, found):
 
 
 def _values_and_errors(profile, depth, force, stiffness, constants, contact):
-    """Values and errors by name at each sample with a measured stiffness, and remarks."""
+    """Return values and errors by name at each sample with a measured stiffness, and remarks."""
     epsilon, beta = constants
     with np.errstate(divide="ignore", invalid="ignore"):
         contact_depth = depth - epsilon * force / stiffness
@@ -65,7 +65,7 @@ def _values_and_errors(profile, depth, force, stiffness, constants, contact):
     values = {"depth": depth, "stiffness": np.where(used, stiffness, np.nan), **values}
     values["contact_point"] = np.full(depth.size, contact.depth)
     without = np.count_nonzero(~used)
-    text = f"{without} of {used.size} samples have no contact or no stiffness, and no results"
+    text = f"{without} of {used.size} samples without contact or stiffness have no results"
     remarks = [Remark(text, "left out")] if without else []
     frozen = {name: check.frozen(value) for name, value in values.items()}
     errors = {"stiffness": noise} | errors

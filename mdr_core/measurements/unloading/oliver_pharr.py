@@ -44,7 +44,7 @@ def oliver_pharr(
     """Compute modulus and hardness from the unloadings of a force–depth curve by Oliver and Pharr (1992).
 
     F = α (h − h_f)^m is fitted to the upper half of the unloading. F and its slope S at the largest depth h
-    give the contact depth h_c = h − ε F/S. With the radius a of the profile at that height, z(a) = h_c, and
+    give the contact depth h_c = h − ε F/S. The radius a of the profile at this height, z(a) = h_c, gives
     A = π a², E* = S √π/(2β √A) and H = F/A. The page *What a fit does* describes first contact, the
     correction for creep, and the quantities of ISO 14577.
 
@@ -53,33 +53,33 @@ def oliver_pharr(
     profile : Profile
         The indenter.
     depth, force : array_like
-        Depths (m) and forces (N), (N,), in the order of time. Samples with NaN are left out. First contact
-        is subtracted if the record begins in the air. Instead of both, a `MeasuredCurve`, or many.
+        Depths (m) and forces (N), (N,), in order of time. Samples with NaN are omitted. First contact is
+        subtracted if the record begins in the air. Alternatively, `depth` is one or many `MeasuredCurve`.
     time : array_like, optional
-        Increasing times (s): the stiffness is corrected for creep in a hold. A `MeasuredCurve` has its own;
-        None ignores them.
+        Increasing times (s), to correct the stiffness for creep in a hold. The default is the time of a
+        `MeasuredCurve`; None ignores it.
     stiffness : array_like or True, optional
-        Measured contact stiffness S (N/m) at each sample, (N,), NaN where there is none; True for that of a
-        `MeasuredCurve`. Results are then those of each sample. Not with `time` or `cycles`.
+        Measured contact stiffness S (N/m) at each sample, (N,), NaN for missing values. True takes the
+        stiffness of a `MeasuredCurve`. Each sample then has a result. Not with `time` or `cycles`.
     epsilon : float, optional
         Constant ε: 1 for a flat punch, 3/4 for a paraboloid, 2 − 4/π for a cone.
     beta : float, optional
         Correction β of the stiffness, 1 for axisymmetric indenters.
     cycles : bool, optional
-        Whether each unloading has an entry, in the order of time. Those that follow no power law are left
-        out, with a remark. By default the unloading after the largest depth is taken.
+        Whether to evaluate each unloading, in order of time. Unloadings that do not follow a power law are
+        omitted with a remark. By default only the unloading after the largest depth is evaluated.
 
     Returns
     -------
     OliverPharr
-        With `stiffness` of each sample, `OverDepth`; of many curves a `CurveTable`, with NaN and the reason
-        for those that cannot be evaluated.
+        With `stiffness`, an `OverDepth`. With many curves, a `CurveTable` with NaN and the reason for each
+        curve that cannot be evaluated.
 
     Raises
     ------
     MDRError
-        If the upper half of an unloading has fewer than five samples, or follows no power law; if the
-        contact depth is not positive or the profile is not known there; if times do not increase; if no
+        If the upper half of an unloading has fewer than five samples, or does not follow a power law. If
+        the contact depth is not positive, or beyond the known profile. If times do not increase. If no
         sample has a positive stiffness.
 
     Examples
@@ -133,7 +133,7 @@ def oliver_pharr(
 
 
 def _table(profile, curves, time, constants):
-    """`CurveTable` of many measured curves."""
+    """Return the `CurveTable` of many measured curves."""
     epsilon, beta = constants
     results = []
     with progress(len(curves), "curves") as done:
@@ -149,7 +149,7 @@ def _table(profile, curves, time, constants):
 
 
 def _of_parts(profile, depth, force, time, constants, contact, cycles):
-    """Values and errors by unloading, with and without a correction for creep; and remarks."""
+    """Return values and errors by unloading, with and without a correction for creep, and remarks."""
     parts, results, remarks = parts_of(force), {}, []
     taken = sum(part.start <= last_at_top(depth) for part in parts) or 1
     every = cycles and parts
@@ -179,7 +179,7 @@ def _of_parts(profile, depth, force, time, constants, contact, cycles):
 
 
 def _with_creep(profile, depth, force, time, constants, contact):
-    """Values and errors of one unloading with and without correction for creep, and remarks."""
+    """Return values and errors of one unloading with and without correction for creep, and remarks."""
     rise, notes = creeping.rise_of_depth(depth, force), []
     creep = None if time is None else creeping.creep(depth, force, time)
     try:
@@ -194,7 +194,7 @@ def _with_creep(profile, depth, force, time, constants, contact):
     if creep is None:
         if rise:
             notes.append(creeping.of_rise(rise, time is not None))
-        elif remark := _doubt(profile, depth.max(), laws, time is not None):
+        elif remark := _exponent_remark(profile, depth.max(), laws, time is not None):
             notes.append(remark)
         if time is not None:
             notes.append(creeping.no_hold(depth, force, time))
@@ -208,14 +208,14 @@ def _with_creep(profile, depth, force, time, constants, contact):
     share = creeping.share_of_compliance(creep.rate, corrected[0, 0], force, time, creep.end)
     if rise or share > creeping.COUNTS:
         notes.append(creeping.of_share(share))
-    if remark := _doubt(profile, depth.max(), laws[0], True):
+    if remark := _exponent_remark(profile, depth.max(), laws[0], True):
         notes.append(remark)
     notes.append(creeping.of_hold(creep.length))
     return (corrected, uncorrected), notes
 
 
 def _values_and_errors(profile, depth, laws, constants, contact):
-    """Results and standard errors of the `Laws` of an unloading, (2, 5), in the order of `OliverPharr`."""
+    """Return results and standard errors from the `Laws` of an unloading, (2, 5), as in `OliverPharr`."""
     epsilon, beta = constants
 
     def results(F, S, m, shift=0.0):
@@ -224,7 +224,7 @@ def _values_and_errors(profile, depth, laws, constants, contact):
 
     solution = laws.solution
     values, *noisy = results(*np.column_stack([solution, solution[:, None] + laws.deviations]))
-    # A contact radius of 0 or ∞ makes the modulus or the hardness so.
+    # With a contact radius of 0 or ∞, the modulus or the hardness is also 0 or ∞.
     if not np.all((values[2:] > 0) & (values[2:] < np.inf)):
         contact_depth = engineering(values[1], "m")
         text = f"the contact depth h − ε F/S = {contact_depth} must be positive and within the profile"
@@ -244,7 +244,7 @@ def _values_and_errors(profile, depth, laws, constants, contact):
 
 
 def _collected(profile, results, iso, contact, epsilon, numbers, remarks):
-    """An `OliverPharr` of the values and errors of unloadings by number, or of one where that is one."""
+    """Return the `OliverPharr` of one unloading, or of several if `numbers` is an array."""
     columns = np.array(results) if numbers.ndim else np.array(results[0])
     names = ("stiffness", "contact_depth", "E_star", "hardness", "exponent")
     values, errors = (
@@ -255,10 +255,10 @@ def _collected(profile, results, iso, contact, epsilon, numbers, remarks):
     values |= {"contact_point": check.frozen(np.full(shape, contact.depth)), "unloading": numbers}
     if contact.depth_error:
         errors["contact_point"] = check.frozen(np.full(shape, contact.depth_error))
-    # An unloading that has hardly begun has none of these numbers: all are NaN.
+    # For an unloading that has hardly begun, all these numbers are NaN.
     begun, iso = iso[0] is not None, np.array([each or (np.nan,) * 3 for each in iso])
     for name, each in zip(ISO_14577, (iso if numbers.ndim else iso[0]).T, strict=True):
-        # A number that no unloading of the record has is not there.
+        # Omit a quantity without any value in the record.
         if not (begun and np.all(np.isnan(each))):
             values[name] = check.frozen(each)
     S, h_c, E, H, m = (values[name] for name in names)
@@ -269,7 +269,7 @@ def _collected(profile, results, iso, contact, epsilon, numbers, remarks):
 
 
 def _drift(time, depth, force):
-    """Yields a remark on a drift of the depth in a hold after the unloading, if it counts."""
+    """Yield a remark on a significant drift of the depth in a hold after the unloading."""
     hold = last_hold(segments_of(depth, force), force)
     if hold is None or time[hold].size < _FEWEST:
         return
@@ -278,14 +278,14 @@ def _drift(time, depth, force):
     share = rate * (time[top] - time[0]) / np.ptp(depth[: top + 1])
     if abs(share) > _DRIFTS and abs(change) > _CERTAIN * noise:
         text = (
-            f"the depth changes by {engineering(rate, 'm/s')} in the hold after the unloading: since the "
-            f"first sample such a drift is {100 * share:.2g} % of the depth"
+            f"the depth changes by {engineering(rate, 'm/s')} in the hold after the unloading: such a "
+            f"drift since the first sample is {100 * share:.2g} % of the depth"
         )
         yield Remark(text, "drift", Remedy("subtract", "drift", rate))
 
 
 def _impossible(profile, values, errors, epsilon):
-    """Yields remarks on an exponent, or a hardness over the modulus, that no contact of the tip has."""
+    """Yield remarks on an impossible exponent, or an impossible ratio of hardness to modulus."""
     h_c, E, H, m = (np.ravel(values[name]) for name in ("contact_depth", "E_star", "hardness", "exponent"))
     share = np.hypot(*(np.ravel(errors[name]) / each for name, each in (("E_star", E), ("hardness", H))))
     margin = _CERTAIN * np.ravel(errors["exponent"])
@@ -293,27 +293,23 @@ def _impossible(profile, values, errors, epsilon):
     most = 2 * max(elastic_exponents(profile, h_c.max())[1], 2.0)
     bad = (m + margin < least) | (m - margin > most)
     if bad.any():
-        text = (
-            f"no unloading of this tip has an exponent m = {m[bad][0]:.3g}: it is {least:g} to {most:.2g}"
-        )
-        yield Remark(f"{text}. Depth and force are not those of one unloading", "misfit")
+        text = f"m = {m[bad][0]:.3g} must be {least:g} to {most:.2g} for an unloading of this tip"
+        yield Remark(f"{text}. Depth and force are not from one unloading", "misfit")
     elastic = _elastic_ratio(profile, h_c, epsilon)
     bad = H / E * (1 - _CERTAIN * share) > (1 + _ROUNDING) * elastic
     if bad.any():
-        text = (
-            f"H/E* = {(H / E)[bad][0]:.3g} is more than that of an elastic contact, {elastic[bad][0]:.3g}"
-        )
+        text = f"H/E* = {(H / E)[bad][0]:.3g} exceeds that of an elastic contact, {elastic[bad][0]:.3g}"
         yield Remark(
             f"{text}: the tip or the zero of the depth is wrong", "misfit", Remedy("give", "profile")
         )
 
 
 def _elastic_ratio(profile, contact_depth, epsilon):
-    """H/E* of elastic contacts of a tip at contact depths (m) by this method, such as 0.509 s of cones."""
+    """Return H/E* by this method for elastic contacts at contact depths (m), such as 0.509 s for cones."""
     depth, known = contact_depth, profile.known_depth
     for _ in range(_ITERATIONS):
         interval = LiveInterval.elastic(np.minimum(depth, known))
-        # F/E* and S/E* are twice these.
+        # F/E* and S/E* are twice these integrals.
         force = integrals(profile).radius_integral(interval)
         stiffness = profile.radius_at(interval.upper)
         depth = contact_depth + epsilon * force / stiffness
@@ -321,7 +317,7 @@ def _elastic_ratio(profile, contact_depth, epsilon):
 
 
 def _with_other_readings(result, read, in_contact, constants):
-    """The results, with remarks of the file, and on other first contacts if the depth is 0 at a force."""
+    """Add remarks of the file, and on other first contacts if the depth is 0 at a force."""
     if in_contact is None:
         return replace(result, remarks=(*read, *result.remarks))
     epsilon, beta = constants
@@ -333,31 +329,33 @@ def _with_other_readings(result, read, in_contact, constants):
         moduli(result.profile, h_c - in_contact.depth, F, S, beta),
         moduli(result.profile, h_c + epsilon * in_contact.force / S, shifted, S, beta),
     )
-    # One number of several unloadings or samples.
+    # Take the median of several unloadings or samples.
     remark = in_contact.remark(*(tuple(float(np.nanmedian(each)) for each in pair) for pair in pairs))
     return replace(result, remarks=(*read, remark, *result.remarks))
 
 
-#: Exponent that unloadings do not have after which more than a share of the largest depth remains.
-#: Drift since the first sample, as a share of the depth, that counts, and samples of a hold that tell it.
+#: Smallest significant drift since the first sample, as a share of the depth, and smallest number of
+#: samples of its hold.
 _DRIFTS, _FEWEST = 0.003, 10
 #: Standard deviations beyond which a number is impossible; steps to the depth of an elastic contact.
 _CERTAIN, _ITERATIONS = 3.0, 100
+#: Largest exponent of an unloading after which more than a share of the largest depth remains, and this
+#: share.
 _STEEP, _REMAINS = 1.7, 0.5
-#: Least half-range of m over parts of the unloading that counts.
+#: Smallest significant half-range of m over parts of the unloading.
 _VARIES = 0.1
-#: Standard deviations of the scatter about the power law that m and its half-range exceed.
+#: Standard deviations of the scatter about the power law that m and its half-range must exceed.
 _BEYOND = 3.0
-#: Least difference of exponents that is not one of the arithmetic, and samples of an elastic unloading.
+#: Largest difference of exponents due to rounding, and number of samples of an elastic unloading.
 _ROUNDING, _SAMPLES = 1e-6, 100
 
 
-def _doubt(profile, depth, laws, in_time):
-    """A `Remark` on an exponent m that no elastic unloading from a depth (m) has, or None.
+def _exponent_remark(profile, depth, laws, in_time):
+    """Return a `Remark` on an exponent m that is implausible for an unloading from a depth (m), or None.
 
-    F = α (h − h_f)^m has the m of an elastic contact where nothing has yielded, and a smaller one where the
-    imprint fits the tip: 1.2 to 1.6 of most materials. Creep of the depth makes the beginning of the
-    unloading steeper, so that m is larger, and another one in each part.
+    Without yield, F = α (h − h_f)^m has the m of an elastic contact. If the imprint fits the tip, m is
+    smaller, 1.2 to 1.6 for most materials. Creep of the depth makes the beginning of the unloading steeper.
+    Then m is larger and differs between the parts.
     """
     m, error = laws.exponent, _BEYOND * laws.scatter
     _, elastic = elastic_exponents(profile, depth)
@@ -368,18 +366,18 @@ def _doubt(profile, depth, laws, in_time):
     steep = _STEEP * max(elastic / 2, 1.0)
     if m > elastic + error + _ROUNDING:
         text = (
-            f"no elastic unloading of this tip has m = {m:.3g}, above {elastic:.3g}: E* is not that of a "
-            "half-space, or the depth creeps"
+            f"m = {m:.3g} exceeds the exponent of an elastic unloading of this tip, {elastic:.3g}: E* is "
+            "not that of a half-space, or the depth creeps"
         )
     elif remaining > _REMAINS and m > steep + error:
         text = (
             f"m = {m:.3g} is too large for an unloading after which {100 * remaining:.2g} % of the depth "
-            "remain: the depth creeps, so that the stiffness is too large"
+            "remain: the depth creeps, so the stiffness is too large"
         )
     elif (most - least) / 2 > max(_VARIES, error):
         text = (
-            f"the unloading is no power law: m is between {least:.3g} and {most:.3g} by the part of "
-            "it: the depth creeps, so that the stiffness is too large"
+            f"the unloading is not a power law, with m between {least:.3g} and {most:.3g} in its parts: "
+            "the depth creeps, so the stiffness is too large"
         )
     else:
         return None
@@ -387,9 +385,9 @@ def _doubt(profile, depth, laws, in_time):
 
 
 def _of_elastic_unloading(profile, depth):
-    """Largest exponent of the parts of an elastic unloading from a depth (m), whose h_f is fitted, too.
+    """Return the largest exponent of the parts of an elastic unloading from a depth (m), with a fitted h_f.
 
-    It is that of a cone where the tip is a truncated one.
+    For a truncated cone, it is the exponent of a cone.
     """
     depths = np.linspace(min(depth, profile.known_depth), 0.0, _SAMPLES)
     force = integrals(profile).radius_integral(LiveInterval.elastic(depths))
@@ -397,19 +395,19 @@ def _of_elastic_unloading(profile, depth):
 
 
 def _measured_stiffness(given, stiffness):
-    """The measured stiffness that is given, or that of a curve."""
+    """Return the measured stiffness, from the argument or from the curve."""
     if stiffness is not True:
         return None if stiffness is False else stiffness
     if given.stiffness is None:
         raise check.MDRError(
-            "stiffness = True takes that of a MeasuredCurve, and there is none: give its values, or leave "
-            "it out to evaluate the unloading"
+            "stiffness = True needs a MeasuredCurve with a stiffness: give its values, or leave it out to "
+            "evaluate the unloading"
         )
     return given.stiffness
 
 
 def _finite_columns(depth, force, time, stiffness):
-    """Arrays by name of the samples in which all that is given is finite, but the stiffness."""
+    """Return arrays by name, with the samples in which all given values except the stiffness are finite."""
     given = {"depth": (depth, "m"), "force": (force, "N"), "time": (time, "s")}
     arrays, _ = arrays_of(given | {"stiffness": (stiffness, "N/m")}, single=True)
     used = np.logical_and.reduce(
@@ -428,7 +426,7 @@ def _finite_columns(depth, force, time, stiffness):
             raise check.MDRError(
                 f"range of time = 0 s: the time is {time:g} s throughout; check its column, or leave it out"
             )
-        # Segments of a file may share the time at which one ends and the next begins.
+        # Two segments of a file may share the time between them.
         back = np.diff(arrays["time"], prepend=-np.inf) < 0
         advice = "sort the samples by time"
         check.raise_if("time", arrays["time"], back, "does not increase", unit="s", advice=advice)

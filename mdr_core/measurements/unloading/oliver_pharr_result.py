@@ -1,4 +1,4 @@
-"""Results of the method of Oliver and Pharr: for unloadings, and over the depth of a measured stiffness."""
+"""Results of the method of Oliver and Pharr: for unloadings, and over depth with a measured stiffness."""
 
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-#: Quantities of the results, and others.
+#: Descriptions of all quantities, including those of the results.
 OLIVER_PHARR = QUANTITIES | {
     "contact_depth": Quantity("h_c", "m", "contact depth"),
     "hardness": Quantity("H", "Pa", "hardness"),
@@ -31,25 +31,26 @@ OLIVER_PHARR = QUANTITIES | {
     "indentation_creep": Quantity("C_IT", "", "indentation creep"),
     "martens_hardness": Quantity("HM", "Pa", "Martens hardness"),
 }
-#: Quantities of ISO 14577, which a record may lack, and those that are printed in per cent.
+#: Quantities of ISO 14577, which not every record has, and the quantities printed in per cent.
 ISO_14577 = ("elastic_work_ratio", "indentation_creep", "martens_hardness")
 _RATIOS = ISO_14577[:2]
-#: Points of an unloading that is drawn.
+#: Number of points in the plot of an unloading.
 _DRAWN = 100
-_NO_PYRAMID = "none: of Berkovich and Vickers pyramids only, cones of 70.2° to 70.4°"
+_NO_PYRAMID = "none: only for Berkovich and Vickers pyramids, cones of 70.2° to 70.4°"
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OliverPharr(Record):
-    """Results for one unloading, or for each of a curve, returned by `oliver_pharr`.
+    """Results for one unloading, or for all unloadings of a curve, returned by `oliver_pharr`.
 
-    The standard errors, by name, are those of the scatter about the power law, and not less than half the
+    The standard errors, by name, come from the scatter about the power law. They are at least half the
     range of the results for six parts of the unloading: from 99 or 95 % of the largest force down to 50, 40
-    or 30 %; with those of first contact and of the rate of creep where these were found. Where m is above
-    1.5 and a fourth of the depth remains, they are not less than the largest deviation of the results for
-    these parts and for those down to 20 %. With
-    ``cycles=True`` all are arrays (U,), and `result[i]` is one unloading, i from 0 on. Its number in the
-    record, from 1 on, is `unloading`; remarks, print and tables have the same number.
+    or 30 %. If m is above 1.5 and a fourth of the depth remains, they are at least the largest deviation of
+    the results for these parts and for parts down to 20 %. The errors of first contact and of the rate of
+    creep are included if these were determined.
+
+    With ``cycles=True`` all values are arrays (U,), and `result[i]` is one unloading, with i starting at 0.
+    `unloading` is its number in the record, starting at 1, as in remarks, print and tables.
 
     Examples
     --------
@@ -69,19 +70,19 @@ class OliverPharr(Record):
     E_star: Any
     hardness: Any
     exponent: Any
-    #: First contact z₀ (m) that was subtracted from the depth, 0 where depths are as given.
+    #: First contact z₀ (m), subtracted from the depth; 0 for unchanged depths.
     contact_point: Any
     standard_errors: dict[str, Any]
-    #: How first contact was found, creep, which unloading was taken of several, and which were left out.
+    #: Remarks on first contact, creep, the choice of an unloading, and omitted unloadings.
     remarks: tuple[Remark, ...] = ()
-    #: Results without the correction for creep, where times were given; NaN where these are no power law.
+    #: Results without the correction for creep, if times were given; NaN if they do not follow a power law.
     uncorrected: "OliverPharr | None" = None
-    #: Number of the unloading in the record, from 1 on; those that are left out are counted.
+    #: Number of the unloading in the record, starting at 1. Omitted unloadings also count.
     unloading: Any = None
-    #: Quantities of ISO 14577, each None where the record lacks it, NaN for such an unloading of several:
-    #: n_IT, the work that the unloading gives back over that of the loading and the hold before it; C_IT,
-    #: (h₂ − h₁)/h₁ of the depths at both ends of a hold; HM (Pa), F/(26.43 h²) at the end of the loading,
-    #: of the cone of a Berkovich or Vickers pyramid.
+    #: Quantities of ISO 14577, None if the record does not determine them. With several unloadings,
+    #: missing values are NaN. n_IT is the work that the unloading returns over the work of the loading and
+    #: the hold before it. C_IT is (h₂ − h₁)/h₁ with the depths at both ends of a hold. HM (Pa) is
+    #: F/(26.43 h²) at the end of the loading, for the cone of a Berkovich or Vickers pyramid.
     elastic_work_ratio: Any = None
     indentation_creep: Any = None
     martens_hardness: Any = None
@@ -111,7 +112,7 @@ class OliverPharr(Record):
         return replace(self, **values, standard_errors=errors, uncorrected=uncorrected)
 
     def sample_modulus(self, nu: float, tip: tuple[float, float] | None = None) -> SampleModulus:
-        """Young's modulus of the sample and its standard error (Pa), from E*.
+        """Compute Young's modulus of the sample and its standard error (Pa) from E*.
 
         1/E* = (1 − ν²)/E + (1 − ν_t²)/E_t, Johnson (1985), Contact Mechanics, Eq. (4.5).
 
@@ -120,7 +121,7 @@ class OliverPharr(Record):
         nu : float
             Poisson ratio of the sample, −1 < ν ≤ 1/2.
         tip : (float, float), optional
-            Young's modulus (Pa) and Poisson ratio of the tip, as in ``(1141e9, 0.07)`` for diamond. By
+            Young's modulus (Pa) and Poisson ratio of the tip, such as ``(1141e9, 0.07)`` for diamond. By
             default the tip is rigid.
 
         Raises
@@ -131,7 +132,7 @@ class OliverPharr(Record):
         return sample_modulus(self.E_star, self.standard_errors["E_star"], nu, tip)
 
     def plot(self) -> Any:
-        """The curve, the fitted unloading and its contact depth, of one unloading, as HoloViews elements.
+        """Plot the curve, a fitted unloading and its contact depth as HoloViews elements.
 
         Depths count from first contact. A correction for creep shifts the unloading.
         """
@@ -149,24 +150,24 @@ class OliverPharr(Record):
 
     @property
     def evaluated(self):
-        """What a `CurveTable` has of one curve."""
+        """Row of a `CurveTable`."""
         errors = self.standard_errors
         numbers = self.E_star, errors["E_star"], self.hardness, errors["hardness"]
         return (*map(float, numbers), "unloading", "by Oliver and Pharr", self.remarks)
 
     def to_dict(self) -> dict[str, Any]:
-        """Values by name, in SI units, and their standard errors, whose names end in `_error`."""
+        """Return the values by name, in SI units, and the standard errors, whose names end in `_error`."""
         return super().to_dict() | {f"{name}_error": error for name, error in self.standard_errors.items()}
 
     def to_pandas(self) -> "pandas.DataFrame":
-        """A table in SI units, one row for each unloading by its number in the record, or each sample."""
+        """Return a table in SI units, with a row for each sample, or for each unloading by its number."""
         table = super().to_pandas()
         if self.shape and self.unloading is not None:
             table = table.set_index(np.asarray(self.unloading)).rename_axis("unloading")
         return table
 
     def to_xarray(self) -> "xarray.Dataset":
-        """A dataset, with the numbers of the unloadings in the record as coordinate."""
+        """Return a dataset with the numbers of the unloadings in the record as a coordinate."""
         dataset = super().to_xarray()
         return dataset if self.unloading is None else dataset.assign_coords(unloading=self.unloading)
 
@@ -197,11 +198,12 @@ class OliverPharr(Record):
 class OverDepth(OliverPharr):
     """Results at each sample of a curve with a measured stiffness, arrays (N,), NaN without contact.
 
-    Standard errors are the scatter of neighbouring samples, with that of first contact where it was found.
+    Standard errors are the scatter of neighbouring samples. They include the error of first contact if it
+    was determined.
     """
 
     exponent: Any = None
-    #: Depth (m) from first contact on.
+    #: Depth (m) from first contact.
     depth: Any = None
 
     _dimensions = ("sample",)
@@ -209,7 +211,7 @@ class OverDepth(OliverPharr):
     _shown = ("stiffness", "contact_depth", "E_star", "hardness")
 
     def plot(self) -> NoReturn:
-        """Raises MDRError: a measured stiffness has no unloading that is fitted."""
+        """Raise MDRError, because with a measured stiffness no unloading is fitted."""
         raise MDRError("plot shows a fitted unloading: leave out stiffness")
 
     def _rows(self):
@@ -224,7 +226,7 @@ class OverDepth(OliverPharr):
 
 
 def texts_of(result: OliverPharr) -> dict[str, str]:
-    """Quantities of one unloading by name, as text with their errors; ratios in per cent."""
+    """Return the quantities of one unloading by name, as text with their errors; ratios in per cent."""
     errors = result.standard_errors
     texts = {
         name: with_error(getattr(result, name), errors[name], OLIVER_PHARR[name].unit) for name in errors
@@ -243,5 +245,5 @@ def _rows_of_unloading(result: OliverPharr):
 
 @limit_rows.register
 def _limit_rows_of_unloading(result: OliverPharr, most):
-    # Remarks stand whole, where other rows are cut.
+    # Remarks are not cut, unlike other rows.
     yield from (("remark", remark) for remark in result.remarks)

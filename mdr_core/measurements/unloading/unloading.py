@@ -1,4 +1,4 @@
-"""Unloadings of a curve, and the power law of one: force, stiffness and exponent at the largest depth."""
+"""Unloadings of a curve, and their power law: force, stiffness and exponent at the largest depth."""
 
 from contextlib import suppress
 from dataclasses import dataclass
@@ -12,17 +12,18 @@ from ..common.least_squares import least_squares
 
 #: Bounds of force and stiffness, in units of those of the samples, and of the exponent.
 _LOWER, _UPPER = np.array([[0.1, 1e-3, 0.5]]), np.array([[10.0, 1e3, 50.0]])
-#: Shares of the largest force from and to which the unloading is fitted: those of the result, and others.
+#: Shares of the largest force at the start and the end of the fitted part: first for the result, then for
+#: other parts.
 _SHARES = (0.99, 0.5), (0.99, 0.4), (0.99, 0.3), (0.95, 0.5), (0.95, 0.4), (0.95, 0.3)
-#: Further ones, which count where m is above a number, and more than a share of the largest depth remains.
+#: Further parts. They count if m is above a number and more than a share of the largest depth remains.
 _FURTHER, _BENT, _REMAINS = ((0.99, 0.2), (0.95, 0.2)), 1.5, 0.25
-#: Least fall and rise of the force, as shares of the peak before, that part one unloading from the next;
-#: least peak, as a share of the largest force; standard deviations of noise that they exceed.
+#: Smallest fall and rise of the force between two unloadings, as a share of the peak before. Smallest peak,
+#: as a share of the largest force. Standard deviations of noise that both must exceed.
 _FALL, _PEAK, _NOISE = 0.1, 0.01, 6.0
 
 
 def parts_of(force):
-    """Parts of a curve that end with an unloading, from the end of the one before on, as slices."""
+    """Return the parts of a curve that end with an unloading, one after the other, as slices."""
     least = max(_PEAK * force.max(), _NOISE * roughness(force[None])[0, 0])
     parts, begin, peak, lowest = [], 0, 0, None
     for i, value in enumerate(force):
@@ -41,7 +42,7 @@ def parts_of(force):
 
 
 def last_at_top(depth):
-    """Index of the last sample of the largest depth."""
+    """Return the index of the last sample at the largest depth."""
     return int(np.flatnonzero(depth == depth.max())[-1])
 
 
@@ -49,7 +50,7 @@ def last_at_top(depth):
 class Laws:
     """Force (N), stiffness (N/m) and exponent of an unloading at its largest depth.
 
-    `deviations` are the independent ones of the scatter about the power law, arrays (3, 3); `others` and
+    `deviations` (3, 3) are independent deviations due to the scatter about the power law. `others` and
     `further` are force, stiffness and exponent of other parts of the unloading.
     """
 
@@ -65,27 +66,27 @@ class Laws:
 
     @property
     def scatter(self):
-        """Standard deviation of m by the scatter about the power law."""
+        """Standard deviation of m due to the scatter about the power law."""
         return float(np.linalg.norm(self.deviations[2]))
 
     @property
     def exponents(self):
-        """Least and largest m of the parts."""
+        """Smallest and largest m of the parts."""
         all_of = [self.exponent, *(float(m) for _, _, m in self.others)]
         return min(all_of), max(all_of)
 
     def remaining(self, depth):
-        """Share of the largest depth (m) that remains after the unloading, by the power law."""
+        """Return the share of the largest depth (m) that remains after the unloading, by the power law."""
         force, stiffness, m = self.solution
         return 1 - float(m * force / stiffness / depth) if depth > 0 else 0.0
 
     def bends(self, depth):
-        """Whether m is larger than that of unloadings after which some of the largest depth (m) remains."""
+        """Whether m is too large for an unloading after which a part of the largest depth (m) remains."""
         return self.exponent > _BENT and self.remaining(depth) > _REMAINS
 
 
 def laws_of(depth, force):
-    """`Laws` of an unloading."""
+    """Return the `Laws` of an unloading."""
     solution, deviations = _power_law(*_part(depth, force, *_SHARES[0]))
     further = _FURTHER if solution[2] > _BENT else ()
     others = [list(_laws_of_parts(depth, force, parts)) for parts in (_SHARES[1:], further)]
@@ -93,14 +94,14 @@ def laws_of(depth, force):
 
 
 def _laws_of_parts(depth, force, parts):
-    """Yields force, stiffness and exponent of parts of an unloading, of those that are power laws."""
+    """Yield force, stiffness and exponent of the parts of an unloading that follow a power law."""
     for shares in parts:
         with suppress(ValueError):
             yield _power_law(*_part(depth, force, *shares))[0]
 
 
 def _part(depth, force, upper, lower):
-    """Depths (m) minus the largest one, and forces (N), of the unloading between shares of the force."""
+    """Return depths (m) minus the largest, and forces (N), of the unloading between shares of the force."""
     start = last_at_top(depth)
     h, F = depth[start:] - depth[start], force[start:]
     share = F / (np.abs(F).max() or 1.0)
@@ -119,7 +120,7 @@ def _part(depth, force, upper, lower):
 
 
 def _power_law(h, force):
-    """Force, stiffness and exponent at h = 0 of F (1 + S h/(m F))^m, and their independent deviations."""
+    """Fit force, stiffness and exponent at h = 0 of F (1 + S h/(m F))^m, with independent deviations."""
     size = np.array([force[0], force[0] / -h.min(), 1.0])
     x, y = h / -h.min(), force / force[0]
 

@@ -79,7 +79,7 @@ def test_what_has_no_meaning_is_refused(curve):
         mdr.fit_indentation(BERKOVICH, curve.depth)
     with pytest.raises(ValueError, match="without force, stiffness and cycles"):
         mdr.oliver_pharr(BERKOVICH, [curve, curve], cycles=True)
-    with pytest.raises(ValueError, match="stiffness = True takes that of a MeasuredCurve"):
+    with pytest.raises(ValueError, match="stiffness = True needs a MeasuredCurve"):
         mdr.oliver_pharr(BERKOVICH, curve, stiffness=True)
 
 

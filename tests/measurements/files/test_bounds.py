@@ -82,7 +82,7 @@ def sheet_with(folder, cell, name="run.xlsx"):
 
 
 def test_a_number_in_the_last_cell_is_refused_by_its_rows_and_columns(tmp_path):
-    with pytest.raises(ValueError, match="1048576 rows times 16384 columns are more than 10000000 cells"):
+    with pytest.raises(ValueError, match=r"1048576 rows times 16384 columns .* 10000000 cells"):
         mdr.read_curves(sheet_with(tmp_path, "XFD1048576"))
 
 
@@ -149,7 +149,7 @@ def test_a_zip_of_a_version_that_python_does_not_know_is_a_clear_error(suffix, t
     data = bytearray(path.read_bytes())
     data[data.index(b"PK\x01\x02") + 6] = 230
     path.write_bytes(data)
-    with pytest.raises(ValueError, match=rf"curve\.{suffix} is packed in a way that cannot be read"):
+    with pytest.raises(ValueError, match=rf"curve\.{suffix} is packed in an unsupported way"):
         mdr.read_curves(path)
 
 

@@ -157,8 +157,8 @@ class TestConstants:
             ({"q_c": np.inf, "hardness": None}, "nothing yields, which contradicts a hardness"),
             ({"hardness": np.inf}, "hardness.*finite"),
             ({"f_c": -1.0}, "f_c"),
-            ({"hardness": None, "eta": None, "time": OUT}, "η is fitted .* hold eta = 0"),
-            ({"f_c": None, "work_of_adhesion": 0.1}, "w is fitted .* hold work_of_adhesion = 0"),
+            ({"hardness": None, "eta": None, "time": OUT}, "η cannot be fitted .* hold eta = 0"),
+            ({"f_c": None, "work_of_adhesion": 0.1}, "w cannot be fitted .* hold work_of_adhesion = 0"),
         ],
     )
     def test_refusals(self, given, message):
@@ -173,7 +173,7 @@ class TestConstants:
         assert fit.medium.hardness.tolist() == given["hardness"]
         assert fit.medium.q_c[0] == approx(60.0, rel=1e-8)
         assert fit.medium.q_c[1] > 65.0
-        with pytest.raises(ValueError, match="hardness is 0 for some of the curves"):
+        with pytest.raises(ValueError, match="hardness is 0 for some"):
             mdr.fit_indentation(self.PROFILE, depth, depth, hardness=[0.0, 1e9], q_c=None)
         with pytest.raises(ValueError, match=r"E_star \(2,\) of 1 curves"):
             mdr.fit_indentation(self.PROFILE, OUT, force, E_star=[1e9, 2e9])

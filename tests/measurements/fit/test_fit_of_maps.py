@@ -16,7 +16,7 @@ PATH = np.append(np.linspace(-1e-6, 1e-6, 125), np.linspace(1e-6, -1e-6, 125))
 ELASTIC = {"q_c": np.inf, "baseline": None}
 #: What is done to the depths and forces of a curve, and the words of its reason.
 DEAD = {
-    2: (lambda z, F: (z, F * np.nan), "no sample of depth and force has finite values"),
+    2: (lambda z, F: (z, F * np.nan), "no sample has finite values"),
     3: (lambda z, F: (z, 0 * F), "no contact"),
     4: (lambda z, F: (0 * z, F), "the indenter does not move"),
     6: (lambda z, F: (z, np.where(z > 9e-7, np.inf, F)), "must be finite"),
@@ -66,7 +66,7 @@ class TestInvalidCurves:
             assert np.isfinite(fitted[name][ALIVE]).all(), name
         # What was held for all curves is held for these.
         assert np.all(np.isinf(fit.medium.q_c))
-        assert "curve 2 (5 of 12 curves): not fitted: no sample of depth and force" in repr(fit)
+        assert "curve 2 (5 of 12 curves): not fitted: no sample" in repr(fit)
 
     def test_a_report_has_the_numbers_of_the_others(self):
         fit = mdr.fit_indentation(BALL, *a_map(), **ELASTIC, invalid="nan")
@@ -150,7 +150,7 @@ class TestDatasets:
         assert grid.values.ravel() == approx(fit.medium.E_star, nan_ok=True)
         assert dataset.x.attrs["units"] == "m"
         assert dataset.attrs["invalid_count"] == 5
-        assert dataset.attrs["invalid"].startswith("curve 2: not fitted: no sample of depth and force")
+        assert dataset.attrs["invalid"].startswith("curve 2: not fitted: no sample")
         with pytest.raises(ValueError, match=r"position \(12, 3\) must have x and y of each curve"):
             fit.to_xarray(position=np.zeros((12, 3)))
 

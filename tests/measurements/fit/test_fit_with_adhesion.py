@@ -138,9 +138,9 @@ def test_nothing_is_determined_without_tension():
         ({"work_of_adhesion": "free"}, "must be a number"),
         ({"eta": None, "time": np.arange(OUT.size)}, "viscosity; .*eta = 0"),
         ({"depth_noise": 1e-9}, "depth_noise=0.0"),
-        ({"q_c": None}, "elastic medium only.* q_c is free; give q_c=np.inf"),
-        ({"q_c": 8.0, "work_of_adhesion": 0.05}, "elastic medium only.* q_c is 8 N/m"),
-        ({"q_c": [np.inf, 8.0], "rows": 2}, "elastic medium only.* q_c is 8 … inf N/m"),
+        ({"q_c": None}, "elastic medium.* q_c is free; give q_c=np.inf"),
+        ({"q_c": 8.0, "work_of_adhesion": 0.05}, "elastic medium.* q_c is 8 N/m"),
+        ({"q_c": [np.inf, 8.0], "rows": 2}, "elastic medium.* q_c is 8 … inf N/m"),
     ],
 )
 def test_what_is_not_fitted_is_refused(parameters, words):

@@ -459,7 +459,7 @@ class TestLimits:
         assert limits["edges"].exceeded
         assert not self.limits(far)[1]["edges"].exceeded
         assert "edges" not in self.limits(mdr.Structure.plate(4e-3, 50e9, 0.3, 1600.0))[1]
-        assert "not known" in self.limits(mdr.Structure(346.0, edge=0.2))[1]["edges"].sentence
+        assert "wave_spread" in self.limits(mdr.Structure(346.0, edge=0.2))[1]["edges"].sentence
 
     def test_of_a_laminate_are_those_of_the_faster_wave(self):
         plate = mdr.Structure.laminate(400.0, 20.0, 100.0, 30.0, 6.4, edge=0.1)

@@ -572,7 +572,7 @@ SCENE = mdr.Scene(CONE, COPPER, mdr.scene.DepthPath(1e-7))
 @pytest.mark.parametrize(
     ("call", "instead"),
     [
-        (lambda: mdr.fit_indentation(CONE, [0.0, 1e-7], [0.0, 1.0], hardness=SIZE), "curve_fit over"),
+        (lambda: mdr.fit_indentation(CONE, [0.0, 1e-7], [0.0, 1.0], hardness=SIZE), "curve_fit"),
         (SCENE.to_json, "keep the script"),
         (SCENE.to_python, "keep the script"),
         (lambda: mdr.creep(CONE, COPPER, [0.0, 1.0], [0.0, 1.0]), "use indent_in_time"),

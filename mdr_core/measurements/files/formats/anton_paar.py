@@ -13,7 +13,7 @@ def matches(head):
 
 
 def curves(text, file, given):
-    """One curve for each name between X_ or Y_ and the quantity."""
+    """Return one curve for each name between X_ or Y_ and the quantity."""
     table = read_table(text, file)
     tests = {}
     for column, head in table.heads.items():

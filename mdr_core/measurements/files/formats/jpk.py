@@ -1,4 +1,4 @@
-"""Text export of JPK: segments with a header each, names in `columns`, units in `units`."""
+"""Text export of JPK: each segment has a header with names in `columns` and units in `units`."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from ..curve import curve_factory
 from ..table import Table, read_table
 from ..units import unit_named
 
-#: Channels of the depth of the tip and of the position of the piezo, the best first, and of times.
+#: Channels of the depth of the tip and of the position of the piezo, and channels of times, the best first.
 _PLACES = [
     ("depth", "tipSampleSeparation"), ("depth", "smoothedTipSampleSeparation"),
     ("depth", "verticalTipPosition"), ("piezo", "smoothedMeasuredHeight"), ("piezo", "measuredHeight"),
@@ -22,7 +22,7 @@ def matches(head):
 
 
 def curves(text, file, given):
-    """One curve for each `segmentIndex: 0`."""
+    """Return one curve for each `segmentIndex: 0`."""
     found, last = [], None
     for block in _blocks(text):
         table = read_table(block, file)
@@ -36,7 +36,7 @@ def curves(text, file, given):
 
 
 def _blocks(text):
-    """Parts of a text that begin with a segment and have samples."""
+    """Return the parts of a text that begin with a segment and have samples."""
     parts = text.split("# segmentIndex:")
     blocks = [f"# segmentIndex:{part}" for part in parts[1:]] or parts
     rows = [any(line and not line.startswith("#") for line in block.splitlines()) for block in blocks]
@@ -50,7 +50,7 @@ def _said(header, key):
 
 
 def _maker(tables, name, given):
-    """Function that makes the curve of tables of segments."""
+    """Return a function that makes the curve from tables of segments."""
     header = tables[0].header
     names, units = _said(header, "columns").split(), _said(header, "units").split()
     if any(len(names) <= max(table.values) or len(units) < len(names) for table in tables):
@@ -69,7 +69,7 @@ def _maker(tables, name, given):
     if time is not None and np.all(np.diff(values[time]) >= 0):
         layout["time"] = time, units[time]
     if None in (unit_named(column[1].lstrip("−")) for column in layout.values()):
-        raise LookupError("units that are none of lengths, forces and times")
+        raise LookupError("units that are not lengths, forces or times")
     lines = np.concatenate([table.lines for table in tables])
     segments = [_said(table.header, "segment") for table in tables]
     segment = np.repeat([_SEGMENTS.get(each, each) for each in segments], [len(t.lines) for t in tables])

@@ -16,7 +16,7 @@ def matches(head):
 
 
 def curves(text, file, given):
-    """The one curve, of which approach and retract are parts."""
+    """Return the single curve, with approach and retract as its parts."""
     table = read_table(text, file)
     columns = {head: k for k, head in table.heads.items()}
 

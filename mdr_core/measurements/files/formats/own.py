@@ -1,4 +1,4 @@
-"""Files that this package and its pages write, in SI: curves, and others that are refused."""
+"""Files of this package and its pages, in SI: curves, and other files, which raise `NoCurve`."""
 
 import numpy as np
 
@@ -8,18 +8,18 @@ from ..question import NoCurve
 from ..split import parts
 from ..table import read_table
 
-#: First words of a file of the pages, and what it is if it is no curve.
+#: First words of a file of the pages, and contents of files without a curve.
 _TITLE = "# mdr_core "
 _OTHERS = {
     "state at depth": "the pressure of one state",
     "fit to": "the numbers of a fit; its JSON file has the samples",
     "curves of": "the moduli of a map",
 }
-#: Names of the rows of a result in `to_pandas`, and largest depth (m) and force (N) of one: numbers in nm
-#: are larger, so that a table of others with these names is asked about.
+#: Names of the rows of a result in `to_pandas`, and largest depth (m) and force (N) of a result. Numbers in
+#: nm are larger, so a foreign table with these names raises `UnknownColumns`.
 _ROWS = {"state", "sample", "time", "path", "curve"}
 _DEEPEST, _STRONGEST = 1e-3, 1e6
-#: Quantities of a curve, by the heads of the columns in both kinds of file.
+#: Units of the quantities of a curve, and the quantities by their headers in both kinds of file.
 _CURVE = {"depth": "m", "force": "N", "time": "s", "stiffness": "N/m"}
 _HEADS = {
     f"{QUANTITIES[name].long_name} {QUANTITIES[name].symbol} ({unit})": name
@@ -33,18 +33,18 @@ def matches(head):
 
 
 def _of_pandas(line):
-    """Whether a line has the names that `to_pandas().to_csv()` writes, and no others."""
+    """Whether a line has only names that `to_pandas().to_csv()` writes."""
     cells = line.strip("\ufeff\r").split(",")
     known = {*cells[1:]} <= _ROWS | QUANTITIES.keys()
     return cells[0] in _ROWS and known and {"depth", "force"} <= {*cells}
 
 
 def curves(text, file, given):
-    """The curve of a file, or those of which the first columns count the rows."""
+    """Return the curve of a file, or the curves that the first columns count."""
     title = text.partition("\n")[0].removeprefix(_TITLE).partition(": ")[2]
     for begins, what in _OTHERS.items():
         if text.startswith(_TITLE) and title.startswith(begins):
-            raise NoCurve(f"{file} has {what}, and no curve of depth and force")
+            raise NoCurve(f"{file} has {what}, not a curve of depth and force")
     table = read_table(text, file)
     found = {}
     for k, head in table.heads.items():
@@ -56,7 +56,7 @@ def curves(text, file, given):
     depth, force = (table.values[found[each]] for each in ("depth", "force"))
     written = np.nanmax(np.abs(depth)) < _DEEPEST and np.nanmax(np.abs(force)) < _STRONGEST
     if not (written or text.startswith(_TITLE)):
-        raise LookupError("numbers that are none in m and N")
+        raise LookupError("numbers that are not in m and N")
     rows = [k for k, head in table.heads.items() if head in _ROWS - {"time"}]
     by = rows[0] if len(rows) > 1 else None
     return [

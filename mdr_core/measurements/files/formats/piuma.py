@@ -13,12 +13,12 @@ def matches(head):
 
 
 def body(text):
-    """The part of the text that is a table."""
+    """Return the part of the text that is a table."""
     return text[text.index(_TABLE) :]
 
 
 def curves(text, file, given):
-    """The one curve: its depth is the indentation; the stiffness of the cantilever is in the settings."""
+    """Return the single curve. Its depth is the indentation; the settings have the cantilever stiffness."""
     header, _, _ = text.partition(_TABLE)
     table = read_table(body(text), file)
     above = header.count("\n")
