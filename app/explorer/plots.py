@@ -1,6 +1,7 @@
 """The plots of the page: springs, pressure, and force over depth."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -163,8 +164,8 @@ def pressure(view: View, i: int) -> dict:
 
 
 PRESSURE = Plot(
-    "pressure", "Contact pressure", "(10)  p(r) = −σ_zz(r) = −(1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
-    (*figures.PRESSURE_ROWS, OUT_OF_RANGE), pressure,
+    "pressure", "Pressure under the tip", "(10)  p(r) = −σ_zz(r) = −(1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
+    (*figures.PRESSURE_ROWS, OUT_OF_RANGE), pressure, aside=lambda view: "p = −σ_zz(r)",
 )  # fmt: skip
 
 
@@ -202,7 +203,19 @@ def _force_formula(course: Course) -> str:
     return f"(20) (22)  F = 2E* ∫ a(s) ds{dashpots},  d_p < s < d"
 
 
-FORCE = Plot(
+@dataclass(frozen=True, eq=False)
+class ForcePlot(Plot):
+    """Force over depth, with a free strip below the lowest force for the plastic zone."""
+
+    def axes_of(self, view):
+        depth, force = super().axes_of(view)
+        return [depth, replace(force, start=force.start - STRIP * (force.end - force.start))]
+
+
+#: Height of the strip below the lowest force over the range of the axis.
+STRIP = 0.1
+
+FORCE = ForcePlot(
     "force", "Force and depth", _force_formula, (D, F),
     (
         line("path ahead", "free", 1.0),

@@ -157,8 +157,8 @@ RADII = (
     label("c", 0.0),
 )
 PRESSURE_ROWS = (
-    area("plastic zone r < c", "yielded", 0.13),
-    area("below", "elastic", 0.12, legend=False),
+    area("plastic zone r < c", "yielded", 0.22),
+    area("elastic zone", "elastic", 0.22, legend=False),
     line("p(r)", "elastic", 2.0, symbol="p"),
     line("mean F/(πa²)", "ink", 1.0, "dotdash", "mean"),
     *RADII,
@@ -238,13 +238,23 @@ def pressure(state, half, top):
     a, c, mean = (float(v) for v in (state.contact_radius, state.plastic_radius, state.mean_pressure))
     curve = both(r, -1), both(cut(p, top))
     return at_radii(a, c, half, 0.0, top) | {
-        "plastic zone r < c": (np.array([-c, c, c, -c]), np.array([0, 0, top, top])) if c else NOTHING,
-        "below": curve,
+        "plastic zone r < c": _below(r, cut(p, top), 0.0, min(c, a)),
+        "elastic zone": _below(r, cut(p, top), min(c, a), a),
         "p(r)": curve,
         "mean F/(πa²)": (np.array([-a, a]), np.array([mean, mean])) if a else NOTHING,
         # A line below c and a.
         "exceeds": (-0.97 * half, 0.86 * top, exceeds(r, p, top) if a else "no contact"),
     }
+
+
+def _below(r, p, inner, outer):
+    """Area below a pressure between two radii of `radii`, on both sides of the axis."""
+    some = (r >= inner) & (r <= outer)
+    if inner >= outer or np.count_nonzero(some) < 2:
+        return NOTHING
+    x, y = r[some], p[some]
+    x, y = np.concatenate([x[:1], x, x[-1:]]), np.concatenate([[0.0], y, [0.0]])
+    return np.concatenate([-x, [np.nan], x]), np.concatenate([y, [np.nan], y])
 
 
 def exceeds(r, p, top):
