@@ -51,7 +51,8 @@ def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
 
 
 _STRIP = Markup('<div class="strip">{}</div>')
-_CELL = Markup('<output data-name="{}" class="{}" title="{}">{}{}</output>')
+_CELL = Markup('<output data-name="{}"{}>{}{}</output>')
+_DOUBTFUL = Markup(' class="doubtful" title="{}"')
 _ASIDE = Markup(" <small>{}</small>")
 _ABOUT = Markup('<span class="name" title="{}">{} {}</span>')
 _NUMBER = Markup("<dt>{} {}</dt><dd>{}</dd>")
@@ -64,8 +65,7 @@ def values(course: Course, numbers: dict[Readout, Any], i: int) -> Markup:
     cells = (
         _CELL.format(
             each.name,
-            "doubtful" * (each.name in doubtful),
-            doubtful.get(each.name, ""),
+            _DOUBTFUL.format(doubtful[each.name]) if each.name in doubtful else "",
             text(each, value, i),
             _ASIDE.format(asides[each.name]) if each.name in asides else "",
         )

@@ -62,7 +62,7 @@ export function make_player({ messages, figures, ask }) {
   })
   // What is seen is told in words: the state at once, the plots once they rest.
   const tell = () => {
-    const numbers = messages.words.matchAll(/data-name="(\w+)">([^<]*)/g)
+    const numbers = messages.words.matchAll(/data-name="(\w+)"[^>]*>([^<]*)/g)
     const told = Array.from(numbers, ([, name, number]) => `${name.replaceAll("_", " ")} ${number}`)
     range.ariaValueText = told.slice(0, 2).join(", ")
     clearTimeout(wait)

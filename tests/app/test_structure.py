@@ -143,7 +143,7 @@ def test_the_sweep_over_the_mass_goes_from_the_plate_without_edges_to_the_suppor
 
 def cells(page):
     """Readouts above the plots, by their names: classes, text."""
-    cell = re.compile(r'<output data-name="(\w+)" class="(\w*)" title="[^"]*">(.*?)</output>')
+    cell = re.compile(r'<output data-name="(\w+)"(?: class="(\w+)" title="[^"]+")?>(.*?)</output>')
     return {name: (classes, text) for name, classes, text in cell.findall(page.messages.words)}
 
 
