@@ -186,9 +186,9 @@ def force(view: View, i: int) -> dict:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if (lower := float(states.plastic_depth[i])) > 0:
         text = f"dₚ = {written(lower, 'length', 3)}"
-        # Right of its point where there is no room on the left.
-        room = (width(text) + 4) / WIDTH * view.end(D)
-        rows["dₚ"] = lower - room if lower > room else lower + right, 0.12 * view.end(F), text
+        # It ends at its point, and begins within the plot.
+        room = width(text) / WIDTH * view.end(D)
+        rows["dₚ"] = max(lower - 0.4 * right, room), 0.17 * view.end(F), text
     if course.chained or course.adhesive:
         # No live interval tells what is stored in elements that have each a memory of their own, and with
         # adhesion the area below the curve is not what is stored.
@@ -213,7 +213,7 @@ class ForcePlot(Plot):
 
 
 #: Height of the strip below the lowest force over the range of the axis.
-STRIP = 0.1
+STRIP = 0.13
 
 FORCE = ForcePlot(
     "force", "Force and depth", _force_formula, (D, F),
@@ -222,7 +222,7 @@ FORCE = ForcePlot(
         *figures.FORCE_ROWS,
         mark("onset of yield", "paper", "yielded", "diamond", 11),
         mark("now", size=13),
-        label("dₚ", 0.0),
+        label("dₚ", 0.8, "right"),
         OUT_OF_RANGE,
     ),
     force,

@@ -87,10 +87,10 @@ def area(name, role, alpha, hatch=" ", legend=True):
     return Row("areas", name, role, legend, look=look)
 
 
-def line(name, role, width=2.0, dash="solid", symbol="", axis=1, legend=True):
-    look = {"line_color": role, "line_width": width, "line_dash": dash}
+def line(name, role, width=2.0, dash="solid", symbol="", axis=1, legend=True, alpha=1.0):
+    look = {"line_color": role, "line_width": width, "line_dash": dash, "line_alpha": alpha}
     # Dashes have the lengths that they are drawn with, without round ends.
-    look["line_cap"] = "round" if dash == "solid" else "butt"
+    look["line_cap"] = "round" if dash == "solid" and alpha == 1 else "butt"
     return Row("lines", name, role, legend, symbol, axis, look)
 
 
@@ -253,8 +253,10 @@ def _below(r, p, inner, outer):
     if inner >= outer or np.count_nonzero(some) < 2:
         return NOTHING
     x, y = r[some], p[some]
+    if inner == 0:
+        x, y = both(x, -1), both(y)
     x, y = np.concatenate([x[:1], x, x[-1:]]), np.concatenate([[0.0], y, [0.0]])
-    return np.concatenate([-x, [np.nan], x]), np.concatenate([y, [np.nan], y])
+    return (x, y) if inner == 0 else (np.concatenate([-x, [np.nan], x]), np.concatenate([y, [np.nan], y]))
 
 
 def exceeds(r, p, top):

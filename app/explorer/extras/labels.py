@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.show.figures import NOTHING, area, label, word
+from mdr_core.show.figures import NOTHING, label, line, word
 from mdr_core.show.springs import reduced
 from mdr_core.show.units import written
 from mdr_core.solver.contact.unloading import unloading_curve
@@ -46,9 +46,13 @@ def zone(view: View, i: int) -> dict:
     known = course.onset is not None and not (course.dashpots or course.initial_plastic_depth)
     if not known or course.onset.depth >= np.max(course.states.depth):
         return {"plastic zone, on loading": NOTHING}
-    first, last = float(course.onset.depth), float(np.max(course.states.depth))
-    top, bottom = (force.start - share * STRIP * (force.end - force.start) for share in (0.15, 0.9))
-    return {"plastic zone, on loading": (np.array([first, last, last, first]), np.repeat([bottom, top], 2))}
+    ends = np.array([float(course.onset.depth), float(np.max(course.states.depth))])
+    return {"plastic zone, on loading": (ends, np.full(2, _below(force)))}
+
+
+def _below(force: Any) -> float:
+    """Force (N) in the middle of the strip below the lowest one."""
+    return force.start - 0.5 * STRIP * (force.end - force.start)
 
 
 SPRINGS = (
@@ -70,9 +74,7 @@ FORCE = (
     word("plastic work", "yielded-text", names=("plastic work Wₚ",)),
     word("dissipated", "yielded-text", names=("dissipated",)),
     word("stored", "elastic-text", names=("stored",)),
-    word(
-        "plastic zone", "yielded-text", "center", names=("plastic zone, on loading", "onset of yield")
-    ),
+    word("plastic zone", "yielded-text", "center", names=("plastic zone, on loading", "onset of yield")),
     word("yield begins", "yielded-text", "left", "top", names=("onset of yield",)),
 )
 
@@ -167,9 +169,7 @@ def of_force(view: View, i: int) -> dict:
     found |= _areas(view, i, loaded, px)
     if (onset := course.onset) is not None and not course.dashpots:
         ahead = float(onset.depth) >= float(np.max(states.depth)) or course.initial_plastic_depth > 0
-        axis = view.axis(F)
-        middle = (float(onset.depth) + float(np.max(states.depth))) / 2
-        place = middle, axis.start - 0.53 * STRIP * (axis.end - axis.start)
+        place = (float(onset.depth) + float(np.max(states.depth))) / 2, _below(view.axis(F))
         if ahead:
             place = float(onset.depth) + 8 * px, float(onset.force) - 4 * py
         found["yield begins" if ahead else "plastic zone"] = [place]
@@ -201,7 +201,7 @@ EXTRA = Extra(
     order=90,
     overlays=(
         Overlay("springs", (label("reading", 0.0, "center"),), words),
-        Overlay("force", (area("plastic zone, on loading", "yielded", 0.22),), zone),
+        Overlay("force", (line("plastic zone, on loading", "yielded", 14.0, alpha=0.25),), zone),
         Overlay("springs", SPRINGS, of_springs),
         Overlay("pressure", PRESSURE, of_pressure),
         Overlay("force", FORCE, of_force),
