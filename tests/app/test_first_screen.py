@@ -61,7 +61,7 @@ def boxes(page, *selectors):
 
 
 def test_the_springs_are_larger_than_the_other_plots(projector):
-    """1.18 times as wide as force and depth, 1.12 times as high as the pressure, which has the same x axis."""
+    """1.18 times as wide as the force, 1.12 times as high as the pressure, which has the same x axis."""
     springs, pressure, force = boxes(
         projector.page, *(f".card.{name}" for name in ("springs", "pressure", "force"))
     )
