@@ -253,8 +253,8 @@ def test_sentences_are_true(server, page):
     given = PRESETS[DROP].values
     R, energy = given["paraboloid_radius"], given["mass"] * given["speed"] ** 2 / 2
     depth = (1.5 * energy / (np.pi * given["q_c"] * R**0.5)) ** (2 / 3)
-    (radius,) = amounts(page.readout("contact_radius"))
-    # Of a radius with four digits.
+    # a² = R d, as of every paraboloid in elastic contact; d has four digits.
+    radius = (R * amounts(page.readout("depth"))[0]) ** 0.5
     assert float(off.replace("−", "-")) / 100 == approx(R * depth / radius**2 - 1, abs=1e-3)
     # The sweep draws the other classes of hardness, with their constants.
     page.goto(f"{server.url}?preset={DROP}&tiles=sweep&sweep.against=restitution")
