@@ -37,6 +37,8 @@ class Messages(DataModel):
     #: The query of the present scene; empty to leave the address as it is, None until the input has rested.
     address = Nullable(String)
     dark = Bool(False)
+    #: Whether the window is so wide that all is larger.
+    wide = Bool(False)
     #: Whether a slider or the indenter is being dragged: axes stay.
     dragged = Bool(False)
     #: Sources and, as text, what they are in each state of the scene; empty until they are asked for.

@@ -59,14 +59,15 @@ class Card:
         title = Markup("<h3>{}</h3><span>{}</span>").format(plot.title, html_subscripts(plot.aside(view)))
         buttons = [part for each in EXTRAS.values() for part in each.on_plots(page, plot, view)]
         key = text("key", legend(plot, self._legend), "key")
-        controls = [self._control(name) for name in plot.controls]
+        # Choices have a row of their own, in which their options are not cut off.
+        controls = [text("controls", "", "break"), *map(self._control, plot.controls)] * bool(plot.controls)
         close = [button("Close", partial(page.apply, partial(with_tile, name="")))] * bool(plot.tab)
         found = escape(plot.note_of(view))
         # In two lines, which show the rest when they are pointed at, or large.
         shown = Markup('<span title="{}">{}</span>').format(found.striptags(), found)
         note = text("note", shown, "note found")
         first = text("formula", title, "formula")
-        self.head.show([first, *controls, *buttons, *close, key, note])
+        self.head.show([first, *buttons, *close, *controls, key, note])
 
     def _control(self, name: str) -> Part:
         """A choice above the plot, as a list, which needs less room than its options; or a number."""

@@ -122,6 +122,7 @@ class Page:
         self.messages.on_change("dark", self._theme_found)
         self.document.add_root(self.messages)
         self.messages.on_change("dragged", self._released)
+        self.messages.on_change("wide", lambda attr, old, new: self.refresh())
         self.document.on_event(DocumentReady, lambda event: self._input_rests())
         for name in ("start", "watch"):
             script = CustomJS(args={"messages": self.messages}, code=call(name, "messages"))

@@ -229,13 +229,29 @@ _UP = {"bottom": 0.0, "middle": 0.5, "top": 1.0}
 
 def box(row: Row, x: float, y: float, text: str, axes: list[Axis]) -> Box:
     """Box of a label at a point (SI), with the size of a letter of its axes' smallest plot."""
-    right, up = (
-        (value - axis.start) / (axis.end - axis.start) for value, axis in zip((x, y), axes, strict=False)
-    )
+    right, up = (_share(value, axis) for value, axis in zip((x, y), axes, strict=False))
     wide = width(text)
     left = right * WIDTH - _ACROSS[row.look["text_align"]] * wide
     bottom = up * HEIGHT - _UP[row.look["text_baseline"]] * LINE
     return Box(left, left + wide, bottom, bottom + LINE)
+
+
+def _share(value: float, axis: Axis) -> float:
+    """Place (0 to 1) of a value (SI) along an axis."""
+    if axis.log:
+        return log10(value / axis.start) / log10(axis.end / axis.start)
+    return (value - axis.start) / (axis.end - axis.start)
+
+
+def words_along(rows: dict[str, Any], axes: list[Axis], words: dict[str, str]) -> dict[str, tuple]:
+    """Places of words on curves, by the names of their labels' rows: points of each within its axes."""
+    found, y_axis = {}, axes[1]
+    for name, text in words.items():
+        x, y = rows.get(name, NOTHING)
+        seen = np.flatnonzero((y >= y_axis.start) & (y <= y_axis.end))
+        places = seen[(np.array([0.88, 0.7, 0.5, 0.3, 0.12]) * len(seen)).astype(int)] if len(seen) else []
+        found[f"label {name}"] = x[places], y[places], text
+    return found
 
 
 def arranged(rows: list[Row], places: dict[str, Any], axes: list[Axis]) -> dict[str, tuple]:

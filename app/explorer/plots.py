@@ -1,6 +1,7 @@
 """The plots of the page: springs, pressure, and force over depth."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -163,8 +164,8 @@ def pressure(view: View, i: int) -> dict:
 
 
 PRESSURE = Plot(
-    "pressure", "Contact pressure", "(10)  p(r) = −σ_zz(r) = −(1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
-    (*figures.PRESSURE_ROWS, OUT_OF_RANGE), pressure,
+    "pressure", "Pressure under the tip", "(10)  p(r) = −σ_zz(r) = −(1/π) ∫ q′(x) dx/√(x² − r²)", (R, P),
+    (*figures.PRESSURE_ROWS, OUT_OF_RANGE), pressure, aside=lambda view: "p = −σ_zz(r)",
 )  # fmt: skip
 
 
@@ -185,9 +186,9 @@ def force(view: View, i: int) -> dict:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if (lower := float(states.plastic_depth[i])) > 0:
         text = f"dₚ = {written(lower, 'length', 3)}"
-        # Right of its point where there is no room on the left.
-        room = (width(text) + 4) / WIDTH * view.end(D)
-        rows["dₚ"] = lower - room if lower > room else lower + right, 0.12 * view.end(F), text
+        # It ends at its point, and begins within the plot.
+        room = width(text) / WIDTH * view.end(D)
+        rows["dₚ"] = max(lower - 0.4 * right, room), 0.17 * view.end(F), text
     if course.chained or course.adhesive:
         # No live interval tells what is stored in elements that have each a memory of their own, and with
         # adhesion the area below the curve is not what is stored.
@@ -202,14 +203,26 @@ def _force_formula(course: Course) -> str:
     return f"(20) (22)  F = 2E* ∫ a(s) ds{dashpots},  d_p < s < d"
 
 
-FORCE = Plot(
+@dataclass(frozen=True, eq=False)
+class ForcePlot(Plot):
+    """Force over depth, with a free strip below the lowest force for the plastic zone."""
+
+    def axes_of(self, view):
+        depth, force = super().axes_of(view)
+        return [depth, replace(force, start=force.start - STRIP * (force.end - force.start))]
+
+
+#: Height of the strip below the lowest force over the range of the axis.
+STRIP = 0.13
+
+FORCE = ForcePlot(
     "force", "Force and depth", _force_formula, (D, F),
     (
         line("path ahead", "free", 1.0),
         *figures.FORCE_ROWS,
         mark("onset of yield", "paper", "yielded", "diamond", 11),
         mark("now", size=13),
-        label("dₚ", 0.0),
+        label("dₚ", 0.8, "right"),
         OUT_OF_RANGE,
     ),
     force,

@@ -27,9 +27,8 @@ export function make_player({ messages, figures, ask }) {
   }
   // Places of some states along the slider, whose thumb is 14 px wide.
   const mark = (last, marks) => {
-    const names = Object.keys(marks), places = Object.values(marks).map((k) => `left: calc(7px + (100% - 14px) * ${k / last})`)
-    range.title = `Marked: ${names.join(", ")}`
-    const found = places.map((place) => `<i style="${place}"></i>`).join("")
+    const place = (k) => `style="left: calc(7px + (100% - 14px) * ${k / last})"`
+    const found = Object.entries(marks).map(([name, k]) => `<i ${place(k)}></i><span ${place(k)}>${name}</span>`).join("")
     if (marked.innerHTML !== found) marked.innerHTML = found
   }
   const turn = (on) => Object.assign(button, { ariaPressed: on, textContent: on ? "❚❚ Pause" : "▶ Play" })

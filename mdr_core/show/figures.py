@@ -86,10 +86,10 @@ def area(name, role, alpha, hatch=" ", legend=True):
     return Row("areas", name, role, legend, look=look)
 
 
-def line(name, role, width=2.0, dash="solid", symbol="", axis=1, legend=True):
-    look = {"line_color": role, "line_width": width, "line_dash": dash}
-    # Round ends would make the dashes longer.
-    look["line_cap"] = "round" if dash == "solid" else "butt"
+def line(name, role, width=2.0, dash="solid", symbol="", axis=1, legend=True, alpha=1.0):
+    look = {"line_color": role, "line_width": width, "line_dash": dash, "line_alpha": alpha}
+    # Round ends would make dashes and ribbons longer.
+    look["line_cap"] = "round" if dash == "solid" and alpha == 1 else "butt"
     return Row("lines", name, role, legend, symbol, axis, look)
 
 
@@ -156,8 +156,8 @@ RADII = (
     label("c", 0.0),
 )
 PRESSURE_ROWS = (
-    area("plastic zone r < c", "yielded", 0.13),
-    area("below", "elastic", 0.12, legend=False),
+    area("plastic zone r < c", "yielded", 0.22),
+    area("elastic zone", "elastic", 0.22, legend=False),
     line("p(r)", "elastic", 2.0, symbol="p"),
     line("mean F/(πa²)", "ink", 1.0, "dotdash", "mean"),
     *RADII,
@@ -237,13 +237,25 @@ def pressure(state, half, top):
     a, c, mean = (float(v) for v in (state.contact_radius, state.plastic_radius, state.mean_pressure))
     curve = both(r, -1), both(cut(p, top))
     return at_radii(a, c, half, 0.0, top) | {
-        "plastic zone r < c": (np.array([-c, c, c, -c]), np.array([0, 0, top, top])) if c else NOTHING,
-        "below": curve,
+        "plastic zone r < c": _below(r, cut(p, top), 0.0, min(c, a)),
+        "elastic zone": _below(r, cut(p, top), min(c, a), a),
         "p(r)": curve,
         "mean F/(πa²)": (np.array([-a, a]), np.array([mean, mean])) if a else NOTHING,
         # One line below the labels of a and c.
         "exceeds": (-0.97 * half, 0.86 * top, exceeds(r, p, top) if a else "no contact"),
     }
+
+
+def _below(r, p, inner, outer):
+    """Return the area below a pressure between two of the `radii`, on both sides of the axis."""
+    some = (r >= inner) & (r <= outer)
+    if inner >= outer or np.count_nonzero(some) < 2:
+        return NOTHING
+    x, y = r[some], p[some]
+    if inner == 0:
+        x, y = both(x, -1), both(y)
+    x, y = np.concatenate([x[:1], x, x[-1:]]), np.concatenate([[0.0], y, [0.0]])
+    return (x, y) if inner == 0 else (np.concatenate([-x, [np.nan], x]), np.concatenate([y, [np.nan], y]))
 
 
 def exceeds(r, p, top):

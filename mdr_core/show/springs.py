@@ -18,7 +18,7 @@ SPRING_ROWS = (
     line("elastic", "elastic", 1.3),
     line("yielded", "yielded", 1.5),
     line("stretched", "stick", 1.8),
-    line("residual imprint", "yielded", 1.4, "dotted"),
+    line("residual imprint", "yielded", 1.4, "dashed"),
     *RADII,
 )
 
@@ -98,7 +98,9 @@ def springs(state, half, base, height, relaxing=lambda g: 0.0, along=None):
     # The same outline as a line; the plot cuts it at the upper edge.
     rows["edge"] = rows["profile g(x)"]
     if interval.lower > 0:
-        rows["residual imprint"] = shape_x, 0.0 - np.maximum(interval.lower - shape_g, 0)
+        # Inside c, where its surface is below the virgin one.
+        inside = shape_g <= interval.lower
+        rows["residual imprint"] = shape_x[inside], shape_g[inside] - interval.lower
     a, c = float(state.contact_radius), float(state.plastic_radius)
     # The lines end below the text on the state, which is above.
     return rows | at_radii(a, c, half, base, 0.45 * height)

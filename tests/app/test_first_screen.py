@@ -56,6 +56,81 @@ def test_plots_of_a_projector_are_at_least_150_pixels_high(projector):
         assert min(heights(projector, "springs", "pressure", "force", name)) >= LEAST, tab
 
 
+def boxes(page, *selectors):
+    return [page.locator(each).first.bounding_box() for each in selectors]
+
+
+def test_the_springs_are_larger_than_the_other_plots(projector):
+    """1.18 times as wide as the force, 1.12 times as high as the pressure, which has the same x axis."""
+    springs, pressure, force = boxes(
+        projector.page, *(f".card.{name}" for name in ("springs", "pressure", "force"))
+    )
+    assert springs["width"] / force["width"] == approx(1.18, rel=0.01)
+    assert springs["height"] / pressure["height"] == approx(1.12, rel=0.01)
+    assert springs["width"] == pressure["width"]
+    across = [projector.axis(name)["x"] for name in ("springs", "pressure")]
+    assert across[0] == across[1]
+
+
+def test_numbers_have_the_colours_of_the_plots(projector):
+    """What has yielded is orange, what is elastic is blue; a force is neither."""
+    colour = "(name) => getComputedStyle(explorer.all().find((on) => on.dataset?.name === name)).color"
+    found = {name: projector.page.evaluate(colour, name) for name in (
+        "plastic_radius", "plastic_work", "contact_radius", "stored_energy", "force",
+    )}  # fmt: skip
+    assert found["plastic_radius"] == found["plastic_work"]
+    assert found["contact_radius"] == found["stored_energy"]
+    assert len(set(found.values())) == 3
+
+
+def test_the_drawer_lies_over_the_plots(projector):
+    """What the numbers are moves no plot, and is in the window."""
+    page = projector.page
+    before = boxes(page, ".card.springs", ".card.force")
+    page.get_by_text("Numbers, equations, assumptions").click()
+    page.locator(".drawer").wait_for()
+    assert boxes(page, ".card.springs", ".card.force") == before
+    (drawer,) = boxes(page, ".drawer")
+    assert drawer["y"] + drawer["height"] <= 720
+
+
+@pytest.mark.parametrize(("window", "rows", "beside"), [
+    ((1024, 768), 2, True), ((820, 1180), 2, True), ((760, 1000), 2, True), ((1280, 720), 1, True),
+    ((740, 1000), 2, False),
+])  # fmt: skip
+def test_nothing_is_cut_off_in_smaller_windows(server, context, window, rows, beside):
+    """Readouts in one row or two, the form beside the plots or below them, and all within the window."""
+    explorer = Explorer(context.new_page(), server.url, window=window)
+    page = explorer.page
+    places = [each.bounding_box() for each in page.locator("output").all()]
+    assert len({place["y"] for place in places}) == rows
+    form, springs = boxes(page, ".of-shape", ".card.springs")
+    assert (form["x"] + form["width"] <= springs["x"]) == beside
+    cards = [each.bounding_box() for each in page.locator(".card:visible").all()]
+    for place in (*places, *cards):
+        assert place["x"] >= 0
+        assert place["x"] + place["width"] <= window[0]
+    assert explorer.problems == []
+    page.close()
+
+
+def test_from_1600_pixels_on_all_is_larger(server, context):
+    """Words of the form and letters of the plots by a fifth."""
+    sizes = []
+    for window in ((1280, 720), (1920, 1080)):
+        explorer = Explorer(context.new_page(), server.url, window=window)
+        explorer.wait("(wide) => explorer.model('messages').wide === wide", window[0] > 1600)
+        explorer.wait("explorer.idle()")
+        letters = explorer.page.evaluate(
+            "parseFloat(explorer.model('force').below[0].axis_label_text_font_size)"
+        )
+        sizes.append((explorer.page.locator("output").first.bounding_box()["height"], letters))
+        explorer.page.close()
+    (small, letters), (large, larger) = sizes
+    assert large / small == approx(1.2, rel=0.02)
+    assert larger / letters == approx(1.2, rel=1e-3)
+
+
 def test_restitution_over_speed_is_one_click(projector):
     projector.goto(f"{projector.page.url.split('?')[0]}?preset={DROP}")
     projector.press("e over v")

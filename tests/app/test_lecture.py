@@ -154,7 +154,7 @@ def test_the_state_is_read_in_words():
 def test_depths_with_a_plastic_zone_are_marked():
     view = view_of(preset_state())
     d, _ = view.places(PLOTS["force"], view.course.now)["plastic zone, on loading"]
-    assert (d.min(), d.max()) == (float(view.course.onset.depth), view.end(D))
+    assert (d.min(), d.max()) == (float(view.course.onset.depth), float(view.course.states.depth.max()))
     course = follow(preset_state())
     yielded = course.states.plastic_radius[: course.peak + 1] > 0
     np.testing.assert_array_equal(yielded, course.states.depth[: course.peak + 1] > d.min())

@@ -202,7 +202,7 @@ def test_plots_and_the_path_are_told_in_words(phone):
     tree = phone.page.context.new_cdp_session(phone.page).send("Accessibility.getFullAXTree")["nodes"]
     nodes = [node for node in tree if node.get("role", {}).get("value") in ("figure", "slider")]
     told = {node["name"]["value"]: node for node in nodes}
-    for title in ("1D foundation", "Contact pressure", "Force and depth"):
+    for title in ("1D foundation", "Pressure under the tip", "Force and depth"):
         (name,) = [name for name in told if name.startswith(f"{title}: ")]
         for each, text in numbers.items():
             assert f"{each.replace('_', ' ')} {text}" in told[name]["description"]["value"]

@@ -102,7 +102,10 @@ def test_it_plays_by_the_space_bar_also_while_the_scene_changes(explorer):
     )
     mark = page.locator(".player .marks i").first.bounding_box()
     assert abs(mark["x"] + mark["width"] / 2 - thumb) < 1
-    assert slider.get_attribute("title") == "Marked: largest depth, loss of contact"
+    assert slider.locator("xpath=..").locator(".marks span").all_inner_texts() == [
+        "largest depth",
+        "loss of contact",
+    ]
     plot = "Bokeh.index.find_one(explorer.model('force')).el"
     explorer.wait(f"{plot}.ariaDescription?.includes('depth 8.978 nm')")
     assert slider.get_attribute("aria-valuetext") == "force 4.514 µN, depth 8.978 nm"

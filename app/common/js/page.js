@@ -50,6 +50,10 @@ window.pages = (() => {
       if (!theme.asked) messages.dark = theme.own
       theme.show(messages.dark)
       messages.properties.dark.change.connect(() => theme.choose(messages.dark))
+      // Letters of the plots are larger on a wide screen, as all else is.
+      const measure = () => { messages.wide = innerWidth >= 1600 }
+      measure()
+      addEventListener("resize", measure)
       // The address says what is shown, without a step in the history.
       messages.properties.address.change.connect(() => {
         // The opening scene has no query, and the address then no mark of one.

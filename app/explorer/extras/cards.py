@@ -16,8 +16,8 @@ from ..plots import visible
 from ..state import State
 from ..widgets import Part, button
 
-#: Letters of a large plot, over those of the page.
-_SCALE = 1.5
+#: Letters of a large plot, and of all plots in a wide window, over those of the page.
+_SCALE, _WIDE = 1.5, 1.2
 
 
 def turned(state: State, name: str) -> State:
@@ -68,7 +68,7 @@ class Cards(Service):
         for name, card in cards.items():
             is_large = name == view.state.large
             show(card.view, css_classes=["card", name, *["large"] * is_large])
-            scale = _SCALE if is_large else 1.0
+            scale = (_WIDE if self.page.messages.wide else 1.0) * (_SCALE if is_large else 1.0)
             if scale != self._set.get(name, 1.0):
                 self._set[name] = scale
                 set_letters(card.picture, scale)

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from mdr_core.show.figures import NOTHING, area, label, word
+from mdr_core.show.figures import NOTHING, label, line, word
 from mdr_core.show.springs import reduced
 from mdr_core.show.units import written
 from mdr_core.solver.contact.unloading import unloading_curve
@@ -12,7 +12,7 @@ from mdr_core.solver.contact.unloading import unloading_curve
 from ..courses import Course, onset_depth
 from ..extra import Extra
 from ..plot import HEIGHT, LINE, WIDTH, AxisSpec, Overlay, View, width
-from ..plots import D, F, P, R, X, Z
+from ..plots import STRIP, D, F, P, R, X, Z
 
 
 def sentence(course: Course, i: int) -> str:
@@ -41,14 +41,18 @@ def words(view: View, i: int) -> dict:
 
 
 def zone(view: View, i: int) -> dict:
-    """Depths beyond the onset of yield, at which loading has a plastic zone, where the scene yields."""
-    course, top = view.course, view.end(F)
+    """Depths of loading beyond the onset of yield, as a ribbon below the lowest force."""
+    course, force = view.course, view.axis(F)
     known = course.onset is not None and not (course.dashpots or course.initial_plastic_depth)
     if not known or course.onset.depth >= np.max(course.states.depth):
         return {"plastic zone, on loading": NOTHING}
-    ends, bottom = (float(course.onset.depth), view.end(D)), view.axis(F).start
-    columns = np.array([ends[0], *ends, ends[1]]), np.array([bottom, top, top, bottom])
-    return {"plastic zone, on loading": columns}
+    ends = np.array([float(course.onset.depth), float(np.max(course.states.depth))])
+    return {"plastic zone, on loading": (ends, np.full(2, _below(force)))}
+
+
+def _below(force: Any) -> float:
+    """Force (N) in the middle of the strip below the lowest one."""
+    return force.start - 0.5 * STRIP * (force.end - force.start)
 
 
 SPRINGS = (
@@ -59,7 +63,7 @@ SPRINGS = (
     word("elastic", "elastic-text", "right", "bottom", 0.85, names=("elastic",)),
 )
 PRESSURE = (
-    word("plastic zone", "yielded-text", baseline="top", names=("plastic zone r < c",)),
+    word("plastic zone", "yielded-text", names=("plastic zone r < c",)),
     # The other curve is the one that the axis names.
     word("mean", "ink", "left", names=("mean F/(πa²)", "p(r)")),
 )
@@ -70,9 +74,7 @@ FORCE = (
     word("plastic work", "yielded-text", names=("plastic work Wₚ",)),
     word("dissipated", "yielded-text", names=("dissipated",)),
     word("stored", "elastic-text", names=("stored",)),
-    word(
-        "plastic zone", "yielded-text", "left", "top", names=("plastic zone, on loading", "onset of yield")
-    ),
+    word("plastic zone", "yielded-text", "center", names=("plastic zone, on loading", "onset of yield")),
     word("yield begins", "yielded-text", "left", "top", names=("onset of yield",)),
 )
 
@@ -125,12 +127,12 @@ def of_pressure(view: View, i: int) -> dict:
     state, top = view.course.states[i], view.end(P)
     px, py = _pixels(view, R, P)
     a, c, mean = (float(v) for v in (state.contact_radius, state.plastic_radius, state.mean_pressure))
-    wide = 2 * c > (width("plastic zone") + 8) * px
+    wide, on_axis = 2 * c > (width("plastic zone") + 8) * px, min(float(state.pressure(0.0)), top)
     # Outside the contact, or within it above or below the line.
     middle = -width("mean") / 2 * px
     points = [(a + 3 * px, mean), (middle, mean + 9 * py), (middle, mean - 9 * py)]
     return _told({
-        "plastic zone": _at("plastic zone", *[(0.0, share * top) for share in (0.97, 0.8)] * wide),
+        "plastic zone": _at("plastic zone", *[(0.0, share * on_axis) for share in (0.5, 0.3, 0.7)] * wide),
         "mean": _at("mean", *points * (a > 0)),
     })  # fmt: skip
 
@@ -167,7 +169,7 @@ def of_force(view: View, i: int) -> dict:
     found |= _areas(view, i, loaded, px)
     if (onset := course.onset) is not None and not course.dashpots:
         ahead = float(onset.depth) >= float(np.max(states.depth)) or course.initial_plastic_depth > 0
-        place = float(onset.depth) + 4 * px, 0.985 * view.end(F)
+        place = (float(onset.depth) + float(np.max(states.depth))) / 2, _below(view.axis(F))
         if ahead:
             place = float(onset.depth) + 8 * px, float(onset.force) - 4 * py
         found["yield begins" if ahead else "plastic zone"] = [place]
@@ -199,7 +201,7 @@ EXTRA = Extra(
     order=90,
     overlays=(
         Overlay("springs", (label("reading", 0.0, "center"),), words),
-        Overlay("force", (area("plastic zone, on loading", "yielded", 0.07),), zone),
+        Overlay("force", (line("plastic zone, on loading", "yielded", 14.0, alpha=0.25),), zone),
         Overlay("springs", SPRINGS, of_springs),
         Overlay("pressure", PRESSURE, of_pressure),
         Overlay("force", FORCE, of_force),

@@ -114,6 +114,7 @@ def _own_words(limit: Any, state: State) -> str:
     return _OF_INCOMPRESSIBLE.get(limit.what, "") if state.elasticity == "modulus" else ""
 
 
+_DRAWER = Markup('<details><summary>{}</summary><div class="drawer">{}</div></details>')
 _SENTENCE = Markup('<span class="{}">{}</span>')
 
 
@@ -128,7 +129,7 @@ def below(view: View) -> Markup:
     others += readouts.explained(readouts.line(view.course))
     others += readouts.table(view.course)
     others += _laws(view, visible(view), linked)
-    return exceeded + Markup("<details><summary>{}</summary>{}</details>").format(_HEAD, others)
+    return exceeded + _DRAWER.format(_HEAD, others)
 
 
 def _laws(view: View, plots: Iterable[Plot], link: Callable[[str], Markup]) -> Markup:

@@ -12,7 +12,7 @@ import numpy as np
 from markupsafe import Markup
 
 import mdr_core as mdr
-from mdr_core.show.figures import NOTHING, line, mark
+from mdr_core.show.figures import NOTHING, line, mark, word
 from mdr_core.show.quantities import QUANTITIES as RESULTS
 from mdr_core.show.units import KINDS, digits
 
@@ -24,7 +24,7 @@ from ..changes import CONSTANTS, crossing, option, shown, with_tile
 from ..drives import DRIVES
 from ..extra import Extra
 from ..figures import Logarithmic
-from ..plot import OF_AXIS, Plot, View, axis
+from ..plot import OF_AXIS, Plot, View, axis, words_along
 from ..search import AsyncPlot, Found, IdleSearch
 from ..state import PRESETS, State, medium, numbers_of, profile, used, yield_constant
 from ..widgets import Part, button, slider_range
@@ -183,6 +183,10 @@ _ENERGY = quantity(**_DATA["energy"])
 #: Dashes of the lines beside that of the scene.
 _DASHES = "dashed", "dotted", "dashed", "dotdash", "dashed", "dotted"
 LINES = dict(zip((FAST, *CLASSES, *LIMITING), _DASHES, strict=True))
+#: Words on the lines.
+_WORDS = dict(
+    zip(LINES, ("fast limit", "class (a)", "class (b)", "class (c)", "no edges", "support"), strict=True)
+)
 #: Of a ratio, as the restitution, what is nothing beside its largest value.
 _NOTHING = 1e-3
 #: Shapes with closed forms.
@@ -258,6 +262,7 @@ def found(course, sweep: Sweep) -> Iterator[Found | None]:
         rows = {name: (numbers, np.where(row > 0, row, np.nan)) for name, (_, row) in rows.items()}
     visible = inside and (present > 0 or not y.log)
     rows["present value"] = (np.array([sweep.present]), np.array([present])) if visible else NOTHING
+    rows |= words_along(rows, [x, y], {"this scene": "this scene"} | _WORDS)
     yield Found(rows, [x, y], Markup(" ").join(_notes(sweep, numbers, values, classes, inside)))
 
 
@@ -338,7 +343,9 @@ SWEEP = SweepPlot(
     (
         *(line(name, "ink", 1.4, dash, OF_AXIS) for name, dash in LINES.items()),
         line("this scene", "elastic", 2.4, symbol=OF_AXIS),
-        mark("present value"),
+        mark("present value", legend=False),
+        word("this scene", "elastic-text", "center", "bottom", 0.7, ("this scene",)),
+        *(word(name, "ink", "center", "bottom", 0.7, (name,)) for name in LINES),
     ),
     find=found, asks=asked, quick=quick, tab="Sweep", order=90, picture=Logarithmic,
     controls=("sweep.swept", "sweep.against", "sweep.scale"),
