@@ -270,6 +270,8 @@ SEARCHED = [
     "torsion",
     *("drop tower", "drop weight", "impactor", "striker", "CFRP", "GFRP", "laminate", "dent"),
     *("absorbed energy", "BVID", "peak force"),
+    *("batch", "folder", "decimal comma", "Windows", "FAQ", "BibTeX", "cohesion", "sigma_zz"),
+    *("reproduce Popov 2015", "Hopkinson", "velocity", "line load", "e(v)"),
 ]
 
 

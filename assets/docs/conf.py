@@ -103,14 +103,22 @@ def link_pages(app, doctree):
         file, _, anchor = link["reftarget"].partition("#")
         if file in PAGES:
             link.update_all_atts(
-                {"refdomain": "doc", "reftarget": PAGES[file], "reftargetid": anchor}, replace=True
+                {"refdomain": "doc", "reftarget": PAGES[file], "reftargetid": anchor},
+                replace=True,
             )
     # A script of the gallery would be a file to download.
     for link in list(doctree.findall(addnodes.download_reference)):
         page = PAGES.get(link["reftarget"])
         if page:
-            told = {"refdomain": "std", "reftype": "doc", "reftarget": f"/{page}", "refexplicit": True}
-            link.replace_self(addnodes.pending_xref("", *link.children, refdoc=link["refdoc"], **told))
+            told = {
+                "refdomain": "std",
+                "reftype": "doc",
+                "reftarget": f"/{page}",
+                "refexplicit": True,
+            }
+            link.replace_self(
+                addnodes.pending_xref("", *link.children, refdoc=link["refdoc"], **told)
+            )
 
 
 def save_scene(app, error):

@@ -33,7 +33,9 @@ def public(documented):
     if documented == name:
         return [name]
     module = import_module(documented)
-    functions = getattr(module, "__all__", None) or re.findall(r"^def ([a-z]\w*)", _text(module), re.M)
+    functions = getattr(module, "__all__", None) or re.findall(
+        r"^def ([a-z]\w*)", _text(module), re.M
+    )
     return [name, *(f"{name}.{each}" for each in functions)]
 
 
@@ -43,7 +45,9 @@ def _text(module):
 
 def index():
     """Markdown with a heading and a table for each page of the reference that has public names."""
-    order = re.search(r"```{toctree}(.*?)```", (_PAGES / "index.md").read_text("utf-8"), re.DOTALL)[1]
+    order = re.search(
+        r"```{toctree}(.*?)```", (_PAGES / "index.md").read_text("utf-8"), re.DOTALL
+    )[1]
     parts = []
     for page in re.findall(r"^[a-z]+$", order, re.M):
         text = (_PAGES / f"{page}.md").read_text(encoding="utf-8")

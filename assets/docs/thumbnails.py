@@ -32,7 +32,9 @@ def _draw(figure, panel, file):
     copy = pickle.loads(pickle.dumps(figure))
     axes = copy.axes[panel]
     below = axes.get_shared_x_axes().get_siblings(axes)
-    label = axes.get_xlabel() or next((each.get_xlabel() for each in below if each.get_xlabel()), "")
+    label = axes.get_xlabel() or next(
+        (each.get_xlabel() for each in below if each.get_xlabel()), ""
+    )
     for other in copy.axes:
         if other is not axes:
             other.remove()

@@ -17,7 +17,9 @@ state, nm = path[-1], 1e-9
 r = np.linspace(-110.0, 110.0, 221)
 over, radius, deepest = np.abs(r) * nm, state.contact_radius / nm, state.depth / nm
 
-figure, (body, row, curves) = plt.subplots(1, 3, figsize=(12, 3.4), layout="constrained")
+figure, (body, row, curves) = plt.subplots(
+    1, 3, figsize=(12, 3.4), layout="constrained"
+)
 body.fill_between(r, -state.surface(over) / nm, -26, color="#d9dee5")
 body.fill_between(r, ball.height(over) / nm - deepest, 26, color="#5b6470")
 body.set_title("1  A body z(r) in a half-space")

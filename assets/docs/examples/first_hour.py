@@ -79,7 +79,11 @@ print(fit.quoted)
 
 plt.figure()
 plt.plot(curve.depth * 1e6, curve.force * 1e3, ".", markersize=2, label="measured")
-plt.plot(curve.depth * 1e6, (curve.force - fit.residuals) * 1e3, label="fitted, hardness q_c/a")
+plt.plot(
+    curve.depth * 1e6,
+    (curve.force - fit.residuals) * 1e3,
+    label="fitted, hardness q_c/a",
+)
 plt.gca().set(xlabel="depth (µm)", ylabel="force (mN)", xlim=(0, None))
 plt.legend()
 

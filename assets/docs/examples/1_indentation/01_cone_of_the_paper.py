@@ -26,7 +26,11 @@ rows = [
     ("(19) critical depth: π q_c/(2E*)", d_c, medium.critical_depth),
     ("(20) critical force: π q_c²/(2E* s)", F_c, mdr.yield_force(cone, medium)),
     ("(21) plastic radius: a − q_c/(E* s)", a - q_c / (E * s), c),
-    ("(22) force: F_c + 2 (q_c/s) (d − d_c)", F_c + 2 * q_c / s * (d - d_c), state.force),
+    (
+        "(22) force: F_c + 2 (q_c/s) (d − d_c)",
+        F_c + 2 * q_c / s * (d - d_c),
+        state.force,
+    ),
     ("(24) damaged area: 4W/(π q_c s)", 4 * work / (np.pi * q_c * s), hit.damaged_area),
 ]
 for name, formula, number in rows:

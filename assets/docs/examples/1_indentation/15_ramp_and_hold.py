@@ -15,7 +15,9 @@ medium = mdr.Medium(E_star=4e6, q_c=200.0, eta=30.0)
 tau = medium.relaxation_time
 time = np.linspace(0, 6, 31) * tau
 cone = mdr.Cone(slope=0.3)
-ramp = mdr.indent_in_time(cone, medium, 2e-4 * np.minimum(time / (2 * tau), 1), time, tolerance=1e-2)
+ramp = mdr.indent_in_time(
+    cone, medium, 2e-4 * np.minimum(time / (2 * tau), 1), time, tolerance=1e-2
+)
 held = mdr.creep(cone, medium, np.where(time > 0, 0.2, 0.0), time, tolerance=1e-2)
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")

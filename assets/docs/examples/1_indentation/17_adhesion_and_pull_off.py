@@ -21,6 +21,8 @@ for q_c in (np.inf, 1.0):
     name = "elastic" if np.isinf(q_c) else f"q_c = {q_c:g} N/m"
     plt.plot(path.depth * 1e9, path.force * 1e6, label=name)
     force = path[299].pull_off_force
-    print(f"{name}: pull-off force {force * 1e6:.4f} µN, 3πwR/2 = {1.5e6 * np.pi * w * radius:.4f} µN")
+    print(
+        f"{name}: pull-off force {force * 1e6:.4f} µN, 3πwR/2 = {1.5e6 * np.pi * w * radius:.4f} µN"
+    )
 plt.gca().set(xlabel="d (nm)", ylabel="F (µN)")
 plt.legend()

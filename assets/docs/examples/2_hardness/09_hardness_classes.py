@@ -24,7 +24,12 @@ materials = {
 for name, (mean_pressure, E_star) in materials.items():
     fit = mdr.fit_hardness(tip, mean_pressure, a, E_star=E_star)
     print(f"{name}: {fit.class_of_hardness.reason}")
-    plt.loglog(a * 1e6, mean_pressure / 1e9, "o-", label=f"{name}: slope {fit.class_of_hardness.slope:.2f}")
+    plt.loglog(
+        a * 1e6,
+        mean_pressure / 1e9,
+        "o-",
+        label=f"{name}: slope {fit.class_of_hardness.slope:.2f}",
+    )
 plt.plot(a * 1e6, 4 * a[0] / a, "k--", label="class (b): slope −1")
 plt.gca().set(xlabel="contact radius a (µm)", ylabel="hardness (GPa)")
 plt.legend()

@@ -21,17 +21,23 @@ ball, mass = mdr.Paraboloid(radius), 7800 * 4 / 3 * np.pi * radius**3
 medium = mdr.Medium.from_bodies(70e9, 0.3, hardness=2.75 * Y)
 speed = np.geomspace(0.01, 100, 200)
 hit = mdr.impact(ball, medium, mass, speed)
-johnson = 3.8 * np.sqrt(Y / medium.E_star) * (mass * speed**2 / 2 / (Y * radius**3)) ** -0.125
+johnson = (
+    3.8 * np.sqrt(Y / medium.E_star) * (mass * speed**2 / 2 / (Y * radius**3)) ** -0.125
+)
 
 at = np.array([10.0, 30.0])
 e = mdr.impact(ball, medium, mass, at).restitution
-for v, own, lammps, law in zip(at, e, (0.752, 0.508), np.interp(at, speed, johnson), strict=True):
+for v, own, lammps, law in zip(
+    at, e, (0.752, 0.508), np.interp(at, speed, johnson), strict=True
+):
     print(f"{v:g} m/s: e = {own:.3f}, LAMMPS {lammps}, Johnson {law:.3f}")
 print(f"{speed[-1]:g} m/s: {hit.restitution[-1] / johnson[-1]:.2f} of Johnson's")
 print(f"onset of yield at {mdr.yield_speed(ball, medium, mass):.3g} m/s")
 
 plt.loglog(speed, hit.restitution, label="constant hardness, H = 2.75 Y")
-plt.loglog(speed, np.where(johnson < 1, johnson, np.nan), "k--", label="Johnson, fully plastic")
+plt.loglog(
+    speed, np.where(johnson < 1, johnson, np.nan), "k--", label="Johnson, fully plastic"
+)
 plt.plot(at, [0.752, 0.508], "s", label="LAMMPS, granular mdr")
 plt.gca().set(xlabel="speed (m/s)", ylabel="coefficient of restitution")
 plt.legend()

@@ -28,13 +28,34 @@ class NixGao(mdr.HardnessLaw):
 
 
 def force(d, E, H0, h):
-    return mdr.indent(tip, mdr.Medium(1e9 * E, hardness=NixGao(1e9 * H0, h / tip.slope * 1e-6)), d).force
+    return mdr.indent(
+        tip, mdr.Medium(1e9 * E, hardness=NixGao(1e9 * H0, h / tip.slope * 1e-6)), d
+    ).force
 
 
-tip, d = mdr.Cone.berkovich(), np.append(np.linspace(1e-8, 2e-6, 200), np.linspace(2e-6, 1.96e-6, 40))
-made = force(d, 130, 0.581, 1.6) * (1 + 0.005 * np.random.default_rng(1).standard_normal(d.size))
-found, errors = curve_fit(force, d, made, (100, 1, 1), bounds=(0.01, 1e3), x_scale=(100, 1, 1))
-print("E* (GPa), H₀ (GPa), h* (µm):", found.round(3), "±", np.sqrt(np.diag(errors)).round(3))
-print(mdr.impact(tip, mdr.Medium(130e9, hardness=NixGao(0.581e9, 1.6e-6 / tip.slope)), 1e-9, [0.1, 1, 10]))
+tip, d = (
+    mdr.Cone.berkovich(),
+    np.append(np.linspace(1e-8, 2e-6, 200), np.linspace(2e-6, 1.96e-6, 40)),
+)
+made = force(d, 130, 0.581, 1.6) * (
+    1 + 0.005 * np.random.default_rng(1).standard_normal(d.size)
+)
+found, errors = curve_fit(
+    force, d, made, (100, 1, 1), bounds=(0.01, 1e3), x_scale=(100, 1, 1)
+)
+print(
+    "E* (GPa), H₀ (GPa), h* (µm):",
+    found.round(3),
+    "±",
+    np.sqrt(np.diag(errors)).round(3),
+)
+print(
+    mdr.impact(
+        tip,
+        mdr.Medium(130e9, hardness=NixGao(0.581e9, 1.6e-6 / tip.slope)),
+        1e-9,
+        [0.1, 1, 10],
+    )
+)
 plt.axes(xlabel="depth (µm)", ylabel="force (mN)")
 plt.plot(d * 1e6, made * 1e3, "k.", d * 1e6, force(d, *found) * 1e3, "r")

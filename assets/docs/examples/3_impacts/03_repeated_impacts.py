@@ -13,7 +13,9 @@ import mdr_core as mdr
 medium = mdr.Medium(E_star=95e9, q_c=100.0)
 depth, imprints, restitutions = 0.0, [], []
 for _ in range(30):
-    hit = mdr.impact(mdr.Cone(slope=0.3), medium, mass=1e-12, speed=0.5, plastic_depth=depth)
+    hit = mdr.impact(
+        mdr.Cone(slope=0.3), medium, mass=1e-12, speed=0.5, plastic_depth=depth
+    )
     depth = hit.plastic_depth
     imprints.append(depth * 1e9)
     restitutions.append(hit.restitution)

@@ -22,7 +22,12 @@ hit = mdr.oblique_impact(
 )  # fmt: skip
 chi = kappa * ball.mass / (2 * ball.tangential_mass)
 
-plt.plot(psi, kappa * hit.tangential_velocity / (friction * speed), "o-", label="oblique_impact")
+plt.plot(
+    psi,
+    kappa * hit.tangential_velocity / (friction * speed),
+    "o-",
+    label="oblique_impact",
+)
 plt.plot(psi, psi - 4 * chi, "--", label="slip throughout, ψ₁ − 4χ")
 plt.gca().set(xlabel="ψ₁ before", ylabel="ψ₂ after", ylim=(-2, 4))
 plt.legend()

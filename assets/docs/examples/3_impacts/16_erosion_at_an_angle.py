@@ -26,15 +26,25 @@ for name, medium in media.items():
     speeds = mdr.at_angle(30.0, np.pi / 2 - np.radians(degrees))
     mass = grain.tangential_mass
     hit = mdr.oblique_impact(
-        mdr.Sphere(25e-6), medium, grain.mass, *speeds, friction, tangential_mass=mass, tolerance=1e-3
+        mdr.Sphere(25e-6),
+        medium,
+        grain.mass,
+        *speeds,
+        friction,
+        tangential_mass=mass,
+        tolerance=1e-3,
     )
     energy = grain.mass * 30.0**2 / 2
     axes[0].plot(degrees, hit.plastic_work / energy, label=name)
     axes[1].plot(degrees, hit.friction_work / energy, label=name)
     if name == "steel":
         steepness = 2 * mass / (friction * grain.mass * (1 + hit.restitution[10]))
-        axes[1].axvline(np.degrees(np.arctan(steepness)) / 2, linestyle=":", color="gray")
-    print(f"{name}: friction takes most at {degrees[np.argmax(hit.friction_work)]:.0f}°")
+        axes[1].axvline(
+            np.degrees(np.arctan(steepness)) / 2, linestyle=":", color="gray"
+        )
+    print(
+        f"{name}: friction takes most at {degrees[np.argmax(hit.friction_work)]:.0f}°"
+    )
 axes[0].set(xlabel="angle of attack (°)", ylabel="plastic work over energy")
 axes[1].set(xlabel="angle of attack (°)", ylabel="friction work over energy")
 axes[0].legend()

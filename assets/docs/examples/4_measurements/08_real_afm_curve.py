@@ -15,7 +15,9 @@ import mdr_core as mdr
 data = np.genfromtxt("../../../../tests/data/spot3-0.csv", delimiter=",", names=True)
 approach = data["retract"] == 0
 depth, force = 1e-9 * data["depth_nm"][approach], 1e-9 * data["force_nN"][approach]
-fit = mdr.fit_indentation(mdr.Paraboloid(radius=1e-5), depth, force, q_c=np.inf, baseline=None)
+fit = mdr.fit_indentation(
+    mdr.Paraboloid(radius=1e-5), depth, force, q_c=np.inf, baseline=None
+)
 print(fit)
 
 figure, (top, bottom) = plt.subplots(

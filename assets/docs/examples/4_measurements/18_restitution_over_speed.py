@@ -27,13 +27,28 @@ def restitution(speed, log_q_c, log_eta):
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
 left.semilogx(speed, measured, "k.", label="made, with scatter")
 for E_star in (5e9, 1e10, 2e10):
-    fitted, covariance = curve_fit(restitution, speed, measured, np.log([1.5e-6 * E_star, 2e-7 * E_star]))
+    fitted, covariance = curve_fit(
+        restitution, speed, measured, np.log([1.5e-6 * E_star, 2e-7 * E_star])
+    )
     q_c, eta = np.exp(fitted)
-    rms, error = np.std(restitution(speed, *fitted) - measured), np.sqrt(covariance[0, 0])
-    print(f"E* {E_star:.0e} Pa: q_c {q_c:.3g} N/m ± {error:.1%}, η {eta:.3g} Pa·s, rms {rms:.6f}")
+    rms, error = (
+        np.std(restitution(speed, *fitted) - measured),
+        np.sqrt(covariance[0, 0]),
+    )
+    print(
+        f"E* {E_star:.0e} Pa: q_c {q_c:.3g} N/m ± {error:.1%}, η {eta:.3g} Pa·s, rms {rms:.6f}"
+    )
     hit = mdr.impact(tip, mdr.Medium(E_star, q_c=q_c, eta=eta), mass, speed)
-    left.semilogx(speed, hit.restitution, label=f"E* {E_star / 1e9:g} GPa, q_c {q_c / 1e3:.1f} kN/m")
-    right.loglog(speed, hit.contact_time * 1e6, label=f"E* {E_star / 1e9:g} GPa, η {eta / 1e3:.1f} kPa·s")
+    left.semilogx(
+        speed,
+        hit.restitution,
+        label=f"E* {E_star / 1e9:g} GPa, q_c {q_c / 1e3:.1f} kN/m",
+    )
+    right.loglog(
+        speed,
+        hit.contact_time * 1e6,
+        label=f"E* {E_star / 1e9:g} GPa, η {eta / 1e3:.1f} kPa·s",
+    )
 left.set(xlabel="speed (m/s)", ylabel="coefficient of restitution")
 right.set(xlabel="speed (m/s)", ylabel="contact time (µs)")
 left.legend()

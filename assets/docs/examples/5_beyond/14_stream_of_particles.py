@@ -13,7 +13,9 @@ import xarray as xr
 import mdr_core as mdr
 
 random, number = np.random.default_rng(1), 10**4
-radius = xr.DataArray(25e-6 * np.exp(0.4 * random.standard_normal(number)), dims="particle")
+radius = xr.DataArray(
+    25e-6 * np.exp(0.4 * random.standard_normal(number)), dims="particle"
+)
 speed = xr.DataArray(30.0 * random.weibull(2.0, number) + 1e-3, dims="particle")
 hits = mdr.sweep.impacts(
     mdr.Paraboloid,
@@ -26,5 +28,7 @@ hits = mdr.sweep.impacts(
 )
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
 hits.restitution.plot.hist(ax=left, bins=100)
-(hits.damaged_area * 1e12).plot.hist(ax=right, bins=np.geomspace(1, 1e4, 100), xscale="log")
+(hits.damaged_area * 1e12).plot.hist(
+    ax=right, bins=np.geomspace(1, 1e4, 100), xscale="log"
+)
 right.set(xlabel="damaged area (µm²)")
