@@ -1,7 +1,8 @@
 """Index of the public names in the reference, and the base classes that it shows.
 
-The index is made of the reference pages and the first lines of the docstrings, in the place of the comment
-`% index of names` in `reference/index.md`. Words for quantities are added to the glossary.
+The index combines the reference pages and the first lines of the docstrings. It
+replaces the comment `% index of names` in `reference/index.md`. Words for quantities are
+added to the glossary.
 """
 
 import re
@@ -21,12 +22,12 @@ _PAGES = Path(__file__).parent / "reference"
 _PLACE = "% index of names"
 #: In the glossary, the place of the words for quantities.
 _QUANTITIES = "   .. words for quantities"
-#: Base classes that a reader finds in the reference. Of others the page says nothing.
+#: Base classes in the reference. Pages do not show others.
 _BASES = mdr_core.Profile, Result, ImpactResult, Fit, OliverPharr, ValueError, str
 
 
 def public(documented):
-    """The name of a directive if it is public, with the functions of a module."""
+    """Return the name of a directive if it is public, with the functions of a module."""
     name = documented.removeprefix("mdr_core.")
     if name not in mdr_core.__all__:
         return []
@@ -44,7 +45,7 @@ def _text(module):
 
 
 def index():
-    """Markdown with a heading and a table for each page of the reference that has public names."""
+    """Return Markdown: a heading and a table for each page with public names."""
     order = re.search(
         r"```{toctree}(.*?)```", (_PAGES / "index.md").read_text("utf-8"), re.DOTALL
     )[1]
@@ -62,7 +63,7 @@ def index():
 
 
 def words_for_quantities():
-    """Entries of the glossary for the words of `SYNONYMS`."""
+    """Return entries of the glossary for the words of `SYNONYMS`."""
     entries = []
     for row in SYNONYMS:
         names = " and ".join(map(_linked, row.meanings[0]))
@@ -72,7 +73,7 @@ def words_for_quantities():
 
 
 def _linked(quantity):
-    """The name of a quantity with a link to the first result that describes it."""
+    """Return the name of a quantity with a link to the first result that describes it."""
     owners = mdr_core.Indentation, mdr_core.Impact, mdr_core.Motion
     owner = next((each.__name__ for each in owners if hasattr(each, quantity)), None)
     return f"`{owner}.{quantity}`" if owner else f"``{quantity}``"
@@ -81,7 +82,7 @@ def _linked(quantity):
 def _write_index(app, docname, source):
     if docname == "reference/index":
         source[0] = source[0].replace(_PLACE, index())
-        # It changes with docstrings and with the other pages, too.
+        # It also changes with docstrings and with the other pages.
         app.env.note_reread()
     if docname == "words":
         source[0] = source[0].replace(_QUANTITIES, words_for_quantities())
@@ -93,13 +94,13 @@ def _bases(app, name, owner, options, bases):
 
 
 def _signature(app, what, name, thing, options, signature, returns):
-    """No arguments of results, which nobody makes by hand."""
+    """Remove the arguments of results, which only solvers make."""
     made_here = isinstance(thing, type) and issubclass(thing, Record)
     return ("", None) if made_here else None
 
 
 def _tidy(app, doctree):
-    """Remove lines of base classes that say nothing."""
+    """Remove the line "Bases: object"."""
     for line in list(doctree.findall(nodes.paragraph)):
         if line.astext() == "Bases: object":
             line.parent.remove(line)
