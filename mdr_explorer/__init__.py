@@ -84,9 +84,7 @@ def _parser() -> ArgumentParser:
     )  # fmt: skip
     parser.add_argument("--port", type=int, default=5006, help="port of the server, by default 5006")
     parser.add_argument("--show", action="store_true", help="open the explorer in the browser")
-    parser.add_argument(
-        "--static", metavar="FOLDER", type=Path, help="write the explorer there instead of serving it"
-    )
+    parser.add_argument("--static", metavar="FOLDER", type=Path, help="write it there, do not serve it")
     told = "with --static: the folder of a whole Pyodide, or the address from which browsers load it"
     parser.add_argument("--pyodide", metavar="URL-or-folder", default="", help=told)
     parser.add_argument("--version", action="version", version=f"mdr-core {__version__}")

@@ -80,8 +80,8 @@ def mathml(writer, node):
     raise nodes.SkipNode
 
 
-#: Pages of files that the README links: texts by their path in the tree, a script by its
-#: path in this folder.
+#: Pages of files that the README links: texts by their path in the tree, a script by
+#: its path in this folder.
 PAGES = {
     "assets/theory.md": "theory",
     "assets/accuracy.md": "accuracy",

@@ -1,8 +1,8 @@
 """Index of the public names in the reference, and the base classes that it shows.
 
 The index combines the reference pages and the first lines of the docstrings. It
-replaces the comment `% index of names` in `reference/index.md`. Words for quantities are
-added to the glossary.
+replaces the comment `% index of names` in `reference/index.md`. Words for quantities
+are added to the glossary.
 """
 
 import re
@@ -27,7 +27,7 @@ _BASES = mdr_core.Profile, Result, ImpactResult, Fit, OliverPharr, ValueError, s
 
 
 def public(documented):
-    """Return the name of a directive if it is public, with the functions of a module."""
+    """Return the name of a directive if it is public, and functions of a module."""
     name = documented.removeprefix("mdr_core.")
     if name not in mdr_core.__all__:
         return []
@@ -57,7 +57,10 @@ def index():
         if names:
             lines = "\n".join(f"   {name}" for name in names)
             title = text.partition("\n")[0].removeprefix("# ")
-            table = f".. currentmodule:: mdr_core\n\n.. autosummary::\n   :nosignatures:\n\n{lines}"
+            head = (
+                ".. currentmodule:: mdr_core\n\n.. autosummary::\n   :nosignatures:\n\n"
+            )
+            table = head + lines
             parts.append(f"## [{title}]({page}.md)\n\n```{{eval-rst}}\n{table}\n```\n")
     return "\n".join(parts)
 
@@ -73,7 +76,7 @@ def words_for_quantities():
 
 
 def _linked(quantity):
-    """Return the name of a quantity with a link to the first result that describes it."""
+    """Return a quantity's name with a link to the first result that has it."""
     owners = mdr_core.Indentation, mdr_core.Impact, mdr_core.Motion
     owner = next((each.__name__ for each in owners if hasattr(each, quantity)), None)
     return f"`{owner}.{quantity}`" if owner else f"``{quantity}``"
