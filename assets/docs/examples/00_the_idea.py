@@ -2,8 +2,8 @@
 The idea in one picture
 =======================
 
-A body in a half-space, the row of springs that is equivalent to it, and what follows: force and pressure.
-The README shows this figure, ``assets/idea.svg``.
+A body in a half-space, the equivalent row of springs, and the results: force and
+pressure. The README shows this figure, ``assets/idea.svg``.
 """
 
 import matplotlib.pyplot as plt
@@ -40,3 +40,4 @@ curves.set(xlabel="depth d (nm)", ylabel="F (µN), sum of the springs")
 inset = curves.inset_axes((0.55, 0.24, 0.42, 0.36), xlabel="r (nm)", ylabel="p (GPa)")
 inset.plot(r, state.pressure(over) / 1e9, color="#c2410c")
 curves.set_title("3  Force and pressure")
+plt.show()

@@ -2,8 +2,8 @@ r"""
 Size effect and first yield
 ===========================
 
-The mean pressure under a sphere follows Hertz up to first yield, reaches a maximum, and falls as
-:math:`q_c/a` with the contact radius: small contacts are harder.
+The mean pressure under a sphere follows Hertz up to first yield and reaches a maximum.
+Then it falls as :math:`q_c/a` with the contact radius: small contacts are harder.
 """
 
 import matplotlib.pyplot as plt
@@ -36,3 +36,4 @@ plt.gca().set(
     xlabel="contact radius a (nm)", ylabel="mean pressure (GPa)", ylim=(0.1, 30)
 )
 plt.legend(title="dots: first yield")
+plt.show()

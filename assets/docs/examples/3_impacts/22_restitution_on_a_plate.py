@@ -2,9 +2,10 @@
 Restitution on a plate
 ======================
 
-Steel balls of 10 mm hit carbon-fibre plates of 1 to 32 mm at 0.1 to 10 m/s. Bending waves carry energy
-away. Without yield the restitution depends on λ = m^(3/5) (k² v)^(1/5)/Z alone, with k = 4/3 E* √R: all
-plates are on Zener's curve (1941), of s″ + (1 + λ d/dτ) s^(3/2) = 0. With yield they part.
+Steel balls of 10 mm hit carbon-fibre plates of 1 to 32 mm at 0.1 to 10 m/s. Bending
+waves carry energy away. Without yield the restitution depends only on
+λ = m^(3/5) (k² v)^(1/5)/Z, with k = 4/3 E* √R. All plates are on Zener's curve (1941),
+of s″ + (1 + λ d/dτ) s^(3/2) = 0. With yield the curves separate.
 """
 
 import matplotlib.pyplot as plt
@@ -49,3 +50,4 @@ for ax, (title, medium) in zip(axes, media.items(), strict=True):
         ax.semilogx(lam, hit.restitution, label=f"{h * 1e3:g} mm")
     ax.set(xlabel="λ", ylabel="coefficient of restitution", title=title)
 axes[1].legend()
+plt.show()

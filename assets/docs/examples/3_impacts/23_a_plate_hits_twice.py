@@ -2,9 +2,9 @@
 A plate hits twice
 ==================
 
-A steel ball of 12.7 mm hits the laminate of Sun and Chen (200 mm × 200 mm × 2.69 mm) at 3 m/s. Without
-edges the ball nearly stops. With edges the waves come back, and the plate hits the ball a second time:
-the restitution is 0.18 instead of 0.03.
+A steel ball of 12.7 mm hits the laminate of Sun and Chen (200 mm × 200 mm × 2.69 mm)
+at 3 m/s. Without edges the ball nearly stops. With edges the waves come back, and the
+plate hits the ball a second time. The restitution is then 0.18 instead of 0.03.
 """
 
 import matplotlib.pyplot as plt
@@ -43,3 +43,4 @@ force.set(ylabel="force (N)")
 force.legend()
 way.set(xlabel="time (µs)", ylabel="displacement (µm)")
 way.legend(ncols=2)
+plt.show()

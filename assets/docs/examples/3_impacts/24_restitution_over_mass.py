@@ -2,9 +2,10 @@
 Restitution over the mass of the body
 =====================================
 
-Bodies with a tip radius of 10 mm hit the middle of a simply supported plate of 120 mm × 120 mm × 4 mm at
-3 m/s. A light body leaves before waves are back from the edges; a heavy body meets a spring. Between them
-the plate swings back, early or late, and may hit the body more than once.
+Bodies with a tip radius of 10 mm hit the middle of a simply supported plate at 3 m/s.
+The plate has 120 mm × 120 mm × 4 mm. A light body leaves before waves are back from the
+edges; a heavy body meets a spring. Between them the plate swings back, early or late,
+and may hit the body more than once.
 """
 
 import matplotlib.pyplot as plt
@@ -34,3 +35,4 @@ ax.set(
     ylabel="coefficient of restitution",
 )
 ax.legend()
+plt.show()

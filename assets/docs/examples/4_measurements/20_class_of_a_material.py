@@ -2,13 +2,15 @@
 Which class is my material?
 ===========================
 
-Fused silica under a Berkovich tip (micromechanics, MIT licence, in ``assets``), loaded and unloaded. A fit
-with a constant hardness, class (a), misses the force by a third of a percent; a fit with a hardness
-:math:`q_c/a`, class (b), by five times as much. ``fit.classes`` has the fit of each class alone. The report
-names the classes that the curve does not rule out, and the assumptions.
+Fused silica under a Berkovich tip (micromechanics, MIT licence, in ``assets``), loaded
+and unloaded. A fit with a constant hardness, class (a), misses the force by a third of
+a percent. A fit with a hardness :math:`q_c/a`, class (b), misses it by five times as
+much. ``fit.classes`` has the fit of each class alone. The report lists the classes that
+the curve does not rule out, and the assumptions.
 
-The modulus and the hardness belong to the model, whose contact sinks in as an elastic contact and is
-smaller than the contact of Oliver and Pharr. Instruments report Oliver and Pharr's hardness.
+The modulus and the hardness belong to the model. Its contact sinks in like an elastic
+contact, and is smaller than the contact of Oliver and Pharr. Instruments report Oliver
+and Pharr's hardness.
 """
 
 import matplotlib.pyplot as plt
@@ -43,3 +45,4 @@ for letter, free in (("a", "hardness"), ("b", "q_c"), ("c", "f_c")):
 upper.set(ylabel="F (mN)")
 upper.legend()
 lower.set(xlabel="measured depth (µm)", ylabel="residual (mN)")
+plt.show()

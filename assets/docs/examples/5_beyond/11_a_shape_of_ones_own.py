@@ -1,9 +1,10 @@
 """
-A shape of one's own
-====================
+Your own shape
+==============
 
-Height, reduced height and its slope are enough. This shape is the sum of a cone and a paraboloid. Its
-reduced height is the sum of their reduced heights, because the transform (Popov 2015, Eq. (3)) is linear.
+Height, reduced height and its slope are enough. This shape is the sum of a cone and a
+paraboloid. Its reduced height is the sum of their reduced heights, because the
+transform (Popov 2015, Eq. (3)) is linear.
 """
 
 from dataclasses import dataclass
@@ -39,3 +40,4 @@ for shape in (Pencil(0.1, 1e-6), mdr.Cone(0.1), mdr.Paraboloid(1e-6)):
     )
 plt.gca().set(xlabel="d (nm)", ylabel="F (µN)")
 plt.legend()
+plt.show()
