@@ -68,7 +68,7 @@ def test_a_fit_of_a_layer_is_too_stiff_by_what_is_said():
             force = 4 / 3 * E * np.sqrt(R) * depth**1.5 * series
             fit = mdr.fit_indentation(mdr.Paraboloid(R), depth, force, q_c=np.inf, **held)
             ratios.append(f"{fit.medium.E_star / E:.3g}")
-    (text,) = re.findall(r"For a ball with R = 2\.5 h.*? Adhesion", TEXT)
+    (text,) = re.findall(r"For a ball with R = 2\.5 h.*?Adhesion", TEXT)
     assert re.findall(r"\d\.\d\d", text) == ratios
 
 
