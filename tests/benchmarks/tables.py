@@ -12,12 +12,13 @@ tamaas and ContactMechanics solve other problems: the contact of any rough surfa
 friction, adhesion and plasticity. Here they solve an elastic cone, non-periodic, set up and warm
 before the clock starts."""
 
-_LAMMPS = """A ball of aluminium oxide (E = 380 GPa, ν = 0.23, radius 2.5 mm, μ = 0.092) hits a plane of the
-same material at 3.9 m/s, at an angle to the normal. It is test 4 of Chung and Ooi (Granular Matter 13,
-2011) without damping. `oblique_impact` and a brute-force chain of {cells} cells share no solver; they
-differ by {differ} at most, and the sum of their stated errors is {bound}. LAMMPS takes {steps} steps in the
-contact time; with half as many no speed changes by more than {change}. Its columns are its tangential options,
-with "…" for `mindlin`, and with stiffnesses from the material (`NULL`). Speeds are those of the centre."""
+_LAMMPS = """A ball of aluminium oxide (E = 380 GPa, ν = 0.23, radius 2.5 mm, μ = 0.092) hits a
+plane of the same material at 3.9 m/s, at an angle to the normal. It is test 4 of Chung and Ooi
+(Granular Matter 13, 2011) without damping. `oblique_impact` and a brute-force chain of {cells}
+cells share no solver; they differ by {differ} at most, and the sum of their stated errors is
+{bound}. LAMMPS takes {steps} steps in the contact time; with half as many no speed changes by more
+than {change}. Its columns are its tangential options, with "…" for `mindlin`, and with stiffnesses
+from the material (`NULL`). Speeds are those of the centre."""
 
 _DAMPINGS = """The same ball hits the plane along the normal under `hertz/material`, with the damping named
 above each column. Columns "limited" have `limit_damping`: the contact force never attracts. SciPy's
