@@ -14,16 +14,10 @@ from scipy.integrate import solve_ivp
 
 import mdr_core as mdr
 
-ball, mass, E_star, speed = (
-    mdr.Paraboloid(radius=5e-3),
-    4.1e-3,
-    10e9,
-    np.geomspace(0.1, 10.0, 25),
-)
-media = {
-    "no yield": mdr.Medium(E_star),
-    "hardness 0.5 GPa": mdr.Medium(E_star, hardness=5e8),
-}
+ball, mass, E_star = mdr.Paraboloid(radius=5e-3), 4.1e-3, 10e9
+speed, k = np.geomspace(0.1, 10.0, 25), 4 / 3 * E_star * np.sqrt(ball.radius)
+hard = mdr.Medium(E_star, hardness=5e8)
+media = {"no yield": mdr.Medium(E_star), "hardness 0.5 GPa": hard}
 
 
 def zener(lam):
@@ -42,11 +36,7 @@ for ax, (title, medium) in zip(axes, media.items(), strict=True):
     for h in (1e-3, 2e-3, 4e-3, 8e-3, 16e-3, 32e-3):
         plate = mdr.Structure.plate(thickness=h, E=50e9, nu=0.3, density=1600.0)
         hit = mdr.impact(ball, medium, mass, speed, structure=plate)
-        lam = (
-            mass**0.6
-            * ((4 / 3 * E_star) ** 2 * ball.radius * speed) ** 0.2
-            / plate.impedance
-        )
+        lam = mass**0.6 * (k**2 * speed) ** 0.2 / plate.impedance
         ax.semilogx(lam, hit.restitution, label=f"{h * 1e3:g} mm")
     ax.set(xlabel="λ", ylabel="coefficient of restitution", title=title)
 axes[1].legend()

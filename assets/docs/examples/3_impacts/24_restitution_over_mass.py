@@ -24,15 +24,10 @@ hit = mdr.impact(ball, medium, ratio * plate_mass, speed, structure=modes)
 ax.semilogx(ratio, hit.restitution, "C0", lw=2, label="by its modes")
 endless = mdr.Structure.plate(**plate)
 support = mdr.Structure(stiffness=modes.stiffness)
-for structure, style, name in (
-    (endless, "k:", "without edges"),
-    (support, "k--", "support"),
-):
+limits = (endless, "k:", "without edges"), (support, "k--", "support")
+for structure, style, name in limits:
     hit = mdr.impact(ball, medium, ratio * plate_mass, speed, structure=structure)
     ax.semilogx(ratio, hit.restitution, style, lw=1, label=name)
-ax.set(
-    xlabel="mass of the body over that of the plate",
-    ylabel="coefficient of restitution",
-)
+ax.set(xlabel="body mass over plate mass", ylabel="coefficient of restitution")
 ax.legend()
 plt.show()
