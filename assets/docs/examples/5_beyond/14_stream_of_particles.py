@@ -30,9 +30,8 @@ elastic = float((hits.damaged_area == 0).mean())
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
 left.hist(hits.restitution, bins=100)
-label = f"without yield: {elastic:.1%}"
-left.annotate(label, (0.99, 0.95), (0.9, 0.95), "axes fraction", ha="right")
 left.set(xlabel="coefficient of restitution", ylabel="particles")
+left.set(title=f"e = 1 without yield: {elastic:.1%} of the particles")
 right.hist(hits.damaged_area * 1e12, bins=np.geomspace(1, 1e4, 100))
 right.set(xlabel="damaged area (µm²)", ylabel="particles", xscale="log")
 plt.show()
