@@ -1,14 +1,14 @@
-"""Erosion of a composite by a stream of particles: damage, its spread, and what a million of them cost.
+"""Erosion of a composite by a stream of particles: damage, its spread, and the time of a million particles.
 
     python assets/erosion.py --particles 1e7 --workers 2
     python assets/erosion.py --attack
 
-Radii are lognormal, speeds Weibull: random numbers are drawn chunk by chunk on the workers, every impact is
-solved, and sums and histograms are all that is kept, so that memory does not grow with the number. It needs
+Radii are lognormal, speeds Weibull. The workers draw random numbers chunk by chunk and solve every impact.
+They keep only sums and histograms, so that memory does not grow with the number. The script needs
 `pip install ".[sweep]" matplotlib`, in the folder of the project.
 
 With `--attack` one particle comes at all angles of attack: plastic and friction work on the composite, and
-beside it on a medium of constant hardness, which gives nothing back and has closed forms.
+for comparison on a medium of constant hardness, which returns no energy and has closed forms.
 """
 
 import argparse
@@ -98,9 +98,9 @@ def picture(kept, particles, name):
 def at_all_angles(radius=25e-6, speed=30.0, friction=0.2, number=90):
     """Plastic and friction work (J) over the angle of attack, of the composite and at constant hardness.
 
-    Without rebound, the point of contact slips until the normal motion ends, or sticks before: with its
-    speed W and m_t = 2m/7, W_f = μ m v (W − μ (m/m_t) v/2), at most ½ m_t W². Where it slips throughout,
-    this is largest at tan 2α = 2 m_t/(μ m).
+    Without rebound, the point of contact slips until the normal motion ends, or sticks before. With its
+    speed W and m_t = 2m/7, W_f = μ m v (W − μ (m/m_t) v/2), at most ½ m_t W². For slip throughout, this is
+    largest at tan 2α = 2 m_t/(μ m).
     """
     attack = xr.DataArray(np.radians(np.linspace(1.0, 90.0, number)), dims="attack")
     mass = DENSITY * 4 / 3 * np.pi * radius**3

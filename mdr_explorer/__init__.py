@@ -1,4 +1,4 @@
-"""The command `mdr-explorer`, which serves the explorer wherever the package is installed, or writes it."""
+"""The command `mdr-explorer`, which serves the explorer or writes it as a folder."""
 
 import errno
 import socket
@@ -11,13 +11,13 @@ from pathlib import Path
 from mdr_core import __version__
 
 _HERE = Path(__file__).parent
-#: The folder that is served: in the wheel it is in this package, in the tree beside it.
+#: The served folder: inside this package in the wheel, next to it in the tree.
 APP = next(path for path in (_HERE / "app", _HERE.parent / "app") if (path / "main.py").is_file())
 
-#: What a server that is open to all needs; an option that is given holds instead of the one here. A message
+#: Default options of a server that is open to all; an option of the user replaces the one here. A message
 #: has at most 8 MB. A page has ten minutes to connect, and a session without its page ends after the same
-#: time. Of a request a page is told the host and the theme alone: other cookies and headers may have
-#: secrets of a sign-on.
+#: time. A page sees only the host and the theme of a request: other cookies and headers may have secrets
+#: of a sign-on.
 OPTIONS = (
     "--include-headers", "Host", "--include-cookies", "dark", "--websocket-max-message-size", "8000000",
     "--session-token-expiration", "600", "--check-unused-sessions", "15000",
@@ -37,8 +37,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     ----------
     arguments : sequence of str, optional
         Options of `panel serve`, such as ``--show`` (opens the browser) or ``--port 5007``; by default
-        those of the command line. They hold instead of those in `OPTIONS`. Or ``--static FOLDER``, which
-        writes the explorer for a host of files; ``--pyodide`` is the folder of a whole Pyodide, or the
+        the options of the command line. They replace those in `OPTIONS`. ``--static FOLDER`` writes the
+        explorer for a host of files instead; ``--pyodide`` is the folder of a whole Pyodide, or the
         address from which browsers load it.
 
     Raises
@@ -62,13 +62,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
         _check_free(given.port)
     shown = ["--show"] if given.show else []
     _allow_sockets()
-    # Panel takes its arguments from here alone.
+    # Panel reads its arguments only from here.
     sys.argv = ["panel", "serve", str(APP), *OPTIONS, "--port", str(given.port), *shown, *others]
     panel()
 
 
 def _allow_sockets() -> None:
-    """Take as many files and sockets as the system allows: by default it is often 1024, each person one."""
+    """Raise the limit of open files and sockets, often 1024, to the system's; each user needs one."""
     with suppress(ImportError, ValueError, OSError):
         import resource
 
@@ -77,14 +77,14 @@ def _allow_sockets() -> None:
 
 
 def _parser() -> ArgumentParser:
-    """What is said and asked by the command itself."""
+    """Return the parser of the options that the command handles without Panel."""
     parser = ArgumentParser(
         "mdr-explorer", description=_ABOUT, epilog=_MORE, formatter_class=RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )  # fmt: skip
-    parser.add_argument("--port", type=int, default=5006, help="port that is served, by default 5006")
+    parser.add_argument("--port", type=int, default=5006, help="port of the server, by default 5006")
     parser.add_argument("--show", action="store_true", help="open the explorer in the browser")
-    parser.add_argument("--static", metavar="FOLDER", type=Path, help="write it there instead of serving")
+    parser.add_argument("--static", metavar="FOLDER", type=Path, help="write it there, do not serve it")
     told = "with --static: the folder of a whole Pyodide, or the address from which browsers load it"
     parser.add_argument("--pyodide", metavar="URL-or-folder", default="", help=told)
     parser.add_argument("--version", action="version", version=f"mdr-core {__version__}")
@@ -92,7 +92,7 @@ def _parser() -> ArgumentParser:
 
 
 def _check_free(port: int) -> None:
-    """End with what to do if another program has the port."""
+    """Exit with a remedy if another program uses the port."""
     with socket.socket() as tried:
         tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
@@ -100,7 +100,7 @@ def _check_free(port: int) -> None:
         except OSError as error:
             if error.errno != errno.EADDRINUSE:
                 raise
-            sys.exit(f"mdr-explorer: port {port} is in use. Choose another one, as in --port {port + 1}")
+            sys.exit(f"mdr-explorer: port {port} is in use: choose another, such as --port {port + 1}")
 
 
 def _write(given: Namespace) -> None:

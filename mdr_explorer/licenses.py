@@ -1,4 +1,4 @@
-"""LICENSES.txt of a static explorer: name, version, licence and its text of all that is in the folder."""
+"""LICENSES.txt of a static explorer: name, version, licence and licence text of each part of the folder."""
 
 import re
 import zipfile
@@ -12,8 +12,8 @@ from typing import Any
 
 _TEXTS = Path(__file__).parent / "licenses"
 _CALLED = re.compile(r"(LICEN[CS]E|COPYING|NOTICE)", re.IGNORECASE)
-_HEAD = """What is in this folder, with the licence of each part. The scripts of Bokeh and Panel
-have parts of others in them, which their sources list.
+_HEAD = """The parts of this folder, each with its licence. The scripts of Bokeh and Panel contain parts
+of other projects, which their sources list.
 """
 
 
@@ -31,17 +31,17 @@ class Licensed:
 
 
 def _text(name: str, holder: str = "") -> str:
-    """A licence whose text is not in the package itself."""
+    """Return the text of a licence that the package does not contain."""
     text = (_TEXTS / f"{name}.txt").read_text(encoding="utf-8")
     return f"{holder}\n\n{text}" if holder else text
 
 
 def _of(metadata: Message, texts: Iterable[str], where: str) -> Licensed:
-    """A package by its metadata. Raises ValueError if it has no text of its licence."""
+    """Return a package from its metadata. Raise ValueError if its licence text is missing."""
     name, found = metadata["Name"], "\n\n".join(texts)
     short = metadata["License-Expression"] or (metadata["License"] or "").strip().split("\n")[0]
     named = [each.split(" :: ")[-1] for each in metadata.get_all("Classifier", ()) if "License ::" in each]
-    # Some packages have the text itself in the field for the name.
+    # Some packages have the licence text in the field for its name.
     short = "" if short.startswith("Copyright") else short
     if not found:
         raise ValueError(f"{where} has no text of the licence of {name}, which must be in the folder")
@@ -49,7 +49,7 @@ def _of(metadata: Message, texts: Iterable[str], where: str) -> Licensed:
 
 
 def of_package(name: str) -> Licensed:
-    """A package of this environment."""
+    """Return a package of this environment."""
     package = distribution(name)
     kept = [file for file in package.files or () if _CALLED.match(file.name) and ".dist-info" in str(file)]
     texts = [Path(str(file.locate())).read_text(encoding="utf-8") for file in kept]
@@ -57,7 +57,7 @@ def of_package(name: str) -> Licensed:
 
 
 def of_wheel(path: Path) -> Licensed:
-    """A package in a file."""
+    """Return a package in a wheel."""
     with zipfile.ZipFile(path) as wheel:
         names = [name for name in wheel.namelist() if ".dist-info/" in name]
         kept = [name for name in names if _CALLED.match(name.rsplit("/", 1)[1])]
@@ -67,7 +67,7 @@ def of_wheel(path: Path) -> Licensed:
 
 
 def of_runtime(lock: Mapping[str, Any]) -> Iterator[Licensed]:
-    """The runtime: Pyodide, and what is compiled into it."""
+    """Yield the runtime: Pyodide and the programs compiled into it."""
     info = lock["info"]
     source = "Source: https://github.com/pyodide/pyodide"
     yield Licensed("Pyodide", info["version"], "MPL-2.0", _text("MPL-2.0", source))
@@ -77,19 +77,19 @@ def of_runtime(lock: Mapping[str, Any]) -> Iterator[Licensed]:
     yield Licensed("Emscripten", emscripten, "MIT", _text("MIT", holders))
 
 
-#: Libraries of the lock that are no packages of Python, with their licences and holders.
+#: Libraries of the lock that are not Python packages, with their licences and holders.
 LIBRARIES = {"openblas": ("BSD-3-Clause", "Copyright (c) 2011-2014, The OpenBLAS Project")}
 
 
 def of_library(name: str, version: str) -> Licensed:
-    """A compiled library. Raises ValueError if its licence is not known here."""
+    """Return a compiled library. Raise ValueError if its licence is unknown."""
     if name not in LIBRARIES:
         raise ValueError(f"the licence of the library {name} is not known, and it must be in the folder")
     licence, holder = LIBRARIES[name]
     return Licensed(name, version, licence, _text(licence, holder))
 
 
-#: Scripts of others that come with Panel, by the folders in which it has them.
+#: Scripts of other projects in Panel, by their folders.
 SCRIPTS = {
     "es-module-shims": ("MIT", "Copyright (C) 2018-2021 Guy Bedford"),
     "notyf": ("MIT", "Copyright (c) 2016 Carlos Roso"),
@@ -98,12 +98,12 @@ SCRIPTS = {
 
 
 def of_script(name: str, version: str) -> Licensed:
-    """A script for the browser that comes with Panel."""
+    """Return a browser script that comes with Panel."""
     licence, holder = SCRIPTS[name]
     return Licensed(name, version, licence, _text(licence, holder))
 
 
 def written(parts: Iterable[Licensed]) -> str:
-    """All of them as one text."""
+    """Return all parts as one text."""
     line = "\n" + 80 * "-" + "\n"
     return line.join([_HEAD, *map(str, sorted(parts, key=lambda part: part.name.lower()))])

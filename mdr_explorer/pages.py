@@ -1,4 +1,4 @@
-"""Pages of a static explorer, and the scripts and style sheets that they ask for."""
+"""Pages of a static explorer, with their scripts and style sheets."""
 
 import json
 import re
@@ -10,9 +10,9 @@ from string import Template
 from . import APP, licenses
 
 _HERE = Path(__file__).parent
-#: Compiled packages that are loaded from Pyodide, with what its lock names for them.
+#: Compiled packages, loaded from Pyodide with their dependencies in its lock.
 COMPILED = ("numpy", "scipy")
-#: What is imported one after the other: share of the bar then, module, what is told, and about its seconds.
+#: Imports in their order: share of the progress bar, module, message, and seconds of this import.
 IMPORTS = (
     (0.46, "numpy", "Starting NumPy", 0.5), (0.5, "scipy.special", "Starting SciPy", 0.7),
     (0.54, "scipy.optimize", "Starting SciPy", 1), (0.58, "scipy.integrate", "Starting SciPy", 0.5),
@@ -25,17 +25,17 @@ _OF_BOKEH = ("js/bokeh.min.js", "js/bokeh-widgets.min.js", "js/bokeh-tables.min.
 _SHIMS = "bundled/reactiveesm/es-module-shims@^1.10.0/dist/es-module-shims.min.js"
 _NOTICES = "bundled/notificationarea/notyf@3"
 _KATEX = "bundled/katex/katex@0.16.22/dist"
-#: What its components ask for when they are drawn, 200 kB of the 107 MB of Panel.
+#: Files that Panel's components load when they are drawn, 200 kB of its 107 MB.
 _ASKED = ("css", "bundled/theme", "bundled/font-awesome/css")
 
 
 def write(folder: Path, pyodide: str, integrity: dict[str, str]) -> list[licenses.Licensed]:
-    """Write the pages and what they ask for, and return whose scripts these are.
+    """Write the pages with their files, and return the licences of their scripts.
 
     `pyodide` is the address of Pyodide, `integrity` has digests of its scripts by their addresses.
     """
     if str(APP.parent) not in sys.path:
-        # As a server has it.
+        # Like a server.
         sys.path.insert(0, str(APP.parent))
     import bokeh
     import panel
@@ -52,7 +52,7 @@ def write(folder: Path, pyodide: str, integrity: dict[str, str]) -> list[license
     sheets = [f"{own}/{_NOTICES}/notyf.min.css", f"{own}/css/notifications.css"]
     for name in (*_ASKED, _SHIMS, _NOTICES + "/notyf.min.js", _NOTICES + "/notyf.min.css", "panel.min.js"):
         _copy(dist / name, folder / own / name)
-    # By this address Panel asks for it when a notice is first shown.
+    # Panel loads it from this address when it shows the first notice.
     _copy(dist / _NOTICES / "notyf.min.css", folder / "static/npm/notyf@3/notyf.min.css")
     for name in ("katex.min.js", "contrib/auto-render.min.js"):
         _copy(dist / _KATEX / name, folder / "static/npm/katex" / Path(name).name)

@@ -1,5 +1,5 @@
-// The start of the explorer: Python and its packages are loaded side by side, then imported one after the other, with a
-// bar, over a drawing of the opening scene that plays by itself; the page takes its place.
+// The start of the explorer. It loads Python and its packages in parallel, then imports them one after the other, with a
+// bar. Meanwhile a drawing of the opening scene plays; then the page replaces it.
 const panel = document.getElementById("start"), said = panel.querySelector("p"), bar = panel.querySelector("i")
 const here = (path) => new URL(path, document.baseURI).href
 // The browser paints between the steps; a page that is not seen is not painted.

@@ -1,4 +1,4 @@
-"""The README's table of what goes with what: each cell is run."""
+"""The limits of the model and the table of supported combinations: each cell is run."""
 
 import re
 from pathlib import Path
@@ -10,11 +10,13 @@ import mdr_core as mdr
 
 from .laws import NixGao
 
-README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+LIMITS = (Path(__file__).parents[1] / "assets" / "docs" / "limits.md").read_text(encoding="utf-8")
+#: In one line, wherever the page breaks its lines.
+TEXT = " ".join(LIMITS.split())
 #: Answers of the table by function and column.
 TABLE = {
     name: ["yes" if cell == "no effect" else cell.split()[0] for cell in cells.split(" | ")]
-    for name, cells in re.findall(r"^\| [^|]+ \| `(\w+)` \| (.*) \|$", README, re.MULTILINE)
+    for name, cells in re.findall(r"^\| [^|]+ \| `(\w+)` \| (.*) \|$", LIMITS, re.MULTILINE)
 }
 TIP = mdr.Paraboloid(radius=1e-5)
 DEPTH = np.array([0.0, 5e-8, 1e-7, 5e-8])
@@ -44,14 +46,14 @@ def test_the_restitution_on_a_plate_is_the_exponential_in_the_range_that_is_said
     """exp(−1.72 λ) against impacts of paraboloids, and the ball on the laminate of `Structure`."""
     laminate = mdr.Structure.laminate(D11=293.0, D12=87.9, D22=293.0, D66=102.55, mass_per_area=6.4)
     hit = mdr.impact(mdr.Sphere(5e-3), mdr.Medium(10e9), 4.1e-3, 5.0, structure=laminate)
-    assert f"returns with {hit.restitution:.2f} of its speed" in README
+    assert f"returns with {hit.restitution:.2f} of its speed" in TEXT
     lam, mass, speed, E, R = np.append(np.linspace(0.01, 1, 100), 2.0), 1e-3, 1.0, 1e9, 1e-2
     k = 4 / 3 * E * np.sqrt(R)
     plates = mdr.Structure(impedance=mass**0.6 * (k**2 * speed) ** 0.2 / lam)
     e = mdr.impact(mdr.Paraboloid(R), mdr.Medium(E), mass, speed, structure=plates).restitution
     *within, beyond = np.exp(-1.72 * lam) / e - 1
-    assert f"exp(−1.72 λ), within {100 * max(map(abs, within)):.1f} % up to λ = 1" in README
-    assert f"{100 * beyond:.0f} % too large" in README
+    assert f"exp(−1.72 λ), within {100 * max(map(abs, within)):.1f} % up to λ = 1" in TEXT
+    assert f"{100 * beyond:.0f} % too large" in TEXT
 
 
 def test_a_fit_of_a_layer_is_too_stiff_by_what_is_said():
@@ -66,7 +68,7 @@ def test_a_fit_of_a_layer_is_too_stiff_by_what_is_said():
             force = 4 / 3 * E * np.sqrt(R) * depth**1.5 * series
             fit = mdr.fit_indentation(mdr.Paraboloid(R), depth, force, q_c=np.inf, **held)
             ratios.append(f"{fit.medium.E_star / E:.3g}")
-    (text,) = re.findall(r"With a ball of R = 2\.5 h[^-]*", README)
+    (text,) = re.findall(r"For a ball with R = 2\.5 h.*?Adhesion", TEXT)
     assert re.findall(r"\d\.\d\d", text) == ratios
 
 
@@ -94,7 +96,7 @@ def test_a_drive_takes_a_medium_where_the_table_says_so(name, column):
 def test_a_slow_path_does_not_depend_on_the_viscosity(name):
     """The table's "no effect"."""
     media = [mdr.Medium(E_star=1e9, q_c=100.0, eta=eta) for eta in (0.0, 1e3)]
-    assert re.search(rf"`{name}` .*no effect", README)
+    assert re.search(rf"`{name}` .*no effect", LIMITS)
     assert np.array_equal(*map(DRIVES[name], media))
 
 

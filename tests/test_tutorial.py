@@ -20,6 +20,7 @@ def test_the_first_hour_shows_what_it_describes(monkeypatch):
         pytest.importorskip(package)
     plt = pytest.importorskip("matplotlib.pyplot")
     plt.switch_backend("Agg")
+    monkeypatch.setattr(plt, "show", lambda: None)
     monkeypatch.chdir(SCRIPT.parent)
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
@@ -36,7 +37,7 @@ def test_the_first_hour_shows_what_it_describes(monkeypatch):
     assert names["fit"].quoted.value == pytest.approx(69.6e9, rel=0.005)
     # Of a constant hardness, which fits clearly better.
     assert min(names["fit"].classes, key=lambda letter: names["fit"].classes[letter].misfit) == "a"
-    # A thick block gives all energy back, a plate does not: exp(-1.72 λ), here to 4.2 % (README).
+    # A thick block gives all energy back, a plate does not: exp(-1.72 λ), here to 4.2 % (limits).
     assert names["block"].restitution == pytest.approx(1.0, abs=1e-9)
     plate, ball, speed = names["plate"], names["ball"], names["speed"]
     stiffness = 4 / 3 * 10e9 * ball.radius**0.5

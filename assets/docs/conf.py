@@ -1,4 +1,4 @@
-"""Configuration of the documentation, which the README has the command for."""
+"""Configuration of the documentation; the README has the command that builds it."""
 
 import os
 import sys
@@ -80,7 +80,8 @@ def mathml(writer, node):
     raise nodes.SkipNode
 
 
-#: Pages of files that the README links: texts by their place in the tree, a script by that in this folder.
+#: Pages of files that the README links: texts by their path in the tree, a script by
+#: its path in this folder.
 PAGES = {
     "assets/theory.md": "theory",
     "assets/accuracy.md": "accuracy",
@@ -91,35 +92,43 @@ PAGES = {
 
 
 def drop_download_notes(app, doctree):
-    """Remove the box on top of each example, which leads to the end of a page that is short."""
+    """Remove the box on top of each example, a link to the end of a short page."""
     for note in list(doctree.findall(nodes.note)):
         if "sphx-glr-download-link-note" in note["classes"]:
             note.parent.remove(note)
 
 
 def link_pages(app, doctree):
-    """Lead links to files of the tree to their pages."""
+    """Replace links to files of the tree by links to their pages."""
     for link in doctree.findall(addnodes.pending_xref):
         file, _, anchor = link["reftarget"].partition("#")
         if file in PAGES:
             link.update_all_atts(
-                {"refdomain": "doc", "reftarget": PAGES[file], "reftargetid": anchor}, replace=True
+                {"refdomain": "doc", "reftarget": PAGES[file], "reftargetid": anchor},
+                replace=True,
             )
     # A script of the gallery would be a file to download.
     for link in list(doctree.findall(addnodes.download_reference)):
         page = PAGES.get(link["reftarget"])
         if page:
-            told = {"refdomain": "std", "reftype": "doc", "reftarget": f"/{page}", "refexplicit": True}
-            link.replace_self(addnodes.pending_xref("", *link.children, refdoc=link["refdoc"], **told))
+            told = {
+                "refdomain": "std",
+                "reftype": "doc",
+                "reftarget": f"/{page}",
+                "refexplicit": True,
+            }
+            link.replace_self(
+                addnodes.pending_xref("", *link.children, refdoc=link["refdoc"], **told)
+            )
 
 
 def save_scene(app, error):
-    """Write the scene that stands on the first page."""
+    """Write the scene of the first page."""
     Path(app.outdir, "scene.html").write_text(scene_file(Page().view), encoding="utf-8")
 
 
 def write_explorer(app, error):
-    """Write the explorer that runs in the browser, if it is asked for by `-t explorer`: it has a size."""
+    """Write the explorer that runs in the browser with `-t explorer`; it is large."""
     if app.tags.has("explorer") and error is None:
         static.write(Path(app.outdir, "explorer"), os.environ.get("MDR_PYODIDE", ""))
 

@@ -1,7 +1,8 @@
 """Index of the public names in the reference, and the base classes that it shows.
 
-The index is made of the reference pages and the first lines of the docstrings, in the place of the comment
-`% index of names` in `reference/index.md`. Words for quantities are added to the glossary.
+The index combines the reference pages and the first lines of the docstrings. It
+replaces the comment `% index of names` in `reference/index.md`. Words for quantities
+are added to the glossary.
 """
 
 import re
@@ -21,19 +22,21 @@ _PAGES = Path(__file__).parent / "reference"
 _PLACE = "% index of names"
 #: In the glossary, the place of the words for quantities.
 _QUANTITIES = "   .. words for quantities"
-#: Base classes that a reader finds in the reference. Of others the page says nothing.
+#: Base classes in the reference. Pages do not show others.
 _BASES = mdr_core.Profile, Result, ImpactResult, Fit, OliverPharr, ValueError, str
 
 
 def public(documented):
-    """The name of a directive if it is public, with the functions of a module."""
+    """Return the name of a directive if it is public, and functions of a module."""
     name = documented.removeprefix("mdr_core.")
     if name not in mdr_core.__all__:
         return []
     if documented == name:
         return [name]
     module = import_module(documented)
-    functions = getattr(module, "__all__", None) or re.findall(r"^def ([a-z]\w*)", _text(module), re.M)
+    functions = getattr(module, "__all__", None) or re.findall(
+        r"^def ([a-z]\w*)", _text(module), re.M
+    )
     return [name, *(f"{name}.{each}" for each in functions)]
 
 
@@ -42,8 +45,10 @@ def _text(module):
 
 
 def index():
-    """Markdown with a heading and a table for each page of the reference that has public names."""
-    order = re.search(r"```{toctree}(.*?)```", (_PAGES / "index.md").read_text("utf-8"), re.DOTALL)[1]
+    """Return Markdown: a heading and a table for each page with public names."""
+    order = re.search(
+        r"```{toctree}(.*?)```", (_PAGES / "index.md").read_text("utf-8"), re.DOTALL
+    )[1]
     parts = []
     for page in re.findall(r"^[a-z]+$", order, re.M):
         text = (_PAGES / f"{page}.md").read_text(encoding="utf-8")
@@ -52,13 +57,16 @@ def index():
         if names:
             lines = "\n".join(f"   {name}" for name in names)
             title = text.partition("\n")[0].removeprefix("# ")
-            table = f".. currentmodule:: mdr_core\n\n.. autosummary::\n   :nosignatures:\n\n{lines}"
+            head = (
+                ".. currentmodule:: mdr_core\n\n.. autosummary::\n   :nosignatures:\n\n"
+            )
+            table = head + lines
             parts.append(f"## [{title}]({page}.md)\n\n```{{eval-rst}}\n{table}\n```\n")
     return "\n".join(parts)
 
 
 def words_for_quantities():
-    """Entries of the glossary for the words of `SYNONYMS`."""
+    """Return entries of the glossary for the words of `SYNONYMS`."""
     entries = []
     for row in SYNONYMS:
         names = " and ".join(map(_linked, row.meanings[0]))
@@ -68,7 +76,7 @@ def words_for_quantities():
 
 
 def _linked(quantity):
-    """The name of a quantity with a link to the first result that describes it."""
+    """Return a quantity's name with a link to the first result that has it."""
     owners = mdr_core.Indentation, mdr_core.Impact, mdr_core.Motion
     owner = next((each.__name__ for each in owners if hasattr(each, quantity)), None)
     return f"`{owner}.{quantity}`" if owner else f"``{quantity}``"
@@ -77,7 +85,7 @@ def _linked(quantity):
 def _write_index(app, docname, source):
     if docname == "reference/index":
         source[0] = source[0].replace(_PLACE, index())
-        # It changes with docstrings and with the other pages, too.
+        # It also changes with docstrings and with the other pages.
         app.env.note_reread()
     if docname == "words":
         source[0] = source[0].replace(_QUANTITIES, words_for_quantities())
@@ -89,13 +97,13 @@ def _bases(app, name, owner, options, bases):
 
 
 def _signature(app, what, name, thing, options, signature, returns):
-    """No arguments of results, which nobody makes by hand."""
+    """Remove the arguments of results, which only solvers make."""
     made_here = isinstance(thing, type) and issubclass(thing, Record)
     return ("", None) if made_here else None
 
 
 def _tidy(app, doctree):
-    """Remove lines of base classes that say nothing."""
+    """Remove the line "Bases: object"."""
     for line in list(doctree.findall(nodes.paragraph)):
         if line.astext() == "Bases: object":
             line.parent.remove(line)

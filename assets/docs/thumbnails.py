@@ -1,4 +1,4 @@
-"""Thumbnails of the gallery: one panel of a figure, drawn again so that it can be read when it is small."""
+"""Thumbnails of the gallery: one panel of a figure, drawn again for its small size."""
 
 import pickle
 from pathlib import Path
@@ -15,7 +15,7 @@ _SIZE, _DPI = (2.9, 2.03), 138
 
 
 def scraper(block, block_vars, gallery_conf):
-    """The scraper of sphinx-gallery, which also draws the panel of the thumbnail."""
+    """Run the scraper of sphinx-gallery, and draw the panel of the thumbnail."""
     image = Path(str(block_vars["image_path_iterator"].image_path))
     file = image.parent / "panels" / f"{Path(block_vars['src_file']).stem}.png"
     wanted, panel = PANELS.get(file.stem, (0, 0))
@@ -32,7 +32,9 @@ def _draw(figure, panel, file):
     copy = pickle.loads(pickle.dumps(figure))
     axes = copy.axes[panel]
     below = axes.get_shared_x_axes().get_siblings(axes)
-    label = axes.get_xlabel() or next((each.get_xlabel() for each in below if each.get_xlabel()), "")
+    label = axes.get_xlabel() or next(
+        (each.get_xlabel() for each in below if each.get_xlabel()), ""
+    )
     for other in copy.axes:
         if other is not axes:
             other.remove()
@@ -52,7 +54,7 @@ def _draw(figure, panel, file):
 
 
 def _use_panels(app):
-    """Put the panels in the places of the thumbnails that sphinx-gallery has made."""
+    """Replace sphinx-gallery's thumbnails by the panels."""
     for panel in Path(app.srcdir, "gallery").rglob("panels/*.png"):
         thumbnail = panel.parents[1] / "thumb" / f"sphx_glr_{panel.stem}_thumb.png"
         thumbnail.write_bytes(panel.read_bytes())

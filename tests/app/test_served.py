@@ -98,7 +98,7 @@ def test_a_link_is_opened_as_far_as_it_is_known_or_refused_in_words(explorer):
 def test_the_page_is_embedded_as_documented(server, context):
     """In a frame of a page from elsewhere it connects to its server and draws."""
     text = (ROOT / "assets/docs/how_do_i.md").read_text(encoding="utf-8")
-    (frame,) = re.findall(r"<iframe.*</iframe>", text)
+    (frame,) = re.findall(r"<iframe.*?</iframe>", text, re.DOTALL)
     page = context.new_page()
     page.set_content(frame.replace("https://explorer.example.org/app", server.url))
     page.frame_locator("iframe").locator("canvas").first.wait_for()

@@ -184,16 +184,17 @@ def main():
         "# Accuracy",
         "",
         f"States: worst relative error against 40-digit references, over {len(EXTREMES)} indenters "
-        f"({kinds}; exponents from 0.1 to 50) and three media (E* = 1 MPa, 1 GPa, 1 TPa), with the one "
-        "it occurs for. Pressure at r = 10⁻⁹ a and a/2, at r = c(1 ± 10⁻⁶) and at r = 0.999999 a, per unit "
-        "of its condition number in r. Within 10⁻⁶ of the threshold, plastic work and pressure have the "
-        "digits of d − d_c.",
+        "and three media (E* = 1 MPa, 1 GPa, 1 TPa), with its indenter. The indenters are "
+        f"{kinds}, with exponents from 0.1 to 50. Errors of the pressure are per unit of its condition "
+        "number in r. The radii are r = 10⁻⁹ a and a/2, r = c(1 ± 10⁻⁶) and r = 0.999999 a. Within 10⁻⁶ of "
+        "the threshold, plastic work and pressure have the digits of d − d_c.",
         "",
         *_table(("regime", *QUANTITIES), states()),
-        "Impacts without viscosity so deep, worst of cone, paraboloid, √r and r³, against 50 digits:",
+        "Impacts without viscosity to these depths, worst of cone, paraboloid, √r and r³, against 50 "
+        "digits:",
         "",
         *_table(("depth", *impact), dry_impacts()),
-        "Impacts on a viscous medium, against 40 digits and more:",
+        "Impacts on a viscous medium, against 40 or more digits:",
         "",
         *_table(("impact", *impact), (*punch_impacts(), *viscous_impacts())),
         "The chain at its tolerance of 10⁻⁶, worst of cone, paraboloid and flat punch:",
@@ -205,11 +206,11 @@ def main():
             ("scene", "other solution", "its e", "e", "its largest force", "largest force", "contacts"),
             structures(),
         ),
-        "Oblique impacts without viscosity, against a chain of 2000 cells: 60 random ones of each class of "
-        "hardness and of sums, of all the tests' shapes that it is for, depth over that of the onset from "
-        "0.1 to 10³, over the elastic compression u_c at it up to 10³, μ from 0.01 to 3, m_t/m from 0.1 to "
-        "10, ψ from 0.03 to 8, ν from 0 to ½. Those count in which elements stick. Errors of the velocity "
-        "are relative to W₀, those of the largest force to itself:",
+        "Oblique impacts without viscosity, against a chain of 2000 cells. Each class of hardness and each "
+        "sum has 60 random impacts, with all suitable shapes of the tests. The depth is 0.1 to 10³ times "
+        "the depth of the onset, and up to 10³ times the elastic compression u_c there. μ is from 0.01 to "
+        "3, m_t/m from 0.1 to 10, ψ from 0.03 to 8, ν from 0 to ½. The table counts only impacts in which "
+        "elements stick. Errors of the velocity are relative to W₀, errors of the largest force to it:",
         "",
         *_table(oblique.HEAD, oblique.table()),
         f"Made by `python -m tests.benchmarks.accuracy` with numpy {np.__version__}.",

@@ -152,102 +152,109 @@ def coverage_table(seeds=100):
 
 TEXT = """# Fits of simulated measurements
 
-Of 40 random media a row: E* over two decades, d_c over 1.3, pressed 15 nm deep and back, 450 samples, \
-0.4 % noise of the force, first contact unknown. Pulls are deviations over the standard errors that a fit \
-gives: their standard deviation is to be 1, and is known to 11 % from 40.
+Each row has 40 random media: E* over two decades and d_c over 1.3. The tip goes 15 nm deep and back, \
+with 450 samples, 0.4 % noise of the force and unknown first contact. Pulls are deviations over the \
+standard errors of the fit. Their standard deviation should be 1; 40 media determine it to 11 %.
 
 {}
 
 ## Measured curves
 
-AFM curves of gels and tissue (`tests/data`). Their tips are nominal: a paraboloid of 10 µm, a cone of 25° \
-half-angle. The approach alone, elastic, against fits of nanite with the same weights; standard errors are \
-block-wise.
+AFM curves of gels and tissue (`tests/data`). Their tips are nominal: a paraboloid of 10 µm, a cone of \
+25° half-angle. Elastic fits of the approach alone are compared with fits of nanite with the same \
+weights. Standard errors are block-wise.
 
 {}
 
-Approach and retract at once, as about 150 means or more, from half a depth before contact on, under the \
-paraboloid: root mean square of the residuals over the range of force, elastic, with a drag in proportion \
-to the rate, and with a viscosity of the medium besides; in brackets a search by brute force. Parameters \
-are those of the last fit.
+These fits use approach and retract together, averaged to about 150 samples or more, from half a depth \
+before contact, under the paraboloid. The table gives the root mean square of the residuals over the \
+range of force. The fits are elastic, with a drag in proportion to the rate, and also with a viscosity \
+of the medium. Results of a brute-force search are in brackets. Parameters belong to the last fit.
 
 {}
 
 ## Classes of hardness
 
-Pulls of 1000 simulated curves of each medium, 60 nm deep and back to 25 nm, 200 samples, 0.4 % noise of \
-the force, first contact unknown. The mean is known to 0.03, the width to 2 %.
+Pulls of 1000 simulated curves of each medium, 60 nm deep and back to 25 nm, with 200 samples, 0.4 % \
+noise of the force and unknown first contact. The mean is known to 0.03, the width to 2 %.
 
 {}
 
 Fused silica and quartz, NiAl (with a pop-in) and steel under a Berkovich tip (`assets/silica.csv`, \
-`tests/data`), as a cone of slope 0.358, from 0.5 % of the largest force to 12 % on unloading: residuals \
-of a fit of each class alone, root mean square over the largest force, and the class that the report \
-names. Of silica Oliver and Pharr's analysis by micromechanics gives {:.1f} GPa.
+`tests/data`), as a cone of slope 0.358. The fits use 0.5 % of the largest force to 12 % on unloading. \
+The table gives the residuals of a fit of each class alone, as root mean square over the largest force, \
+and the class in the report. For silica, Oliver and Pharr's analysis by micromechanics gives {:.1f} \
+GPa.
 
 {}
 
 ## Coverage of the errors on curves that deviate from the model
 
-100 simulated curves a cell, 0.4 % noise of the force, times given, without a hold: a gel under a ball of \
-10 µm (E* 10 kPa, from 2 µm above to 1 µm deep and back), a glass (70 GPa, H 10 GPa) and a metal (70 GPa, \
-q_c 8 kN/m) under a Berkovich tip, 600 nm deep and back to 300 and 400 nm. Of each: how many have E* \
-within two standard errors (nominally 95 %, known to 2 to 5 %); the median deviation in standard errors; \
-how many have a remark; and by how many standard deviations of the noise the curve deviates from its own \
-best fit, which is the most that any test of it could see.
+Each cell has 100 simulated curves with 0.4 % noise of the force, with times and without a hold. The \
+gel (E* 10 kPa) is under a ball of 10 µm, from 2 µm above to 1 µm deep and back. The glass (70 GPa, H \
+10 GPa) and the metal (70 GPa, q_c 8 kN/m) are under a Berkovich tip, 600 nm deep and back to 300 and \
+400 nm. A cell gives the share of curves with E* within two standard errors (nominally 95 %, known to 2 \
+to 5 %), the median deviation in standard errors, and the share with a remark. The last number is the \
+deviation of the curve from its best fit, in standard deviations of the noise. No test of the curve \
+could detect more.
 
 {}
 
-A remark is given from 3.3 standard deviations on, where E* is off by more than its error; so have \
-{:.1f} % of 1200 clean curves. Where fewer than 80 % are covered the others are at the rim of what can \
-be seen, or beyond it:
+A remark reports deviations above 3.3 standard deviations if E* is off by more than its error; {:.1f} % \
+of 1200 clean curves have such a remark. If less than 80 % are covered, the other deviations are close \
+to the limit of detection, or below it:
 
-- **A drift of a medium that yields** is taken for another E*, and hardly seen without a hold. Hold the \
-force, and subtract the drift. Over two minutes 0.1 nm/s changes the E* of a metal by some per cent.
-- **Noise that is correlated over a fifteenth of a curve or more**: errors are up to twice too small. A \
-remark counts the blocks; in a fifth of the curves the residuals look less correlated than the noise is, \
-since the fit takes a part of it.
-- **Scales**: a spring constant, a sensitivity, a depth scale, a radius or an area function that is off \
-by p % makes E* wrong by p/2 to 2p %, with the residuals of a perfect fit. So does a retract alone that \
-is scaled, where the approach is not given.
+- **A drift of a medium that yields** looks like another E*, and is hardly visible without a hold. Hold \
+the force, and subtract the drift. Over two minutes 0.1 nm/s changes the E* of a metal by some per \
+cent.
+- **Noise correlated over a fifteenth of a curve or more**: errors are up to twice too small. A remark \
+counts the blocks. In a fifth of the curves the residuals look less correlated than the noise, because \
+the fit takes a part of it.
+- **Scales**: a spring constant, a sensitivity, a depth scale, a radius or an area function with an \
+error of p % makes E* wrong by p/2 to 2p %. The residuals are those of a perfect fit. A scaled retract \
+without its approach has the same effect.
 - **A smooth deviation of the shape of the tip, or of the class of hardness**, of the size of the noise.
 
 ## Faults of unloadings
 
-Of 60 simulated records a row, evaluated by `oliver_pharr` without times: Berkovich, a cone, a rounded \
-one, a paraboloid and a sphere; E* over 2.3 decades, elastic, of class (a) or (b); 0.13 to 1.3 µm deep, \
-100 to 1000 samples of the loading and of the unloading, noise of 0 to 0.2 % of the force, all at random. \
-Good ones begin at 0, in long air, at 0.9 or 21 % of the depth, or have a hold. *Little air* is 6 to 18 \
-samples, 2.5 % to 15 % of the depth; *no air* a depth that is 0 at 1.5 to 20 % of the force; *preload* \
-one of 1 to 5 % of the force at depth 0, and *lift-off* one of 0.1 to 1 %, from which the tip is lifted \
-into the air before the loading; *creep* is logarithmic or in proportion to the force, 15 to 80 % of the \
-rate of the unloading; *units* are depths or forces 10³ or 10⁶ times too large or small. A record is \
-*right* where E* and H are within 3 % or two standard errors of those without the fault, *said* where a \
-remark doubts them, and *silent* otherwise.
+Each row has 60 simulated records, evaluated by `oliver_pharr` without times. The tips are Berkovich, a \
+cone, a rounded cone, a paraboloid and a sphere. The media have E* over 2.3 decades and are elastic or \
+of class (a) or (b). Records are 0.13 to 1.3 µm deep, with 100 to 1000 samples of the loading and of \
+the unloading and a noise of 0 to 0.2 % of the force. All are random. Good records begin at 0, in long \
+air, at 0.9 or 21 % of the depth, or have a hold. *Little air* is 6 to 18 samples, 2.5 % to 15 % of the \
+depth. *No air* is a depth that is 0 at 1.5 to 20 % of the force. *Preload* is 1 to 5 % of the force at \
+depth 0. *Lift-off* is a preload of 0.1 to 1 %; the tip is then lifted into the air before the loading. \
+*Creep* is logarithmic or in proportion to the force, 15 to 80 % of the rate of the unloading. *Units* \
+are depths or forces 10³ or 10⁶ times too large or small. A record is *right* if E* and H are within 3 \
+% or two standard errors of the values without the fault. It is *said* if a remark doubts them, and \
+*silent* otherwise.
 
 {}
 
-Silent are: a force that begins at once, as of a hardness in proportion to 1/a, after air of a few \
-samples; creep that leaves m below 1.5 and the same in all parts; and units in which the modulus is that \
-of another material. Of real records of micromechanics 58 without air, of fused silica, quartz, NiAl and \
-glass, keep their numbers and errors. Two more of NiAl are said to creep, and one begins with 64 nm of \
-air: E* is 158 GPa in place of 147, that of the others 152 to 165.
+Three faults are silent. The first is a force that begins at once, for example with a hardness in \
+proportion to 1/a, after air of a few samples. The second is creep that leaves m below 1.5 and equal in \
+all parts. The third is units in which the modulus is that of another material. Of the real records of \
+micromechanics, 58 without air (fused silica, quartz, NiAl and glass) keep their numbers and errors. \
+Remarks report creep in two more records of NiAl. One record begins with 64 nm of air: its E* is 158 \
+GPa instead of 147, and the E* of the others is 152 to 165.
 
 ## Remarks, and how often they are right
 
-How often each kind of remark is made, and in how many of these cases it is right: what it names is in \
-the curve, or E* of a fit is off by more than two standard errors. Made cases are the families above, 6 \
-of each; curves that have one thing each: samples without a number, a noise that is given too small, \
-other units, another sign or order, noise alone, a drag, adhesion, a noisy depth, loading alone, a drift \
-in a hold, a hardness of another class; unloadings with air, a hold, creep, cycles, a measured stiffness, \
-other units, and round tips taken for ideal ones; and files, area functions and hardnesses over radii. \
-Measured ones are three AFM curves of gels and a cell as a paraboloid and a cone, two of them in time, \
-silica, quartz, NiAl and steel as each class, as elastic, and with two constants, and their unloadings \
-with and without times (`tests/data`, `assets/silica.csv`).
+The table counts each kind of remark, and the share of cases in which it is right. A remark is right if \
+its effect is in the curve, or if E* of a fit is off by more than two standard errors. The simulated \
+cases are 6 of each family above, and curves with one effect each. These effects are samples without a \
+number, a noise that is given too small, other units, another sign or order, noise alone, a drag, \
+adhesion, a noisy depth, loading alone, a drift in a hold, and a hardness of another class. Others are \
+unloadings with air, a hold, creep, cycles, a measured stiffness, other units, and round tips evaluated \
+as ideal tips. Further cases are files, area functions and hardnesses over radii. The measured cases \
+are three AFM curves of gels and a cell as a paraboloid and a cone, two of them in time. Silica, \
+quartz, NiAl and steel are fitted as each class, as elastic, and with two constants, and their \
+unloadings with and without times (`tests/data`, `assets/silica.csv`).
 
 {}
 
-The kinds *refused*, *no unloading*, *medium* and *held* are those of refusals and of what is not quoted.
+The kinds *refused*, *no unloading*, *medium* and *held* belong to errors and to results without a \
+number to quote.
 
 Made by `python -m tests.benchmarks.fits`.
 """

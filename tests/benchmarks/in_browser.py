@@ -163,9 +163,9 @@ def write(starts, rows, served, static_page):
         "## The explorer without a server",
         "",
         f"Made by `python -m tests.benchmarks.in_browser` on {datetime.now(UTC).date()}, with Pyodide",
-        f"{static.PYODIDE} in Chromium and all files on this machine. Both sides take turns; the",
-        "shortest times are told, because other programs ran beside. The first picture is there after",
-        f"{picture:.1f} s, the live page after {live:.0f} s, the second time after {second:.0f} s; the",
+        f"{static.PYODIDE} in Chromium and all files on this machine. Both sides take turns. These are",
+        "the shortest times, because other programs also ran. The first picture appears after",
+        f"{picture:.1f} s, the live page after {live:.0f} s, the second time after {second:.0f} s. The",
         f"processor works {used:.0f} s and {again:.0f} s. {size:.0f} MB are loaded.",
         "",
         "| what | here | in the browser | ratio | the first time |",
@@ -178,8 +178,8 @@ def write(starts, rows, served, static_page):
     lines += [
         f"| key press to all plots painted, from a server | {here} | {there} | {ratio} | |",
         "",
-        "The first time a case imports modules and makes tables of its shape; a browser besides compiles",
-        "each function of NumPy when it is first called, and better when it has been called often.",
+        "The first time, a case imports modules and makes tables of its shape. A browser also compiles",
+        "each function of NumPy at its first call, and better after many calls.",
         "",
     ]
     text = "\n".join(lines)

@@ -8,16 +8,17 @@ _COMMAND = "python -m tests.benchmarks.report"
 _NOTE = """Median times of one process in which all methods of a problem take turns. Errors are relative
 root mean squares against 50 digits (mpmath). Loops are measured for a few items and scaled to all.
 
-tamaas and ContactMechanics solve what this project does not: the contact of any rough surface, tamaas
-with friction, adhesion and plasticity besides. Here they are given an elastic cone, non-periodic, set
-up and warm before the clock starts."""
+tamaas and ContactMechanics solve other problems: the contact of any rough surface, tamaas also with
+friction, adhesion and plasticity. Here they solve an elastic cone, non-periodic, set up and warm
+before the clock starts."""
 
-_LAMMPS = """A ball of aluminium oxide (E = 380 GPa, ν = 0.23, radius 2.5 mm, μ = 0.092) hits a plane of the
-same material at 3.9 m/s, at an angle to the normal: test 4 of Chung and Ooi (Granular Matter 13, 2011)
-without damping. `oblique_impact` and a brute-force chain of {cells} cells share no solver; they differ by
-{differ} at most, and the sum of their stated errors is {bound}. LAMMPS takes {steps} steps in the contact
-time; with half as many no speed changes by more than {change}. Its columns are its tangential options,
-with "…" for `mindlin`, and with stiffnesses from the material (`NULL`). Speeds are those of the centre."""
+_LAMMPS = """A ball of aluminium oxide (E = 380 GPa, ν = 0.23, radius 2.5 mm, μ = 0.092) hits a
+plane of the same material at 3.9 m/s, at an angle to the normal. It is test 4 of Chung and Ooi
+(Granular Matter 13, 2011) without damping. `oblique_impact` and a brute-force chain of {cells}
+cells share no solver; they differ by {differ} at most, and the sum of their stated errors is
+{bound}. LAMMPS takes {steps} steps in the contact time; with half as many no speed changes by more
+than {change}. Its columns are its tangential options, with "…" for `mindlin`, and with stiffnesses
+from the material (`NULL`). Speeds are those of the centre."""
 
 _DAMPINGS = """The same ball hits the plane along the normal under `hertz/material`, with the damping named
 above each column. Columns "limited" have `limit_damping`: the contact force never attracts. SciPy's
@@ -99,8 +100,8 @@ def beside_lammps(found):
         for asked in dict.fromkeys(key[0] for key in dampings)
     ]
     head = (f"`{damping}`" + ", limited" * limited for damping, limited in columns)
-    lines += ["### Restitution that is asked for", "", _DAMPINGS.format(scipy=f"{scipy:.0e}"), ""]
-    lines += [*_table(("asked", *head), rows), _VISCOUS, ""]
+    lines += ["### Requested restitution", "", _DAMPINGS.format(scipy=f"{scipy:.0e}"), ""]
+    lines += [*_table(("requested", *head), rows), _VISCOUS, ""]
     names = "impact", "attracting", "limited"
     rows = [_row(f"{r['speed']:g} m/s", *(f"{r[name]:.4f}" for name in names)) for r in found["viscous"]]
     return "\n".join([*lines, *_table(("speed", "`impact`", "LAMMPS", "limited"), rows)])
@@ -144,7 +145,8 @@ def _made(results):
     versions = ", ".join(f"{name} {version}" for name, version in results["versions"].items())
     peers = ", ".join(f"{name} {version}" for name, version in results["peers"].items())
     machine = f"{results['processors']} processors"
-    return f"Made by `{_COMMAND}` on {results['date']}, on {machine}, with {versions}; beside them {peers}."
+    made = f"Made by `{_COMMAND}` on {results['date']}, on {machine}, with {versions}."
+    return f"{made} Other packages: {peers}."
 
 
 def summary(results):

@@ -2,8 +2,8 @@
 The idea in one picture
 =======================
 
-A body in a half-space, the row of springs that is equivalent to it, and what follows: force and pressure.
-The README shows this figure, ``assets/idea.svg``.
+A body in a half-space, the equivalent row of springs, and the results: force and
+pressure. The README shows this figure, ``assets/idea.svg``.
 """
 
 import matplotlib.pyplot as plt
@@ -17,7 +17,9 @@ state, nm = path[-1], 1e-9
 r = np.linspace(-110.0, 110.0, 221)
 over, radius, deepest = np.abs(r) * nm, state.contact_radius / nm, state.depth / nm
 
-figure, (body, row, curves) = plt.subplots(1, 3, figsize=(12, 3.4), layout="constrained")
+figure, (body, row, curves) = plt.subplots(
+    1, 3, figsize=(12, 3.4), layout="constrained"
+)
 body.fill_between(r, -state.surface(over) / nm, -26, color="#d9dee5")
 body.fill_between(r, ball.height(over) / nm - deepest, 26, color="#5b6470")
 body.set_title("1  A body z(r) in a half-space")
@@ -38,3 +40,4 @@ curves.set(xlabel="depth d (nm)", ylabel="F (µN), sum of the springs")
 inset = curves.inset_axes((0.55, 0.24, 0.42, 0.36), xlabel="r (nm)", ylabel="p (GPa)")
 inset.plot(r, state.pressure(over) / 1e9, color="#c2410c")
 curves.set_title("3  Force and pressure")
+plt.show()

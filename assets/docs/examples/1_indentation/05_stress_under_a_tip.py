@@ -2,7 +2,8 @@
 Stress under a tip
 ==================
 
-The largest shear stress below a sphere that has yielded. The peak marks where delamination would begin.
+The largest shear stress below a sphere that has yielded. The peak marks the place where
+delamination would begin.
 """
 
 import matplotlib.pyplot as plt
@@ -23,3 +24,4 @@ plt.plot([peak.r * 1e9, -peak.r * 1e9], [peak.z * 1e9] * 2, "w+", markersize=12)
 plt.gca().set(xlabel="r (nm)", ylabel="depth z (nm)", aspect="equal")
 plt.gca().invert_yaxis()
 print(f"largest shear stress {peak.value / 1e9:.2f} GPa at z = {peak.z / a:.2f} a")
+plt.show()

@@ -2,8 +2,9 @@
 Load, unload, reload: pressure and imprint
 ==========================================
 
-Unloading removes the elastic part only. Reloading retraces it, and continues the first loading. In the
-plastic zone the pressure is lower than in an elastic contact, and an imprint remains.
+Unloading removes only the elastic part. Reloading follows the unloading curve, and then
+continues the first loading. In the plastic zone the pressure is lower than in an
+elastic contact, and an imprint remains.
 """
 
 import matplotlib.pyplot as plt
@@ -27,3 +28,4 @@ for i in (100, 300):
 axes[1].set(xlabel="r (nm)", ylabel="pressure (GPa)")
 axes[2].set(xlabel="r (nm)", ylabel="imprint (nm)")
 axes[1].legend()
+plt.show()

@@ -2,9 +2,9 @@ r"""
 Adhesion and pull-off
 =====================
 
-A sphere on an adhesive medium jumps into contact, and on unloading it is held until the pull-off force. The
-harder it has been pressed, the larger the imprint, and the larger the pull-off force; without yield it is
-:math:`\frac{3}{2} \pi w R` (Johnson, Kendall, Roberts 1971).
+A sphere on an adhesive medium jumps into contact. On unloading it sticks until the
+pull-off force. A deeper indentation leaves a larger imprint and needs a larger pull-off
+force. Without yield it is :math:`\frac{3}{2} \pi w R` (Johnson, Kendall, Roberts 1971).
 """
 
 import matplotlib.pyplot as plt
@@ -20,7 +20,8 @@ for q_c in (np.inf, 1.0):
     path = mdr.indent(sphere, medium, depth)
     name = "elastic" if np.isinf(q_c) else f"q_c = {q_c:g} N/m"
     plt.plot(path.depth * 1e9, path.force * 1e6, label=name)
-    force = path[299].pull_off_force
-    print(f"{name}: pull-off force {force * 1e6:.4f} µN, 3πwR/2 = {1.5e6 * np.pi * w * radius:.4f} µN")
+    force, jkr = path[299].pull_off_force, 1.5 * np.pi * w * radius
+    print(f"{name}: pull-off {force * 1e6:.4f} µN, 3πwR/2 = {jkr * 1e6:.4f} µN")
 plt.gca().set(xlabel="d (nm)", ylabel="F (µN)")
 plt.legend()
+plt.show()

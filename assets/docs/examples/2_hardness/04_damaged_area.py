@@ -1,10 +1,12 @@
-"""
+r"""
 Damaged area over energy for three classes of hardness
 ======================================================
 
-For hardness inversely proportional to the contact radius, class (b), and a cone, the area damaged by a
-fast impact is proportional to its energy (Popov 2015, Eq. (24)). The solution for any speed approaches
-it. Classes (a), constant hardness, and (c), hardness inversely proportional to the area, have other powers.
+A fast impact of a cone on a medium of class (b), with a hardness inversely proportional
+to the contact radius, damages an area in proportion to its energy (Popov 2015,
+Eq. (24)). The solution for any speed approaches this law. Class (a) has a constant
+hardness, and class (c) a hardness inversely proportional to the area. They have other
+powers, drawn through the same point.
 """
 
 import matplotlib.pyplot as plt
@@ -13,14 +15,18 @@ import numpy as np
 import mdr_core as mdr
 
 medium, mass = mdr.Medium(E_star=8e9, q_c=2000.0), 1e-9
-speed = np.geomspace(0.3, 100, 200)
+speed = np.geomspace(0.5, 100, 400)
 hit = mdr.impact(mdr.Cone(slope=0.5), medium, mass, speed)
 energy = mass * speed**2 / 2
 yields = hit.damaged_area > 0
-plt.loglog(energy[yields], hit.damaged_area[yields], "k", label="(b), every speed")
-for name, style in (("a", ":"), ("b", "--"), ("c", "-.")):
+
+figure, ax = plt.subplots(layout="constrained")
+ax.loglog(energy[yields], hit.damaged_area[yields], "k", label="(b), any speed")
+for name, style, power in (("a", ":", "2/3"), ("b", "--", "1"), ("c", "-.", "2")):
     law = mdr.ScalingLaw(name, exponent=1.0)
     area = hit.fast_limit.contact_area[-1] * (energy / energy[-1]) ** law.area
-    plt.plot(energy, area, style, label=f"({name}), fast: ∝ W^{law.area:.2g}")
-plt.gca().set(xlabel="energy W (J)", ylabel="damaged area (m²)", ylim=(1e-14, 1e-6))
-plt.legend()
+    label = rf"({name}), fast: $A \propto W^{{{power}}}$"
+    ax.plot(energy, area, style, label=label)
+ax.set(xlabel="energy W (J)", ylabel="damaged area A (m²)", ylim=(1e-14, 1e-7))
+ax.legend()
+plt.show()

@@ -1,9 +1,10 @@
 r"""
-A law of hardness of one's own
-==============================
+Your own law of hardness
+========================
 
-Nix and Gao's size effect, :math:`H_0\sqrt{1 + h^*/h}`, under a cone of slope s, with the depth h = s a of
-the contact; copper: 0.581 GPa and 1.6 µm. ``curve_fit`` finds them in a curve that is made, with noise.
+The size effect of Nix and Gao is :math:`H_0\sqrt{1 + h^*/h}`. Under a cone of slope s
+the depth of the contact is h = s a. ``curve_fit`` finds the constants of copper,
+0.581 GPa and 1.6 µm, in a simulated curve with noise.
 """
 
 from dataclasses import dataclass
@@ -27,14 +28,29 @@ class NixGao(mdr.HardnessLaw):
         return -(self.H0**2) * self.a_star / (2 * a**2 * self.at(a))
 
 
-def force(d, E, H0, h):
-    return mdr.indent(tip, mdr.Medium(1e9 * E, hardness=NixGao(1e9 * H0, h / tip.slope * 1e-6)), d).force
+def metal(E, H0, h):  # GPa, GPa, µm
+    return mdr.Medium(1e9 * E, hardness=NixGao(1e9 * H0, 1e-6 * h / tip.slope))
 
 
-tip, d = mdr.Cone.berkovich(), np.append(np.linspace(1e-8, 2e-6, 200), np.linspace(2e-6, 1.96e-6, 40))
-made = force(d, 130, 0.581, 1.6) * (1 + 0.005 * np.random.default_rng(1).standard_normal(d.size))
-found, errors = curve_fit(force, d, made, (100, 1, 1), bounds=(0.01, 1e3), x_scale=(100, 1, 1))
-print("E* (GPa), H₀ (GPa), h* (µm):", found.round(3), "±", np.sqrt(np.diag(errors)).round(3))
-print(mdr.impact(tip, mdr.Medium(130e9, hardness=NixGao(0.581e9, 1.6e-6 / tip.slope)), 1e-9, [0.1, 1, 10]))
-plt.axes(xlabel="depth (µm)", ylabel="force (mN)")
-plt.plot(d * 1e6, made * 1e3, "k.", d * 1e6, force(d, *found) * 1e3, "r")
+def force(d, *constants):
+    return mdr.indent(tip, metal(*constants), d).force
+
+
+tip = mdr.Cone.berkovich()
+d = np.append(np.linspace(1e-8, 2e-6, 200), np.linspace(2e-6, 1.96e-6, 40))
+noise = 0.005 * np.random.default_rng(1).standard_normal(d.size)
+simulated, start = force(d, 130, 0.581, 1.6) * (1 + noise), (100, 1, 1)
+found, errors = curve_fit(force, d, simulated, start, bounds=(0.01, 1e3), x_scale=start)
+errors = np.sqrt(np.diag(errors))
+print("E* (GPa), H₀ (GPa), h* (µm):", found.round(3), "±", errors.round(3))
+print(mdr.impact(tip, metal(130, 0.581, 1.6), mass=1e-9, speed=[0.1, 1, 10]))
+
+figure, (curve, law) = plt.subplots(1, 2, figsize=(9, 4), layout="constrained")
+curve.plot(d * 1e6, simulated * 1e3, "k.", markersize=3, label="simulated, with noise")
+curve.plot(d * 1e6, force(d, *found) * 1e3, "r", label="fit")
+curve.set(xlabel="depth (µm)", ylabel="force (mN)")
+curve.legend()
+a = np.geomspace(5e-8, 5e-6, 100)
+law.semilogx(a * 1e6, metal(*found).hardness_at(a) / 1e9, "r")
+law.set(xlabel="contact radius a (µm)", ylabel="hardness σ_c (GPa)")
+plt.show()

@@ -2,8 +2,9 @@
 Viscous rebound over speed
 ==========================
 
-A ball of 2 mm on a polymer. At low speed the viscosity dissipates little energy, at high speed much. With
-yield the coefficient of restitution falls further. The time of contact is shorter for faster impacts.
+A ball of 2 mm hits a polymer. At low speed the viscosity dissipates little energy, at
+high speed much. With yield the coefficient of restitution falls further. The contact
+time is shorter for faster impacts.
 """
 
 import matplotlib.pyplot as plt
@@ -25,3 +26,4 @@ for name, medium in media.items():
 left.set(xlabel="speed (m/s)", ylabel="coefficient of restitution")
 right.set(xlabel="speed (m/s)", ylabel="contact time (ms)")
 left.legend()
+plt.show()

@@ -2,9 +2,10 @@
 Restitution over the mass of the body
 =====================================
 
-Bodies with a tip radius of 10 mm hit the middle of a simply supported plate of 120 mm × 120 mm × 4 mm at
-3 m/s. A light body leaves before waves are back from the edges; a heavy body meets a spring. Between them
-the plate swings back, early or late, and may hit the body more than once.
+Bodies with a tip radius of 10 mm hit the middle of a simply supported plate at 3 m/s.
+The plate has 120 mm × 120 mm × 4 mm. A light body leaves before waves are back from the
+edges; a heavy body meets a spring. Between them the plate swings back, early or late,
+and may hit the body more than once.
 """
 
 import matplotlib.pyplot as plt
@@ -23,8 +24,10 @@ hit = mdr.impact(ball, medium, ratio * plate_mass, speed, structure=modes)
 ax.semilogx(ratio, hit.restitution, "C0", lw=2, label="by its modes")
 endless = mdr.Structure.plate(**plate)
 support = mdr.Structure(stiffness=modes.stiffness)
-for structure, style, name in ((endless, "k:", "without edges"), (support, "k--", "support")):
+limits = (endless, "k:", "without edges"), (support, "k--", "support")
+for structure, style, name in limits:
     hit = mdr.impact(ball, medium, ratio * plate_mass, speed, structure=structure)
     ax.semilogx(ratio, hit.restitution, style, lw=1, label=name)
-ax.set(xlabel="mass of the body over that of the plate", ylabel="coefficient of restitution")
+ax.set(xlabel="body mass over plate mass", ylabel="coefficient of restitution")
 ax.legend()
+plt.show()

@@ -2,8 +2,9 @@
 A measured tip
 ==============
 
-A tip is often known as a noisy scan across its axis. ``Sampled.fit`` finds the convex profile nearest to
-the scan. Here the true tip is a paraboloid, so that the error of the force is known.
+A scan across the axis often gives a noisy tip. ``Sampled.fit`` finds the convex profile
+nearest to the scan. Here the true tip is a paraboloid, so that the error of the force
+is known.
 """
 
 import matplotlib.pyplot as plt
@@ -28,3 +29,4 @@ left.set(xlabel="r (nm)", ylabel="z (nm)")
 left.legend()
 right.plot(depth * 1e9, 100 * (force / exact - 1))
 right.set(xlabel="d (nm)", ylabel="error of the force (%)")
+plt.show()

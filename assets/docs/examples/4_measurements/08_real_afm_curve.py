@@ -2,9 +2,9 @@
 A real AFM curve
 ================
 
-The approach of an AFM force–distance curve of a gel (afmformats, MIT licence, in ``tests/data``), fitted
-with a nominal paraboloid of 10 µm. The medium is held elastic by ``q_c=inf``; first contact and the
-baseline are free.
+The approach of an AFM force–distance curve of a gel (afmformats, MIT licence, in
+``tests/data``), fitted with a nominal paraboloid of 10 µm. ``q_c=inf`` keeps the medium
+elastic; first contact and the baseline are fitted.
 """
 
 import matplotlib.pyplot as plt
@@ -15,7 +15,9 @@ import mdr_core as mdr
 data = np.genfromtxt("../../../../tests/data/spot3-0.csv", delimiter=",", names=True)
 approach = data["retract"] == 0
 depth, force = 1e-9 * data["depth_nm"][approach], 1e-9 * data["force_nN"][approach]
-fit = mdr.fit_indentation(mdr.Paraboloid(radius=1e-5), depth, force, q_c=np.inf, baseline=None)
+fit = mdr.fit_indentation(
+    mdr.Paraboloid(radius=1e-5), depth, force, q_c=np.inf, baseline=None
+)
 print(fit)
 
 figure, (top, bottom) = plt.subplots(
@@ -28,3 +30,4 @@ top.set(ylabel="F (nN)")
 top.legend()
 bottom.plot(depth * 1e6, fit.residuals * 1e9)
 bottom.set(xlabel="measured depth (µm)", ylabel="residual (nN)")
+plt.show()

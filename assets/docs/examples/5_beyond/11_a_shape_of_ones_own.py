@@ -1,9 +1,10 @@
 """
-A shape of one's own
-====================
+Your own shape
+==============
 
-Height, reduced height and its slope are enough. This shape is the sum of a cone and a paraboloid. Its
-reduced height is the sum of their reduced heights, because the transform (Popov 2015, Eq. (3)) is linear.
+Height, reduced height and its slope are enough. This shape is the sum of a cone and a
+paraboloid. Its reduced height is the sum of their reduced heights, because the
+transform (Popov 2015, Eq. (3)) is linear.
 """
 
 from dataclasses import dataclass
@@ -32,6 +33,8 @@ class Pencil(mdr.Profile):
 medium = mdr.Medium(E_star=95e9, q_c=100.0)
 depth = np.append(np.linspace(0, 40e-9, 100), np.linspace(40e-9, 37e-9, 20))
 for shape in (Pencil(0.1, 1e-6), mdr.Cone(0.1), mdr.Paraboloid(1e-6)):
-    plt.plot(depth * 1e9, mdr.indent(shape, medium, depth).force * 1e6, label=type(shape).__name__)
+    force = mdr.indent(shape, medium, depth).force
+    plt.plot(depth * 1e9, force * 1e6, label=type(shape).__name__)
 plt.gca().set(xlabel="d (nm)", ylabel="F (µN)")
 plt.legend()
+plt.show()

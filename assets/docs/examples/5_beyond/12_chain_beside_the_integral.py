@@ -1,9 +1,10 @@
 """
-The chain beside the integral
-=============================
+The chain and the integral
+==========================
 
-``impact`` solves one scalar equation of motion; ``chain_impact`` follows each spring and dashpot of the 1D
-foundation separately. Both share only the profile and the medium, so that each checks the other.
+``impact`` solves one scalar equation of motion. ``chain_impact`` follows each spring
+and dashpot of the 1D foundation separately. They share only the profile and the
+medium, so that each checks the other.
 """
 
 import matplotlib.pyplot as plt
@@ -22,3 +23,4 @@ plt.plot(motion.time * 1e3, motion.force, label="impact")
 plt.plot(steps.time * 1e3, steps.force, "o", label="chain_impact")
 plt.gca().set(xlabel="t (ms)", ylabel="F (N)")
 plt.legend()
+plt.show()
