@@ -23,7 +23,7 @@ INTEGRITY = {
 #: Files of its runtime.
 RUNTIME = ("pyodide.mjs", "pyodide.asm.js", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
 #: Folders of which an earlier explorer is replaced.
-WRITTEN = ("app", "static", "pyodide")
+WRITTEN = ("app", "static", "pyodide", "drawings")
 #: Packages of this environment of which the page imports something in a browser.
 PACKAGES = (
     "panel", "bokeh", "param", "pyviz-comms", "Jinja2", "MarkupSafe", "PyYAML", "packaging", "tqdm",
