@@ -6,6 +6,7 @@ Those in the browser are in common/js/private.js, in the same manner, with the l
 
 import asyncio
 import logging
+import re
 from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
@@ -96,6 +97,23 @@ def headers() -> None:
     RequestHandler.set_default_headers = set_default_headers
 
 
+def page(path: str, text: str) -> None:
+    """Serve a page that is the same for everybody as a file of the app: it needs no session."""
+    data = text.encode()
+
+    class Written(RequestHandler):
+        """Page that is written already; a browser that has it is told so."""
+
+        def initialize(self, **given):
+            """Take what Bokeh gives the handlers of an app."""
+
+        def get(self):
+            self.write(data)
+
+    if patterns := _private_attribute("bokeh.server.urls", "per_app_patterns"):
+        patterns.append((re.escape(path), Written))
+
+
 def own_sessions() -> None:
     """Let this server alone name sessions, and sign their names.
 
@@ -119,7 +137,10 @@ def own_sessions() -> None:
 
 
 def document(handler: Any) -> Any:
-    """A class of Panel's pages that takes no name of a session from a request."""
+    """A class of Panel's pages that takes no name of a session from a request.
+
+    Earlier links to the theory, such as `?theory=eq-11`, lead to its place, without a session.
+    """
 
     class Document(handler):
         """Page in a session of its own."""
@@ -130,6 +151,12 @@ def document(handler: Any) -> Any:
                 for name in ("bokeh-session-id", "bokeh-token"):
                     given.pop(name, None)
             request.headers.pop("Bokeh-Session-Id", None)
+            given = request.query_arguments
+            if "theory" in given and "fit" not in given:
+                place = re.sub(rb"[^\w-]", b"", given["theory"][-1]).decode()
+                folder = "" if request.path.endswith("/") else "app/"
+                self.redirect(f"{folder}theory.html#{place}")
+                return
             await super().prepare()
 
     return Document

@@ -4,7 +4,7 @@ import gc
 
 from . import security
 from .common import folders
-from .explorer import extras, page
+from .explorer import extras, page, theory
 from .measurement import page as measurement
 
 #: Loaded here, so that the first visitor does not wait, and that the server does not start if one fails.
@@ -16,6 +16,7 @@ security.no_packed_bytes()
 security.headers()
 security.own_sessions()
 security.websockets()
+security.page("/theory.html", theory.page(f"../static/extensions/panel/{theory.KATEX}"))
 
 
 def on_server_loaded(server_context):

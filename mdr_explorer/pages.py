@@ -24,7 +24,6 @@ IMPORTS = (
 _OF_BOKEH = ("js/bokeh.min.js", "js/bokeh-widgets.min.js", "js/bokeh-tables.min.js")
 _SHIMS = "bundled/reactiveesm/es-module-shims@^1.10.0/dist/es-module-shims.min.js"
 _NOTICES = "bundled/notificationarea/notyf@3"
-_KATEX = "bundled/katex/katex@0.16.22/dist"
 #: Files that Panel's components load when they are drawn, 200 kB of its 107 MB.
 _ASKED = ("css", "bundled/theme", "bundled/font-awesome/css")
 
@@ -43,9 +42,11 @@ def write(folder: Path, pyodide: str, integrity: dict[str, str]) -> list[license
     from app.common import ui
     from app.explorer import theory
     from app.explorer.extras.scene_file import scene_file
+    from app.explorer.link import APPENDED
     from app.explorer.page import Page
+    from app.explorer.state import PRESETS
 
-    dist = Path(panel.__file__).parent / "dist"
+    dist = theory.DIST
     own = f"static/panel/{panel.__version__}/dist"
     scripts = [own + "/" + _SHIMS, *(f"static/{name}" for name in _OF_BOKEH)]
     scripts += [f"{own}/{_NOTICES}/notyf.min.js", f"{own}/panel.min.js"]
@@ -55,7 +56,7 @@ def write(folder: Path, pyodide: str, integrity: dict[str, str]) -> list[license
     # Panel loads it from this address when it shows the first notice.
     _copy(dist / _NOTICES / "notyf.min.css", folder / "static/npm/notyf@3/notyf.min.css")
     for name in ("katex.min.js", "contrib/auto-render.min.js"):
-        _copy(dist / _KATEX / name, folder / "static/npm/katex" / Path(name).name)
+        _copy(dist / theory.KATEX / name, folder / "static/npm/katex" / name)
     for name in _OF_BOKEH:
         _copy(Path(bokeh.__file__).parent / "server/static" / name, folder / "static" / name)
     _copy(APP / "static", folder / "app/static")
@@ -64,14 +65,19 @@ def write(folder: Path, pyodide: str, integrity: dict[str, str]) -> list[license
     words["style"] = ui.LAYOUT[0] + ui.CSS
     words["sheets"] = "\n".join(f'<link rel="stylesheet" href="{name}">' for name in sheets)
     settings = {"pyodide": pyodide, "compiled": COMPILED, "imports": IMPORTS, "scripts": scripts}
+    settings |= {"presets": [*PRESETS], "appended": APPENDED.pattern}
     words |= {"settings": json.dumps(settings), "integrity": json.dumps({"integrity": integrity})}
     words["start"] = (_HERE / "static.js").read_text(encoding="utf-8")
-    words["body"] = theory.html()
     for name in ("static", "theory", "measurement"):
         page = Template((_HERE / f"{name}.html").read_text(encoding="utf-8")).substitute(words)
         _write(folder / f"{'index' if name == 'static' else name}.html", page)
-    _write(folder / "first.html", scene_file(Page().view, "static/js/bokeh.min.js"))
-    found = {"es-module-shims": _SHIMS, "notyf": _NOTICES, "katex": _KATEX}
+    _write(folder / "app/theory.html", theory.page("../static/npm/katex"))
+    # A visitor loads one of them: apart from Bokeh, which the page needs anyway, 0.2 to 0.7 MB.
+    (folder / "drawings").mkdir()
+    for name in PRESETS:
+        drawing = scene_file(Page(f"preset={name}").view, "../static/js/bokeh.min.js")
+        _write(folder / "drawings" / f"{name}.html", drawing)
+    found = {"es-module-shims": _SHIMS, "notyf": _NOTICES, "katex": theory.KATEX}
     versions = {name: re.search(r"@\^?([\d.]+)", path) for name, path in found.items()}
     parts = [licenses.of_script(name, match[1] if match else "") for name, match in versions.items()]
     font = (dist / "bundled/font-awesome/LICENSE.txt").read_text(encoding="utf-8")

@@ -1,5 +1,5 @@
 // The start of the explorer. It loads Python and its packages in parallel, then imports them one after the other, with a
-// bar. Meanwhile a drawing of the opening scene plays; then the page replaces it.
+// bar. Meanwhile a drawing of a scene plays, which needs no Python; then the page replaces it.
 const panel = document.getElementById("start"), said = panel.querySelector("p"), bar = panel.querySelector("i")
 const here = (path) => new URL(path, document.baseURI).href
 // The browser paints between the steps; a page that is not seen is not painted.
@@ -14,17 +14,30 @@ const tell = async (share, text, seconds) => {
   await painted()
 }
 
-// The first picture is drawn before anything else. A link to another scene would be shown a wrong one.
+// The first picture is drawn before anything else. There is one of each preset as it is; any other scene is announced over
+// the opening one, which nobody may take for it.
+const appended = new RegExp(`^(?:${settings.appended})$`, "i")
+const told = [...asked].filter(([name]) => name !== "dark" && !appended.test(name))
+const [[name, value] = ["preset", settings.presets[0]], ...others] = told
+const known = name === "preset" && settings.presets.includes(value) && !others.length
+const follows = Object.assign(document.createElement("p"), { className: "follows", textContent: "Your scene follows" })
 const drawn = new Promise((done) => {
-  if ([...asked.keys()].some((name) => name !== "dark")) return done()
-  const first = Object.assign(document.createElement("iframe"), { src: "first.html", title: "Opening scene" })
+  const src = `drawings/${known ? value : settings.presets[0]}.html`
+  const first = Object.assign(document.createElement("iframe"), { src, title: known ? "Drawing of this scene" : "Opening scene", inert: !known })
   first.onload = () => {
-    const page = first.contentDocument, dark = (each) => each?.documentElement.classList.contains("dark")
-    if (dark(page) !== dark(document)) page?.getElementById("dark")?.click()
-    painted().then(done)
+    const page = first.contentDocument, player = page?.getElementById("player")
+    const dark = (each) => each?.documentElement.classList.contains("dark")
+    const ready = () => {
+      if (dark(page) !== dark(document)) page?.getElementById("dark")?.click()
+      painted().then(done)
+    }
+    // The player comes last, once the button hears; Python would keep it waiting.
+    if (!player || player.firstChild) ready()
+    else new MutationObserver(ready).observe(player, { childList: true })
   }
   setTimeout(done, 5000)
   panel.append(first)
+  if (!known) panel.append(follows)
 })
 // Scripts of the page, in their order.
 const script = (src) => new Promise((onload, onerror) => document.head.append(Object.assign(document.createElement("script"), { src, onload, onerror, async: false })))
@@ -52,6 +65,7 @@ try {
   await python.pyimport("app.explorer.browser").start(location.search.slice(1), theme.own)
   panel.remove()
 } catch (error) {
+  follows.remove()
   said.role = "alert"
   said.textContent = `The explorer could not be started in this browser: ${String(error.message ?? error).trim().split("\n").pop()}`
   throw error

@@ -23,7 +23,7 @@ INTEGRITY = {
 #: Files of its runtime.
 RUNTIME = ("pyodide.mjs", "pyodide.asm.js", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
 #: Folders of an earlier explorer that the command replaces.
-WRITTEN = ("app", "static", "pyodide")
+WRITTEN = ("app", "static", "pyodide", "drawings")
 #: Packages of this environment that the page imports in a browser.
 PACKAGES = (
     "panel", "bokeh", "param", "pyviz-comms", "Jinja2", "MarkupSafe", "PyYAML", "packaging", "tqdm",

@@ -94,8 +94,8 @@ def test_the_command_serves_the_explorer_from_the_wheel(unpacked, tmp_path):
                 break
         else:
             raise AssertionError("".join(lines))
-        for query in ("", "?fit", "?theory"):
-            assert "Bokeh" in urlopen(found[1] + query, timeout=120).read().decode()
+        for query, expected in {"": "Bokeh", "?fit": "Bokeh", "?theory": "renderMathInElement"}.items():
+            assert expected in urlopen(found[1] + query, timeout=120).read().decode()
         sheet = urlopen(found[1] + "/static/style.css", timeout=20).read()
         assert sheet == (ROOT / "app" / "static" / "style.css").read_bytes()
     finally:

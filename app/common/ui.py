@@ -88,7 +88,7 @@ def symbol(text: str) -> Markup:
 
 def linked(text: str) -> Markup:
     """HTML of a text, with links from equations, (11), and sections, § 9, to the page of the theory."""
-    led = r'<a href="?theory={}-\1" target="theory">\g<0></a>'
+    led = r'<a href="app/theory.html#{}-\1" target="theory">\g<0></a>'
     html = replaced(r"\(([1-9]\d?)\)", led.format("eq"), html_subscripts(text))
     return replaced(r"§ (\d+)", led.format("section"), html)
 

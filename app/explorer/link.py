@@ -29,7 +29,7 @@ from .state import (
 #: Most characters of a link and of a text in it.
 MAX_LENGTH, _MAX_TEXT = 8000, 300
 #: Names that mail programs, search engines and other sites append to links.
-_APPENDED = re.compile(
+APPENDED = re.compile(
     r"utm_.*|\w*clk?id|gclsrc|[gw]braid|igsh(id)?|mc_[ce]id|_ga|_gl|_hs\w+|li_fat_id|srsltid|bokeh-.*"
     r"|mkt_tok|mibextid|si|vero_id|ref",
     re.IGNORECASE,
@@ -69,7 +69,7 @@ def _text(value: Any) -> str:
 def pairs(query: str) -> list[tuple[str, str]]:
     """Names and values of a link, without what others appended to it."""
     given = parse_qsl(query, keep_blank_values=True)
-    return [(name, text) for name, text in given if not _APPENDED.fullmatch(name)]
+    return [(name, text) for name, text in given if not APPENDED.fullmatch(name)]
 
 
 def _known(name: str) -> bool:

@@ -1,23 +1,21 @@
-"""The theory, assets/theory.md, as a page."""
+"""The theory, assets/theory.md, as a page that is the same for everybody."""
 
 import re
 from base64 import b64encode
 from html import escape
 from pathlib import Path
-from urllib.parse import parse_qsl
+from string import Template
 
-import panel as pn
-from bokeh.events import DocumentReady
-from bokeh.models import CustomJS
+import panel
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from ..common.quantities import ASSETS
-from ..common.ui import landmarks
+from ..common.ui import JS
 
-#: Goes to the place that the address names.
-_SCRIPT = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
-
+#: The files of Panel, and KaTeX among them, in a folder whose name has its version.
+DIST = Path(panel.__file__).parent / "dist"
+KATEX = next(DIST.glob("bundled/katex/katex@*/dist"), DIST).relative_to(DIST).as_posix()
 #: A link to a file beside the theory, which no server has.
 _FILE = re.compile(r"\[(.*?)\]\(\w+\.md\)")
 #: A picture beside the theory, which is part of the page.
@@ -55,13 +53,7 @@ def _with_picture(found):
     return f"![{found[1]}](data:image/svg+xml;base64,{data})"
 
 
-def page(place):
-    """The page, starting at an id such as "eq-11" or "section-4"."""
-    landmarks(pn.state.curdoc, {"theory": ("main", "Theory")})
-    pn.state.curdoc.js_on_event(DocumentReady, CustomJS(args={"place": place}, code=_SCRIPT))
-    return pn.pane.LaTeX(html(), css_classes=["theory"], renderer="katex")
-
-
-def served(query):
-    """The page for a query, at the place that `theory=` in it names."""
-    return page(dict(parse_qsl(query)).get("theory", ""))
+def page(katex: str) -> str:
+    """The page as HTML, for the folder of the style sheets; `katex` is the address of KaTeX's scripts."""
+    template = Template(Path(__file__).with_suffix(".html").read_text(encoding="utf-8"))
+    return template.substitute(theme=JS["head"], katex=katex, body=html())

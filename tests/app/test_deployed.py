@@ -48,6 +48,11 @@ def test_every_process_serves_sessions(server):
     assert len(serving) == 2
 
 
+def test_every_process_has_the_theory(server):
+    """It is written before they part; each connection may be another's."""
+    assert {status(server, "/app/theory.html", {}) for _ in range(20)} == {200}
+
+
 def test_the_log_has_the_address_of_the_person_and_not_of_the_proxy(server):
     # As a proxy that ends TLS passes it on.
     assert status(server, "/nothing", {"X-Real-IP": "203.0.113.7", "X-Scheme": "https"}) == 404

@@ -107,9 +107,29 @@ def test_a_prefix_moves_components_away_with_all_else():
         assert get(server, "/lab/components/unittest.__main__/x/y/z")[0] == 404
         assert get(server, "/lab/components/this/x/y/z")[0] == 404
         assert get(server, "/lab/app")[0] == 200
+        assert get(server, "/lab/app/theory.html")[0] == 200
         assert "Beautiful" not in server.log
     finally:
         server.stop()
+
+
+#: Places that earlier links to the theory name, with those to which they lead.
+PLACES = {
+    "": "", "eq-11": "eq-11", "section-13": "section-13", "%ff%00": "", "/../evil.example": "evilexample",
+    "%0d%0aSet-Cookie:%20dark=1": "Set-Cookiedark1", "eq-4&theory=eq-5": "eq-5",
+}  # fmt: skip
+
+
+def test_an_earlier_link_to_the_theory_leads_to_no_other_site_and_needs_no_session(command):
+    """The page for measurements goes first, as before."""
+    for folder, start in {"/app": "app/theory.html", "/app/": "theory.html"}.items():
+        for place, found in PLACES.items():
+            status, headers, body = get(command, f"{folder}?theory={place}")
+            assert (status, body) == (302, b"")
+            assert headers["Location"] == f"{start}#{found}"
+            assert "Set-Cookie" not in headers
+    assert b'"token"' not in get(command, "/app/theory.html")[2]
+    assert b'"token"' in get(command, "/app?fit&theory=eq-11")[2]
 
 
 @cache
@@ -185,6 +205,8 @@ def test_each_answer_says_that_types_are_not_guessed(command):
     for path in (
         "/app",
         "/app?fit",
+        "/app?theory",
+        "/app/theory.html",
         "/app/static/parts.js",
         "/static/js/bokeh.min.js",
         "/nothing",

@@ -40,7 +40,7 @@ def test_it_says_what_the_page_says():
     assert f"{PRESETS[DROP].label}, altered" in said
     assert "<b>stiff</b>." in said
     # Of equations the text alone: the links of the page lead to its server.
-    assert "?theory=" not in html
+    assert "theory.html" not in html
     for each in readouts.line(course):
         assert each.long_name in said
     # What the preset says has its source; what was typed says so.

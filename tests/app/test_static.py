@@ -1,6 +1,6 @@
-"""The explorer as a folder: what is in it, that its sources suffice, and the page in a browser by Pyodide.
+"""The explorer as a folder: what is in it, that its sources suffice, what is shown first, and the page.
 
-The last needs a whole Pyodide, the folder `MDR_PYODIDE`; .ci/static gets one.
+The last, in a browser by Pyodide, needs a whole Pyodide, the folder `MDR_PYODIDE`; .ci/static gets one.
 """
 
 import base64
@@ -12,6 +12,7 @@ import subprocess
 import sys
 import threading
 import zipfile
+from contextlib import contextmanager
 from functools import partial
 from html.parser import HTMLParser
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -25,11 +26,12 @@ import scipy
 
 import mdr_explorer
 from app.common.host import Sliced
+from app.explorer import readouts
 from app.explorer.page import Page
 from app.explorer.state import PRESETS, preset_state
 from mdr_explorer import static
 
-from .conftest import DROP, ELASTIC, PUNCH, ROOT, Explorer
+from .conftest import DROP, ELASTIC, GOLD, PUNCH, ROOT, Explorer
 from .test_page import assert_draws
 
 HERE = Path(__file__).parent
@@ -72,6 +74,12 @@ def pyodide(tmp_path):
     return folder
 
 
+@pytest.fixture
+def without_drawings(monkeypatch):
+    """Drawings of presets take most of the time in which a folder is written, and are not looked at."""
+    monkeypatch.setattr("app.explorer.extras.scene_file.scene_file", lambda view, bokeh: "")
+
+
 @pytest.fixture(scope="module")
 def written(tmp_path_factory):
     """The folder with a runtime from elsewhere, and what the command says."""
@@ -111,22 +119,26 @@ def integrity(folder):
 
 def test_the_folder_has_all_that_its_pages_ask_for_and_names_one_other_address(written):
     folder, said = written
-    assert {path.name for path in folder.glob("*.html")} == {
-        "index.html", "first.html", "theory.html", "measurement.html",
+    told = settings(folder)
+    assert {path.relative_to(folder).as_posix() for path in folder.rglob("*.html")} == {
+        "index.html", "theory.html", "measurement.html", "app/theory.html",
+        *(f"drawings/{name}.html" for name in told["presets"]),
     }  # fmt: skip
-    for page in folder.glob("*.html"):
+    for page in folder.rglob("*.html"):
         local = {link for link in Links(page).found if not link.startswith(("data:", "#", "?"))}
         assert local or page.name == "measurement.html"
-        assert [link for link in local if not (folder / link.split("?")[0]).is_file()] == [], page.name
-    told = settings(folder)
+        missing = [link for link in local if not (page.parent / link.split("?")[0]).is_file()]
+        assert missing == [], page.name
     assert [name for name in told["scripts"] if not (folder / name).is_file()] == []
     assert told["pyodide"] == static.PUBLISHED
     assert static.PUBLISHED in said
     assert static.PYODIDE in static.PUBLISHED
     assert integrity(folder) == {static.PUBLISHED + name: each for name, each in static.INTEGRITY.items()}
     assert not (folder / "pyodide").exists()
-    # Some MB besides the runtime, of the hundred that Panel has.
-    assert sum(path.stat().st_size for path in folder.rglob("*") if path.is_file()) < 10e6
+    # Some MB besides the runtime, of the hundred that Panel has. Half are drawings; one is loaded.
+    sizes = {path: path.stat().st_size for path in folder.rglob("*") if path.is_file()}
+    assert sum(sizes.values()) < 15e6
+    assert max(size for path, size in sizes.items() if path.parent.name == "drawings") < 1e6
 
 
 def test_scripts_and_sheets_are_those_of_the_served_page_in_its_order(written, server):
@@ -143,7 +155,7 @@ def test_scripts_and_sheets_are_those_of_the_served_page_in_its_order(written, s
 
 
 def test_the_theory_is_the_served_one_with_a_place_for_each_equation(written):
-    text = (written[0] / "theory.html").read_text(encoding="utf-8")
+    text = (written[0] / "app/theory.html").read_text(encoding="utf-8")
     from app.explorer import theory
 
     assert theory.html() in text
@@ -187,7 +199,7 @@ def test_the_sources_suffice_for_the_page_beside_what_is_compiled(written, tmp_p
     assert [url for url in asked if urlsplit(url).hostname != "here"] == []
 
 
-def test_what_is_loaded_of_pyodide_is_copied_as_its_lock_names_it(pyodide, tmp_path):
+def test_what_is_loaded_of_pyodide_is_copied_as_its_lock_names_it(pyodide, tmp_path, without_drawings):
     """And no more; what is not whole, was changed, or is of another version is refused in words."""
     folder = tmp_path / "site"
     static.write(folder, str(pyodide))
@@ -225,7 +237,7 @@ def test_a_folder_with_something_else_is_left_alone(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.tex"]
 
 
-def test_licences_of_all_that_is_in_the_folder_are_in_it(pyodide, tmp_path):
+def test_licences_of_all_that_is_in_the_folder_are_in_it(pyodide, tmp_path, without_drawings):
     folder = tmp_path / "site"
     static.write(folder, str(pyodide))
     text = (folder / "LICENSES.txt").read_text(encoding="utf-8")
@@ -310,6 +322,102 @@ def test_a_sweep_is_found_in_slices_and_a_press_makes_the_one_before_void(monkey
             numpy.testing.assert_allclose(mine, theirs, rtol=1e-12)
 
 
+@contextmanager
+def host(folder):
+    """The address of a folder from a host of files."""
+
+    class Files(SimpleHTTPRequestHandler):
+        def log_message(self, *arguments):
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Files, directory=folder))
+    thread = threading.Thread(target=server.serve_forever, daemon=True)
+    thread.start()
+    yield f"http://127.0.0.1:{server.server_port}/"
+    server.shutdown()
+    server.server_close()
+    thread.join()
+
+
+@pytest.fixture(scope="module")
+def started(browser, written):
+    """Opens a link to the page, without Python: the drawings that it asks for, and the page itself."""
+    with (
+        host(written[0]) as address,
+        browser.new_context(viewport={"width": 1280, "height": 720}) as context,
+    ):
+        # Not answered: the page waits.
+        context.route(f"{static.PUBLISHED}**", lambda route: None)
+
+        def start(query):
+            page, asked = context.new_page(), []
+            page.on("request", lambda request: asked.append(request.url))
+            page.goto(address + query)
+            page.frame_locator("#start iframe").locator("#player input").wait_for()
+            return [Path(url).stem for url in asked if "/drawings/" in url], page
+
+        yield start
+        context.unroute_all(behavior="ignoreErrors")
+
+
+#: Links to a preset as it is, and what follows on its name: nothing, a theme, what other sites append.
+AS_IT_IS = {
+    "": GOLD, f"?preset={PUNCH}": PUNCH, f"?preset={DROP}&dark=1": DROP,
+    f"?utm_source=course&preset={ELASTIC}&fbclid=I": ELASTIC,
+}  # fmt: skip
+#: Links to other scenes, and some that the page will refuse.
+OTHERS = (
+    f"?preset={PUNCH}&max_depth=5e-5", "?tiles=hardness", "?preset=none", "?preset=../theory",
+    f"?preset={PUNCH}&preset={DROP}", "?preset=",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("query", AS_IT_IS)
+def test_a_preset_is_drawn_at_once_and_plays(query, started):
+    """And no drawing of another one is loaded."""
+    preset = AS_IT_IS[query]
+    asked, page = started(query)
+    assert asked == [preset]
+    drawing = page.frame_locator("#start iframe")
+    assert drawing.locator("h1").inner_text() == PRESETS[preset].label
+    view = Page(f"preset={preset}").view
+    numbers = readouts.line(view.course)
+    each = next(iter(numbers))
+    expected = readouts.text(each, numbers[each], view.course.now)
+    readout = drawing.locator(f'output[data-name="{each.name}"]')
+    assert readout.inner_text() == expected
+    drawing.locator("#player input").press("Home")
+    assert readout.inner_text() != expected
+    assert page.locator("#start .follows").count() == 0
+    dark = "document.documentElement.classList.contains('dark')"
+    assert page.evaluate(dark) == page.frames[1].evaluate(dark) == ("dark=1" in query)
+    page.close()
+
+
+@pytest.mark.parametrize("query", OTHERS)
+def test_another_scene_is_announced_over_the_opening_one(query, started):
+    """That one is dimmed, and neither played nor read aloud: its numbers are not those of the link."""
+    asked, page = started(query)
+    assert asked == [GOLD]
+    assert page.get_by_text("Your scene follows").is_visible()
+    drawing = page.locator("#start iframe")
+    assert float(drawing.evaluate("(each) => getComputedStyle(each).opacity")) < 0.5
+    box = drawing.bounding_box()
+    page.mouse.click(box["x"] + 60, box["y"] + 100)
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.localName") != "iframe"
+    page.close()
+
+
+def test_what_does_not_start_announces_no_scene(started):
+    _, page = started(OTHERS[0])
+    page.route(f"{static.PUBLISHED}**", lambda route: route.abort())
+    page.reload()
+    page.get_by_role("alert").filter(has_text="could not be started").wait_for()
+    assert page.get_by_text("Your scene follows").count() == 0
+    page.close()
+
+
 @pytest.fixture(scope="module")
 def real():
     """The folder of a whole Pyodide."""
@@ -330,18 +438,8 @@ def hosted(browser, real, tmp_path_factory):
     """The address of a folder with a whole Pyodide, from a host of files."""
     folder = tmp_path_factory.mktemp("hosted") / "explorer"
     static.write(folder, str(real))
-
-    class Files(SimpleHTTPRequestHandler):
-        def log_message(self, *arguments):
-            pass
-
-    host = ThreadingHTTPServer(("127.0.0.1", 0), partial(Files, directory=folder))
-    thread = threading.Thread(target=host.serve_forever, daemon=True)
-    thread.start()
-    yield f"http://127.0.0.1:{host.server_port}/"
-    host.shutdown()
-    host.server_close()
-    thread.join()
+    with host(folder) as address:
+        yield address
 
 
 #: Once the page has taken the place of the first picture, for a busy machine.
@@ -431,9 +529,11 @@ def test_the_page_in_a_browser_by_pyodide(hosted, browser, tmp_path):
         page.locator(".notyf__message", has_text="Unknown names in this link are ignored: foo").wait_for()
         assert explorer.chosen("Fourth plot") == "Sweep"
         assert page.locator("#start").count() == 0
-        page.goto(hosted + "?theory=eq-11")
-        page.wait_for_function("document.querySelector('main')?.shadowRoot?.querySelector('math')")
-        page.wait_for_function("document.documentElement.scrollTop > 0")
+        for earlier in ("?theory=eq-11", "theory.html?theory=eq-11"):
+            page.goto(hosted + earlier)
+            page.wait_for_function("document.querySelector('math')")
+            page.wait_for_function("document.documentElement.scrollTop > 0")
+            assert page.url == f"{hosted}app/theory.html#eq-11"
         page.goto(hosted + "?fit")
         page.get_by_text("pip install").wait_for()
         assert explorer.problems == []

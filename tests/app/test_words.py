@@ -26,7 +26,7 @@ from .states import fields_of, part, press, side, state_with, stepped, view_of
 
 def places(html):
     """Where the links to the theory of a text lead to."""
-    return re.findall(r'href="\?theory=([\w-]+)"', html)
+    return re.findall(r'href="app/theory\.html#([\w-]+)"', html)
 
 
 def test_every_number_says_what_it_is():
