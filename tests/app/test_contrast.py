@@ -90,18 +90,24 @@ TEXTS = """() => {
 def test_every_text_of_the_page_is_read_in_the_dark(explorer):
     """In each part of the side, within a theme that is changed by its key.
 
-    Areas end in an edge that stands out: where what is stored ends below the present state, and where the
-    plastic zone ends above the mark of the onset of yield.
+    Areas end in an edge that stands out: where what is stored ends below the present state. The ribbon of
+    the plastic zone has its name on it.
     """
     page = explorer.page
     explorer.press("Dark")
     explorer.wait("document.documentElement.classList.contains('dark')")
-    for row, up in (("now", -100), ("onset of yield", 100)):
-        x, y = explorer.place("force", row, 0)
-        clip = {"x": x - 3, "y": y - up, "width": 6, "height": 1}
+
+    def pixels(clip):
         with Image.open(BytesIO(page.screenshot(clip=clip))) as seen:
-            pixels = {hexadecimal(str(pixel)) for _, pixel in seen.convert("RGB").getcolors()}
-        assert max(contrast(pixel, DARK["paper"]) for pixel in pixels) >= 3, (row, pixels)
+            return {hexadecimal(str(pixel)) for _, pixel in seen.convert("RGB").getcolors()}
+
+    x, y = explorer.place("force", "now", 0)
+    below = pixels({"x": x - 3, "y": y + 100, "width": 6, "height": 1})
+    assert max(contrast(pixel, DARK["paper"]) for pixel in below) >= 3, below
+    x, y = explorer.place("force", "plastic zone, on loading", 0)
+    (ribbon,) = pixels({"x": x + 6, "y": y, "width": 2, "height": 2})
+    assert ribbon != DARK["paper"]
+    assert contrast(ROLES["yielded-text"][1], ribbon) >= 4.5
     for part in ("Guide", "Share"):
         explorer.press(part)
         for text, *pair in page.evaluate(TEXTS):
@@ -109,8 +115,8 @@ def test_every_text_of_the_page_is_read_in_the_dark(explorer):
             assert contrast(*colours) >= 4.5, (part, text, colours)
 
 
-def test_play_is_loud_and_the_guide_stands_out(explorer):
-    """One filled button; the guide is bold in the accent, and what undoes is as quiet as the others."""
+def test_play_is_loud_and_buttons_of_the_header_are_of_one_kind(explorer):
+    """One filled button; the others have neither ground nor frame."""
     look = """(on) => {
       const { fontWeight, color, backgroundColor, borderColor } = getComputedStyle(on)
       return [fontWeight, color, backgroundColor, borderColor]
@@ -122,5 +128,4 @@ def test_play_is_loud_and_the_guide_stands_out(explorer):
     )
     accent, nothing = "rgb(0, 114, 178)", "rgba(0, 0, 0, 0)"
     assert play[:3] == ["600", "rgb(255, 255, 255)", accent]
-    assert guide == ["600", accent, nothing, nothing]
-    assert share == undo == ["400", "rgb(34, 39, 46)", nothing, nothing]
+    assert guide == share == undo == ["400", "rgb(34, 39, 46)", nothing, nothing]

@@ -177,7 +177,7 @@ def test_a_box_is_zoomed_to_until_a_double_click_or_another_drive(projector):
     projector.change(projector.type, "d_max", "8.978 nm")
     np.testing.assert_allclose(projector.axis("force")["x"], within["x"], rtol=1e-9)
     # The tool is off: the mark on the curve is dragged.
-    projector.drag("force", (0.1, 0.1))
+    projector.drag("force", (-0.2, 0.2))
     projector.wait("player.value < 80")
     assert projector.axis("force")["x"] == within["x"]
     page.mouse.dblclick(*centre)

@@ -240,7 +240,7 @@ def test_presets_shapes_drives_and_media_are_drawn(explorer):
     # Elements of the page after many changes of drive are as many as before.
     counts = []
     for _ in range(3):
-        for drive in ("depth", "path", "impact", "oblique impact", "force"):
+        for drive in ("depth", "path", "impact", "oblique", "force"):
             explorer.pick(drive)
         counts.append(explorer.page.evaluate("explorer.all().length"))
     assert counts[2] == approx(counts[0], rel=0.05)
@@ -278,7 +278,7 @@ def test_an_impact_is_swept_shown_in_time_and_repeated_on_the_same_spot(explorer
 
 def test_an_oblique_impact_a_path_and_a_section_are_found_at_rest(explorer):
     explorer.choose("Preset", PRESETS[ELASTIC].label)
-    explorer.pick("oblique impact")
+    explorer.pick("oblique")
     explorer.page.get_by_label("Fourth plot").select_option(label="Friction")
     hit = scene_of(state_with(ELASTIC, "oblique")).solve()
     explorer.wait("explorer.model('forces')")

@@ -318,7 +318,8 @@ def test_a_sweep_is_found_in_slices_and_a_press_makes_the_one_before_void(monkey
     expected = at_once.view.computed["sweep"]
     assert page.view.computed["sweep"].note == expected.note
     for name, columns in expected.rows.items():
-        for mine, theirs in zip(page.view.computed["sweep"].rows[name], columns, strict=True):
+        # Places, without the text of a label.
+        for mine, theirs in zip(page.view.computed["sweep"].rows[name][:2], columns[:2], strict=True):
             numpy.testing.assert_allclose(mine, theirs, rtol=1e-12)
 
 

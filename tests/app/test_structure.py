@@ -336,7 +336,8 @@ def test_the_sweep_over_the_thickness_goes_from_a_ball_that_stays_to_a_half_spac
     middle = linked_state(state.replace(**{"structure.thickness": float(thickness[15])}))
     assert restitution[15] == approx(float(follow(middle).hit.restitution), rel=1e-9)
     # The limit of fast impacts and the other classes are those of a half-space.
-    assert {*found.rows} == {"this scene", "present value"}
+    seen = {name for name, (_, y, *_) in found.rows.items() if np.isfinite(y).any()}
+    assert seen == {"this scene", "label this scene", "present value"}
 
 
 def test_what_is_not_used_is_not_in_a_link():
