@@ -99,7 +99,8 @@ def test_words_of_a_saved_legend_stand_beside_what_they_name(saved):
 
 def test_a_saved_picture_has_the_labels_of_the_plot_and_then_no_legend(saved):
     pictures, dark = saved
-    for name in ("springs", "pressure", "force", "sweep"):
+    assert legend_of(pictures["sweep"]) == []
+    for name in ("springs", "pressure", "force"):
         image = np.asarray(Image.open(io.BytesIO(pictures[name])).convert("RGB"), int)
         assert has(image[TITLE:], colour("yielded-text", dark)), name
         assert legend_of(pictures[name]) == [], name
