@@ -70,7 +70,7 @@ class Results:
         page = self._page
         self.cancel = button("Cancel", page.cancel, visible=False)
         # Of the width of a hidden field a row would be as wide.
-        self.report, self.caption = (pn.widgets.TextInput(visible=False, **WIDE) for _ in range(2))
+        self.report = pn.widgets.TextInput(visible=False, **WIDE)
         self.copy = button("Copy")
         self.copy.js_on_click(args={"field": self.report}, code=call("copy", "field"))
         self.files = {
@@ -78,11 +78,10 @@ class Results:
             for kind, write in (("json", export.as_json), ("csv", export.as_csv))
         }
         self.picture = button("Save figure")
-        told = {"figures": [self.plots.force, self.plots.residual], "csv": self.files["csv"]}
-        told["caption"] = self.caption
-        self.picture.js_on_click(args=told, code=call("save_fit", *told))
+        figures = {"figures": [self.plots.force, self.plots.residual]}
+        self.picture.js_on_click(args=figures, code=call("save_fit", "figures"))
         self.explorer = html("", "links", sizing_mode=None)
-        parts = self.copy, *self.files.values(), self.picture, self.explorer, self.report, self.caption
+        parts = self.copy, *self.files.values(), self.picture, self.explorer, self.report
         self.saved = pn.Row(*parts, css_classes=["tools"], visible=False, **WIDE)
 
     def _range(self) -> None:
@@ -246,12 +245,14 @@ class Results:
 
     def _show_files(self, found: Any) -> None:
         page, form = self._page, self._page.form
+        name = f"{Path(page.file).stem}_fit"
         for kind, widget in self.files.items():
-            show(widget, filename=f"{Path(page.file).stem}_fit.{kind}")
+            show(widget, filename=f"{name}.{kind}")
+        # What a saved picture needs besides.
+        self.plots.force.tags = [name, texts.caption(found, page.E, page.file)]
         shown = form.parameters(found.fit.time is not None)
         given = form.corrections() | form.given("depth_noise")
         show(self.report, value=texts.report(found, page.E, page.file, shown, given))
-        show(self.caption, value=texts.caption(found, page.E, page.file))
         tip = form.tip.value
         try:
             query = export.explorer_query(found, tip, form.given(*TIPS[tip].numbers), form.medium.value)

@@ -165,15 +165,15 @@ window.pages = (() => {
       })
       show()
     },
-    // The curve and its residuals as one picture with the name of its other file, and the number below.
-    async save_fit([force, residual], csv, caption) {
+    // The curve and its residuals as one picture; tags of the curve are the name of its file, and the text below it.
+    async save_fit([force, residual]) {
       const { save } = await import(new URL("app/static/save.js", document.baseURI).href)
-      const rows = force.renderers.map(({ name }) => name)
+      const [name, caption] = force.tags, rows = force.renderers.map((each) => each.name)
       const plots = [
         { figure: force, place: [0, 0, 960, 464], look: { title: "Force and depth", rows } },
         { figure: residual, place: [0, 464, 960, 232], look: { title: "Residuals", rows: [] } },
       ]
-      await save(csv.filename.replace(/\.csv$/, ""), caption.value, plots, [960, 720])
+      await save(name, caption, plots, [960, 720])
     },
     // Both ends of the range have their names.
     name_handles() {
