@@ -7,19 +7,16 @@ from typing import Any
 import bokeh.models as bk
 import numpy as np
 from bokeh.core.properties import field
-from bokeh.events import DoubleTap, PanEnd
 from bokeh.plotting import figure
 from markupsafe import Markup
 
 from mdr_core.show.figures import ROLES, Axis, Row
 
+from ..common.figures import add_zoom, set_look
 from ..common.quantities import unicode_subscripts
-from ..common.ui import HERE, call, html_subscripts
+from ..common.ui import call, html_subscripts
 from .plot import OF_AXIS, Plot, View, overlays, rows_of
 
-_LOOK = [(HERE / "static" / "tools.css").read_text(encoding="utf-8")]
-#: The outline of a canvas, which no linked sheet reaches.
-_FOCUS = [".bk-Canvas { --highlight-color: var(--elastic); --outline-width: 2px; }"]
 #: Rows that are drawn together, from the back to the front, and the glyph of each kind.
 _GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
 _GLYPHS = {"areas": bk.Patches, "lines": bk.MultiLine, "marks": bk.Scatter, "labels": bk.Text}
@@ -91,24 +88,18 @@ class Picture:
         self.plot, self.axes = plot, None
         # Preset and drive that are drawn: the whole plot of another one is shown.
         self._scene: tuple[str, str] | None = None
-        f = self.figure = figure(
-            name=plot.name, tools="", x_range=(0, 1), y_range=(0, 1), stylesheets=_FOCUS
-        )
+        f = self.figure = figure(name=plot.name, tools="", x_range=(0, 1), y_range=(0, 1))
         f.update(title=None, toolbar_location=None, sizing_mode="stretch_both", min_height=100)
-        f.update(background_fill_color=None, border_fill_color=None, outline_line_color=None)
         f.update(min_border_left=60, min_border_right=14, min_border_top=8, min_border_bottom=44)
         add_zoom(f)
-        f.js_on_change("inner_width", bk.CustomJS(code=call("tidy", "cb_obj")))
         groups = {row.group for row in rows_of(plot)}
         if any(group.endswith("right") for group in groups):
             f.extra_y_ranges = {"right": bk.Range1d()}
             f.add_layout(bk.LinearAxis(y_range_name="right"), "right")
         for axis in f.axis:
-            axis.update(minor_tick_line_color=None, major_tick_in=0, major_tick_out=4)
             # A plot is low, and what is read in it is the curve.
             axis.ticker.desired_num_ticks = 4
-            axis.update(axis_label_text_font_style="normal", axis_label_text_font_size="12px")
-        f.xgrid.visible = False
+        set_look(f)
         self.layers = [Layer(plot, group, f) for group in _GROUPS if group in groups]
 
     def axes_of(self, view: View) -> list[Axis]:
@@ -279,12 +270,3 @@ def legend(plot: Plot, shown: dict[str, str]) -> Markup:
         one = Markup('<span class="{}"><i class="{}"></i>{}</span>')
         rows.append(one.format(row.role, look, html_subscripts(shown[row.name])))
     return Markup("").join(rows)
-
-
-def add_zoom(figure: Any) -> None:
-    """Let a figure be zoomed to one box at a time; its button and a double click show the whole plot."""
-    figure.add_tools(bk.BoxZoomTool(description="Zoom to a box"), bk.ResetTool(description="Whole plot"))
-    figure.update(toolbar_location="above", toolbar_inner=True)
-    figure.toolbar.update(autohide=True, logo=None, active_drag=None, stylesheets=_LOOK)
-    figure.js_on_event(PanEnd, bk.CustomJS(code=call("end_box", "cb_obj")))
-    figure.js_on_event(DoubleTap, bk.CustomJS(code=call("whole", "cb_obj")))

@@ -17,6 +17,7 @@ from mdr_core.base.remark import Remark, Remedy
 from mdr_core.measurements.fit.noise import depth_noise_of
 from mdr_core.measurements.fit.remarks import remark_on_tension
 from mdr_core.measurements.reading import UnknownColumns
+from mdr_core.measurements.unloading.first_contact import LEAST_SAMPLES, first_seen
 from mdr_core.show.units import written
 
 from ..common.errors import text_and_remedy
@@ -151,6 +152,18 @@ def ends_of(taken: SimpleNamespace, count: int, part: str) -> tuple[int, int]:
     top = int(taken.number[np.argmax(taken.depth)])
     ends = {"all": (1, count), "loading": (1, top), "unloading": (top, count)}[part]
     return ends if ends[0] < ends[1] else (1, count)
+
+
+def contact_depth(taken: SimpleNamespace, fit: Any = None) -> float | None:
+    """Return the depth (m) of first contact of a fit, or where the force of the loading leaves the air.
+
+    It is None for a loading that does not begin in the air.
+    """
+    if fit is not None:
+        return float(fit.contact_point)
+    loading = taken.force[: int(np.argmax(taken.force)) + 1]
+    seen = first_seen(loading)[0] if loading.size > LEAST_SAMPLES else 0
+    return float(taken.depth[seen]) if LEAST_SAMPLES <= seen < loading.size else None
 
 
 # Fits.

@@ -61,7 +61,8 @@ class Form:
         media = {"choose the kind of sample": ""} | {each.label: name for name, each in MEDIA.items()}
         #: Radii and heights (m) of a measured tip.
         self.tip_samples: Any = None
-        self.tip, self.medium = select("Tip", tips, "to-profile"), select("Sample", media)
+        self.tip = select("Tip", tips, "to-profile", "named-above")
+        self.medium = select("Sample", media, "named-above")
         acts = dict.fromkeys(CANTILEVER, page.read) | dict.fromkeys(MODULI, page.modulus_chosen)
         for name, widget in self.numbers.items():
             widget.param.watch(page.when_changed(acts.get(name, page.fit)), "si")
@@ -279,7 +280,8 @@ class Columns:
         depth, *others = [
             pn.Row(self.columns[role], self.units[role], css_classes=["pair"], **WIDE) for role in SIZES
         ]
-        self.view = pn.Column(depth, self.meaning, *others, self.by, self.confirm, visible=False, **WIDE)
+        parts = depth, self.meaning, *others, self.by, self.confirm
+        self.view = pn.Column(*parts, css_classes=["reader"], visible=False, **WIDE)
         # Columns of each part of a table, and what parts the curves, as they are shown.
         self._parts: list[dict[str, Any]] = []
         self._by: Any = None

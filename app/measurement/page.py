@@ -17,7 +17,7 @@ from mdr_core.base.remark import Remark
 from ..common.errors import Refused
 from ..common.folders import Files
 from ..common.process import Here, Worker
-from ..common.ui import BOTH, WIDE, call, html, landmarks, show
+from ..common.ui import BOTH, WIDE, button, call, html, landmarks, show
 from ..common.upload import in_line
 from . import analysis, query
 from .actions import Actions
@@ -73,15 +73,14 @@ class Measurement(Actions):
     def _view(self) -> None:
         header = (
             html(Markup("<h1>Measurement</h1>"), "name"),
-            html(Markup('<a href="?">Indentation explorer</a>'), "links", sizing_mode=None),
+            html(Markup('<a href="?">Indentation explorer</a>'), "way", sizing_mode=None),
+            button("Dark", None, "theme"),
         )
         self.address = pn.widgets.TextInput(visible=False)
         self.address.jscallback(value="history.replaceState(null, '', source.value)")
         columns = pn.Row(self.form.view, self.results.view, css_classes=["fit-columns"], **BOTH)
-        self.view = pn.Column(
-            pn.Row(*header, self.address, css_classes=["fit-header"], **WIDE), columns,
-            css_classes=["fit-page"], **BOTH,
-        )  # fmt: skip
+        head = pn.Row(*header, self.address, css_classes=["fit-header"], **WIDE)
+        self.view = pn.Column(head, columns, css_classes=["fit-page"], **BOTH)
         landmarks(self.document, _LANDMARKS, "found", "Skip to the result")
         # The address restores what was typed when the session is lost.
         self.document.js_on_event(ConnectionLost, CustomJS(code=call("again")))

@@ -1,19 +1,31 @@
 """The curve over the model, and the residuals, as two Bokeh figures."""
 
+from math import inf
 from typing import Any
 
 import bokeh.models as bk
 import numpy as np
 import panel as pn
 from bokeh.plotting import figure
+from markupsafe import Markup
 
 from mdr_core.show.figures import ROLES
 from mdr_core.show.units import fitting
 
-from ..common.ui import WIDE, call
-from ..explorer.figures import add_zoom
+from ..common.figures import add_zoom, set_look
+from ..common.ui import BOTH, WIDE, html, show
+from .analysis import contact_depth
 
 _NAMES = "others", "measured", "model", "noise", "residuals"
+#: What the legend names: rows by their sources, each with the role and the kind of its swatch.
+_LEGEND = {
+    "others": ("free", "marks", "not fitted"), "measured": ("measured", "marks", "measured"),
+    "model": ("elastic", "lines", "model"),
+}  # fmt: skip
+_KEY = Markup('<span class="{}"><i class="{}"></i>{}</span>')
+_HEAD = Markup('<h3>Force and depth</h3><span class="key">{}</span>')
+#: Air that is seen before first contact, as a share of the depth range of the contact.
+_AIR = 1 / 3
 _FIGURES = {
     "force": "Force over measured depth, as measured and of the model",
     "residual": "Residuals of the force over measured depth, between bounds of the noise",
@@ -33,26 +45,27 @@ class Plots:
         for each, name in ((self.force, "force"), (self.residual, "residual")):
             add_zoom(each)
             # The same width inside the axes, so that depths stand below each other.
-            each.update(min_border_left=76, min_border_right=20)
+            each.update(min_border_left=76, min_border_right=14)
             _style(each, _FIGURES[name])
-            each.xgrid.visible = False
-            each.js_on_change("inner_width", bk.CustomJS(code=call("tidy", "cb_obj")))
         self.sources = {name: bk.ColumnDataSource({"x": [], "y": []}, name=name) for name in _NAMES}
         #: Models with a property of theirs and its colours, light and dark: a browser knows which it shows.
         self.looks = [(model, name, ROLES[role]) for model, name, role in self._draw()]
         for model, name, colours in self.looks:
             setattr(model, name, colours[0])
+        # Ends of the axis of depth, as they were set last: others are those of a zoom.
+        self._ends = (0.0, 1.0)
+        self.head = html("", "head-of-plots")
+        force, self._residual_pane = (pn.pane.Bokeh(each, **BOTH) for each in (self.force, self.residual))
+        both = pn.Column(force, self._residual_pane, css_classes=["both-plots"], **BOTH)
+        self.view = pn.Column(self.head, both, css_classes=["plots-of-fit"], visible=False, **BOTH)
 
     def _draw(self) -> list[tuple[Any, str, str]]:
         """Draw both plots; return models with a property and the role of its colour."""
         force, residual, source = self.force, self.residual, self.sources
         dots = {"size": 4, "line_color": None}
-        others = force.scatter("x", "y", source=source["others"], legend_label="not fitted", **dots)
-        measured = force.scatter("x", "y", source=source["measured"], legend_label="measured", **dots)
-        model = force.line("x", "y", source=source["model"], width=2, legend_label="model")
-        (key,) = force.legend
-        key.update(location="top_left", background_fill_alpha=0.8, border_line_color=None)
-        key.update(label_text_font_size="12px", glyph_height=15, label_height=15)
+        others = force.scatter("x", "y", source=source["others"], name="not fitted", **dots)
+        measured = force.scatter("x", "y", source=source["measured"], name="measured", **dots)
+        model = force.line("x", "y", source=source["model"], width=2, name="model")
         zero = bk.Span(location=0, dimension="width", line_dash="dashed")
         residual.add_layout(zero)
         noise = residual.line("x", "y", source=source["noise"], width=1.2)
@@ -61,16 +74,15 @@ class Plots:
             (others.glyph, "fill_color", "free"), (measured.glyph, "fill_color", "measured"),
             (misses.glyph, "fill_color", "measured"), (model.glyph, "line_color", "elastic"),
             (noise.glyph, "line_color", "free"), (zero, "line_color", "ink"),
-            (key, "label_text_color", "ink"), (key, "background_fill_color", "paper"),
         ]  # fmt: skip
 
     def show(self, taken: Any, used: np.ndarray, fit: Any = None) -> None:
-        """Show samples, and the fit of those that are used."""
+        """Show samples from a little before first contact on, and the fit of those that are used."""
         length = fitting(float(np.max(np.abs(taken.depth))), "length")
         force = fitting(float(np.max(np.abs(taken.force))), "force")
-        self.force.yaxis.axis_label = f"force F ({force.name})"
+        self.force.yaxis.axis_label = f"F, force ({force.name})"
         # Named once, below the lower plot.
-        self.residual.xaxis.axis_label = f"measured depth z ({length.name})"
+        self.residual.xaxis.axis_label = f"z, measured depth ({length.name})"
         self.force.xaxis.axis_label = "" if fit is not None else self.residual.xaxis.axis_label
         data = dict.fromkeys(_NAMES, (np.array([]), np.array([])))
         data["measured"] = taken.depth[used], taken.force[used] / force.factor
@@ -88,10 +100,16 @@ class Plots:
             data["noise"] = np.r_[depth, np.nan, depth], np.r_[noise, np.nan, -noise]
         for name, (x, y) in data.items():
             self.sources[name].data = {"x": x / length.factor, "y": y}
-        others, _, model = self.force.legend.items
-        others.visible, model.visible = bool(np.any(~used)), fit is not None
-        depth = self.force.x_range, *_reach(taken.depth / length.factor, 0.03)
-        _set(depth, (self.force.y_range, *_reach(taken.force / force.factor, 0.08)))
+        rows = (_KEY.format(*row) for name, row in _LEGEND.items() if data[name][0].size)
+        show(self.head, object=_HEAD.format(Markup("").join(rows)))
+        show(self._residual_pane, visible=fit is not None)
+        depth, ends = self.force.x_range, _reach(taken.depth / length.factor, 0.03)
+        is_zoomed = (depth.start, depth.end) != self._ends
+        forces = self.force.y_range, *_reach(taken.force / force.factor, 0.08)
+        if _set((depth, *ends), forces) or not is_zoomed:
+            seen = taken.depth[taken.depth >= _begin(taken.depth, contact_depth(taken, fit))]
+            self._ends = _reach(seen / length.factor, 0.03)
+            depth.update(start=self._ends[0], end=self._ends[1])
         _set((self.residual.y_range, *_reach(np.append(data["residuals"][1], data["noise"][1]), 0.12)))
 
 
@@ -153,11 +171,14 @@ class AllCurves:
 
 def _style(plot: Any, name: str) -> None:
     """Give a figure its name and the look of all plots."""
-    plot.update(background_fill_color=None, border_fill_color=None, outline_line_color=None)
     plot.html_attributes = {"role": "figure", "aria-label": name}
-    plot.axis.axis_label_text_font_style = "normal"
-    plot.axis.minor_tick_line_color = None
-    plot.axis.axis_label_text_font_size = plot.axis.major_label_text_font_size = "12px"
+    set_look(plot)
+
+
+def _begin(depth: np.ndarray, contact: float | None) -> float:
+    """Return the depth (m) from which on a contact is drawn, −∞ for a curve without air."""
+    within = 0.0 if contact is None else float(np.max(depth)) - contact
+    return contact - _AIR * within if contact is not None and within > 0 else -inf
 
 
 def _reach(values: np.ndarray, margin: float) -> tuple[float, float]:
@@ -168,8 +189,12 @@ def _reach(values: np.ndarray, margin: float) -> tuple[float, float]:
     return low - wide, high + wide
 
 
-def _set(*axes: tuple[Any, float, float]) -> None:
-    """Set the ends of axes, also where they are reset; a zoom stays while all of these stay."""
-    if any((axis.reset_start, axis.reset_end) != (start, end) for axis, start, end in axes):
-        for axis, start, end in axes:
-            axis.update(start=start, end=end, reset_start=start, reset_end=end)
+def _set(*axes: tuple[Any, float, float]) -> bool:
+    """Set the ends of axes, also where they are reset, if one has changed: else a zoom stays.
+
+    Return whether one has changed.
+    """
+    changed = any((axis.reset_start, axis.reset_end) != (start, end) for axis, start, end in axes)
+    for axis, start, end in axes if changed else ():
+        axis.update(start=start, end=end, reset_start=start, reset_end=end)
+    return changed

@@ -39,6 +39,7 @@ class Results:
             pn.Column(css_classes=["said", name], visible=False, **WIDE)
             for name in ("above", "below", "errors", "remarks")
         )
+        self.plots = Plots()
         self._tools()
         self._range()
         self._curves()
@@ -52,13 +53,11 @@ class Results:
             ),
             fold("Remarks", self.remarks, css_classes=["fold", "remarks-fold"]),
         ]
-        self.plots = Plots()
         looks = {"looks": self.plots.looks + self.all_curves.looks}
-        shade = CustomJS(args=looks, code=call("shade", "looks"))
-        for code in (shade, CustomJS(code=call("name_handles")), CustomJS(code=_DROPS)):
+        theme = CustomJS(args=looks, code=call("theme_button", "looks"))
+        for code in (theme, CustomJS(code=call("name_handles")), CustomJS(code=_DROPS)):
             page.document.js_on_event(DocumentReady, code)
-        panes = (pn.pane.Bokeh(each, **BOTH) for each in (self.plots.force, self.plots.residual))
-        self.figures = pn.Column(*panes, css_classes=["plots-of-fit"], visible=False, **BOTH)
+        self.figures = self.plots.view
         words = self.above, self.headline, self.below, self.errors, self.saved, self.cancel
         top = pn.Row(pn.Column(*words, **WIDE), self.aside, css_classes=["top-of-found"], **WIDE)
         folds = pn.Row(*self.folds, css_classes=["folds"], **WIDE)
@@ -70,15 +69,19 @@ class Results:
     def _tools(self) -> None:
         page = self._page
         self.cancel = button("Cancel", page.cancel, visible=False)
-        self.report = pn.widgets.TextInput(visible=False)
+        # Of the width of a hidden field a row would be as wide.
+        self.report = pn.widgets.TextInput(visible=False, **WIDE)
         self.copy = button("Copy")
         self.copy.js_on_click(args={"field": self.report}, code=call("copy", "field"))
         self.files = {
             kind: download(kind.upper(), partial(self._written, write))
             for kind, write in (("json", export.as_json), ("csv", export.as_csv))
         }
+        self.picture = button("Save figure")
+        figures = {"figures": [self.plots.force, self.plots.residual]}
+        self.picture.js_on_click(args=figures, code=call("save_fit", "figures"))
         self.explorer = html("", "links", sizing_mode=None)
-        parts = self.copy, *self.files.values(), self.explorer, self.report
+        parts = self.copy, *self.files.values(), self.picture, self.explorer, self.report
         self.saved = pn.Row(*parts, css_classes=["tools"], visible=False, **WIDE)
 
     def _range(self) -> None:
@@ -242,8 +245,11 @@ class Results:
 
     def _show_files(self, found: Any) -> None:
         page, form = self._page, self._page.form
+        name = f"{Path(page.file).stem}_fit"
         for kind, widget in self.files.items():
-            show(widget, filename=f"{Path(page.file).stem}_fit.{kind}")
+            show(widget, filename=f"{name}.{kind}")
+        # What a saved picture needs besides.
+        self.plots.force.tags = [name, texts.caption(found, page.E, page.file)]
         shown = form.parameters(found.fit.time is not None)
         given = form.corrections() | form.given("depth_noise")
         show(self.report, value=texts.report(found, page.E, page.file, shown, given))
@@ -259,7 +265,6 @@ class Results:
         preview = page.question.preview if page.question else None
         taken = preview if curve is None else page.taken
         show(self.figures, visible=taken is not None)
-        show(self.figures[1], visible=found is not None)
         show(self.range, visible=curve is not None)
         if taken is not None:
             ends = (1, np.inf) if curve is None else page.ends

@@ -240,19 +240,26 @@ def range_text(curve: Any, ends: tuple[int, int], fitted: bool) -> str:
     return f"{'Fitted: s' if fitted else 'S'}amples {' to '.join(places)} of {len(curve)}"
 
 
+def caption(found: Any, E: tuple[float, float] | None, file: str) -> str:
+    """Return the name of a file with the numbers of its fit, as one line."""
+    quoted = found.quoted
+    if quoted.source is None:
+        return f"{file}: no E* to quote"
+    value = amount(quoted.value, quoted.standard_error, "Pa")
+    numbers = [f"E* = {value}, effective modulus {_SOURCES[quoted.source]}"]
+    numbers += [
+        f"{s} = {amount(value, error, 'Pa')}, {name}" for s, value, error, name in _beside(found, E)
+    ]
+    return f"{file}: {'; '.join(numbers)}"
+
+
 def report(
     found: Any, E: tuple[float, float] | None, file: str, shown: list[str], corrections: dict[str, float]
 ) -> str:
     """Return a fit as lines of text to be pasted into a report."""
-    quoted = found.quoted
-    lines = [f"{file}: No E* to quote: {quoted.reason}"]
-    if quoted.source is not None:
-        value = amount(quoted.value, quoted.standard_error, "Pa")
-        numbers = [f"E* = {value}, effective modulus {_SOURCES[quoted.source]}"]
-        numbers += [
-            f"{s} = {amount(value, error, 'Pa')}, {name}" for s, value, error, name in _beside(found, E)
-        ]
-        lines = [f"{file}: {'; '.join(numbers)}"]
+    lines = [
+        caption(found, E, file) if found.quoted.source else f"{file}: No E* to quote: {found.quoted.reason}"
+    ]
     lines += [each.text for each in (*found.above, *found.below)]
     for name in shown:
         held = "" if name in found.fit.standard_errors else " (held)"

@@ -43,7 +43,7 @@ const DRAWN = {
   },
   MultiLine(context, { line_width, line_dash }, x, y) {
     context.lineWidth = line_width
-    context.setLineDash(line_dash === "solid" ? [] : line_dash.split(" ").map(Number))
+    context.setLineDash(typeof line_dash === "string" ? line_dash.split(" ").map(Number).filter(isFinite) : line_dash)
     context.moveTo(x, y)
     context.lineTo(x + SWATCH, y)
     context.stroke()
@@ -55,14 +55,22 @@ const DRAWN = {
     context.stroke()
   },
 }
+DRAWN.Line = DRAWN.MultiLine
 // Whether two colours, #rrggbb, are as good as the same.
 const parts = (colour) => [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16))
 const alike = (one, other) => parts(one).every((part, k) => Math.abs(part - parts(other)[k]) < 16)
+// The look of a glyph that is one for all of its data.
+const look_of = ({ attributes }) => {
+  const plain = (look) => (look?.value === undefined ? look : look.value)
+  return Object.fromEntries(Object.entries(attributes).map(([name, look]) => [name, plain(look)]))
+}
 // What the legend names of a plot: the rows that are seen, each with its kind and its look.
 function items_of({ renderers }, rows) {
   const some = (part) => (typeof part === "number" ? isFinite(part) : Array.from(part ?? []).some(some))
-  return renderers.flatMap(({ glyph, data_source: { data } }) => {
-    const { row = [], ys, y } = data
+  return renderers.flatMap(({ name, glyph, data_source: { data } }) => {
+    const { row, ys, y } = data
+    // Without rows in its data all of a renderer is one, which has its name.
+    if (!row) return rows.includes(name) && some(y) ? [{ label: name, kind: glyph.type, look: look_of(glyph) }] : []
     const named = (label, k) => rows.includes(label) && row.indexOf(label) === k && some((ys ?? y)[k])
     const look = (k) => Object.fromEntries(Object.entries(data).map(([name, column]) => [name, column[k]]))
     return row.flatMap((label, k) => (named(label, k) ? [{ label, kind: glyph.type, look: look(k) }] : []))
@@ -95,7 +103,7 @@ async function drawn(context, figure, { rows, title }, [left, top, width, height
     context.fillText(label, word, y, width - word)
     context.save()
     // A white line on an image has the colour of the paper.
-    context.strokeStyle = kind === "MultiLine" && alike(look.line_color, paper) ? ink : look.line_color
+    context.strokeStyle = kind === "MultiLine" && alike(look.line_color, paper) ? ink : look.line_color ?? look.fill_color
     context.beginPath()
     DRAWN[kind](context, look, x, y)
     context.restore()

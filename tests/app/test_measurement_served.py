@@ -3,6 +3,7 @@
 import itertools
 import re
 import zipfile
+from io import BytesIO
 from urllib.request import urlopen
 
 import numpy as np
@@ -10,12 +11,14 @@ import pandas
 import pytest
 
 import mdr_core as mdr
+from mdr_core.show.figures import ROLES
 
 from .conftest import ROOT, Explorer, Server
 from .measuring import TIP
 from .states import table
 from .test_plausible import heights
 
+Image = pytest.importorskip("PIL.Image")
 READY = "Bokeh.documents.length && Bokeh.documents.every((each) => each.is_idle)"
 
 
@@ -185,6 +188,7 @@ def test_the_explorer_leads_there_and_back(explorer):
 def test_a_question_is_answered_by_one_click(measurement, tmp_path):
     """A German file: the choosers have the suggestion, which is drawn, and a folder is asked about once."""
     page = measurement.page
+    page.set_viewport_size({"width": 1280, "height": 720})
     depth = 1e-6 * np.append(np.linspace(-0.05, 1, 240), np.linspace(1, 0.7, 160))
     force = mdr.indent(TIP, mdr.Medium(E_star=80e9, hardness=8e9), depth).force
     for name in ("eine_datei.csv", "noch_eine.csv"):
@@ -192,9 +196,14 @@ def test_a_question_is_answered_by_one_click(measurement, tmp_path):
         (tmp_path / name).write_text(text, encoding="utf-8")
     drop(measurement, tmp_path / "eine_datei.csv")
     page.get_by_text("eine_datei.csv: which column is the depth").wait_for()
-    # The suggestion is drawn.
-    page.locator(".of-force canvas").first.wait_for()
-    page.get_by_role("button", name="Read", exact=True).click()
+    # The suggestion is drawn, on one screen with the question and its button.
+    canvas = page.locator(".of-force canvas").first
+    canvas.wait_for()
+    read = page.get_by_role("button", name="Read", exact=True)
+    for part in (canvas, read):
+        box = part.bounding_box()
+        assert 0 <= box["y"] < box["y"] + box["height"] <= 720
+    read.click()
     page.get_by_text("eine_datei.csv: 400 samples").wait_for()
     drop(measurement, tmp_path / "noch_eine.csv")
     page.get_by_text("noch_eine.csv: 400 samples").wait_for()
@@ -310,16 +319,113 @@ def test_a_long_job_is_cancelled_and_the_next_one_is_done(measurement, tmp_path)
     number(measurement, "kPa")
 
 
+DRAWN = """(name) => Bokeh.documents[0].get_model_by_name('force plot').renderers
+  .find((each) => each.name === name).glyph[name === 'model' ? 'line_color' : 'fill_color'].value"""
+
+
+def colours(opened):
+    """Colours in which measured samples and the model are drawn."""
+    return [opened.page.evaluate(DRAWN, name).lower() for name in ("measured", "model")]
+
+
+LIGHT, DARK = ([ROLES[role][k].lower() for role in ("measured", "elastic")] for k in (0, 1))
+
+
 def test_the_figures_are_dark_on_a_first_visit_with_a_dark_system(server, browser):
-    """No cookie tells the server: letters of the legend are light, as those of the page."""
+    """No cookie tells the server."""
     with browser.new_context(color_scheme="dark") as context:
         opened = Explorer(context.new_page(), f"{server.url}?fit", READY)
         opened.press("Sample: fused silica")
         number(opened, "69")
-        parts = "Bokeh.documents[0].get_model_by_name('force plot').center"
-        colour = opened.page.evaluate(f"{parts}.find((each) => each.type === 'Legend').label_text_color")
-        assert all(int(colour[k : k + 2], 16) > 0xA0 for k in (1, 3, 5))
+        assert colours(opened) == DARK
+        assert opened.page.get_by_role("button", name="Dark", pressed=True).is_visible()
         assert opened.problems == []
+
+
+def test_dark_is_the_theme_of_both_pages(server, browser):
+    """One button as in the explorer: the page, its figures, and what a browser keeps for the next page."""
+    with browser.new_context() as context:
+        opened = Explorer(context.new_page(), f"{server.url}?fit", READY)
+        opened.press("Sample: fused silica")
+        number(opened, "69")
+        assert colours(opened) == LIGHT
+        is_dark = "document.documentElement.classList.contains('dark')"
+        for dark, drawn in ((True, DARK), (False, LIGHT), (True, DARK)):
+            opened.press("Dark")
+            opened.page.get_by_role("button", name="Dark", pressed=dark).wait_for()
+            assert opened.page.evaluate(is_dark) is dark
+            assert colours(opened) == drawn
+            (cookie,) = (each["value"] for each in context.cookies() if each["name"] == "dark")
+            assert cookie == str(int(dark))
+        opened.goto(server.url)
+        assert opened.page.evaluate(is_dark)
+        assert opened.problems == []
+
+
+def test_the_figure_is_saved_as_one_picture(measurement):
+    """960 × 720 points of two pixels: samples over the model, the residuals, and a text at the bottom."""
+    page = measurement.page
+    measurement.press("Sample: fused silica")
+    number(measurement, "69")
+    page.locator(".of-residual canvas").first.wait_for()
+    before = page.locator(".of-force").bounding_box()
+    with page.expect_download() as download:
+        measurement.press("Save figure")
+    assert download.value.suggested_filename == "Fused silica, Berkovich tip_fit.png"
+    image = np.asarray(Image.open(BytesIO(download.value.path().read_bytes())).convert("RGB"), int)
+    assert image.shape == (1440, 1920, 3)
+
+    def where(role):
+        wanted = [int(ROLES[role][0][k : k + 2], 16) for k in (1, 3, 5)]
+        return np.nonzero((np.abs(image - wanted).max(axis=2) < 8).any(axis=1))[0]
+
+    model, measured = where("elastic"), where("measured")
+    # A swatch in the legend, above the plot; the residuals have no model.
+    assert 60 < model.min() < 100 < model.max() < 928
+    assert measured.min() < 100
+    assert 1000 < measured.max() < 1392
+    text = np.abs(image[1396:] - image[0, 0]).max(axis=2) > 100
+    assert np.count_nonzero(text.any(axis=0)) > 900
+    # The plots have their size on the page again.
+    height = "explorer.all().find((each) => each.matches('.of-force')).offsetHeight"
+    measurement.wait(f"(before) => Math.abs({height} - before) < 2", before["height"])
+
+
+def test_a_double_click_shows_the_whole_record(measurement):
+    page = measurement.page
+    measurement.press("Sample: gel by AFM")
+    number(measurement, "kPa")
+    page.locator(".of-force canvas").first.wait_for()
+    start = "Bokeh.documents[0].get_model_by_name('force plot').x_range.start"
+    # µm: the record has two of air, and 0.14 of contact.
+    assert -0.1 < page.evaluate(start) < 0
+    box = page.locator(".of-residual").bounding_box()
+    page.mouse.dblclick(box["x"] + box["width"] / 2, box["y"] + box["height"] / 3)
+    measurement.wait(f"{start} < -1.9")
+
+
+def test_the_field_for_a_file_is_as_high_as_others_unless_a_file_is_over_it(measurement, tmp_path):
+    page = measurement.page
+    field, tip = page.locator(".filepond--root").first, page.get_by_label("Tip", exact=True)
+    # The sheet of a component comes after it.
+    measurement.wait("explorer.all().find((each) => each.matches('.filepond--root')).offsetHeight < 40")
+
+    def height():
+        return field.bounding_box()["height"]
+
+    usual = height()
+    assert abs(usual - tip.bounding_box()["height"]) <= 4
+    field.evaluate("(each) => { each.dataset.hopperState = 'drag-over' }")
+    assert height() > 2 * usual
+    field.evaluate("(each) => { delete each.dataset.hopperState }")
+    drop(measurement, curve(tmp_path / "run.csv", mdr.Medium(80e9, hardness=14e9)))
+    page.get_by_text("run.csv: 400 samples").wait_for()
+    assert abs(height() - usual) <= 1
+    # A file that is too large is named there, with the reason.
+    (tmp_path / "large.csv").write_bytes(bytes(51_000_000))
+    drop(measurement, tmp_path / "large.csv")
+    page.get_by_text("File is too large", exact=True).wait_for()
+    assert height() > 1.5 * usual
 
 
 def test_a_wrong_number_has_its_error_below_the_field(measurement):

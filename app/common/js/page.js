@@ -156,6 +156,29 @@ window.pages = (() => {
       const dark = Number(document.documentElement.classList.contains("dark"))
       for (const [model, name, colours] of looks) model.setv({ [name]: colours[dark] }, { sync: false })
     },
+    // The button *Dark* of a page without a state of its own says which theme there is, and chooses the other one.
+    theme_button(looks) {
+      const button = all(document).find((each) => each.classList.contains("theme")).shadowRoot.querySelector("button")
+      const show = () => {
+        button.ariaPressed = document.documentElement.classList.contains("dark")
+        pages.shade(looks)
+      }
+      button.addEventListener("click", () => {
+        theme.choose(button.ariaPressed === "false")
+        show()
+      })
+      show()
+    },
+    // The curve and its residuals as one picture; tags of the curve are the name of its file, and the text below it.
+    async save_fit([force, residual]) {
+      const { save } = await import(new URL("app/static/save.js", document.baseURI).href)
+      const [name, caption] = force.tags, rows = force.renderers.map((each) => each.name)
+      const plots = [
+        { figure: force, place: [0, 0, 960, 464], look: { title: "Force and depth", rows } },
+        { figure: residual, place: [0, 464, 960, 232], look: { title: "Residuals", rows: [] } },
+      ]
+      await save(name, caption, plots, [960, 720])
+    },
     // Both ends of the range have their names.
     name_handles() {
       for (const slider of all(document).filter((each) => each.classList.contains("ends")))

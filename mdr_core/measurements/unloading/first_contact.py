@@ -48,7 +48,7 @@ def first_contact(profile, depth, force):
     shares. m is from 1/2 below to 1 above the exponent of an elastic contact.
     """
     top = int(np.argmax(force))
-    seen, level, noise = _first_seen(force[: top + 1])
+    seen, level, noise = first_seen(force[: top + 1])
     length = depth[top] - depth[0]
     if seen < LEAST_SAMPLES or top - seen < _FEW or depth[seen] - depth[0] <= LEAST_LENGTH * length:
         return None, 0
@@ -75,7 +75,7 @@ def contact_before(profile, depth, force):
     return _contact_of_loading(profile, depth, force, 0, 0.0, noise, _SOFTER[0])
 
 
-def _first_seen(force):
+def first_seen(force):
     """Return the index of the first sample with a visible force, and level and noise (N) before it."""
     rough, seen = roughness(force[None])[0, 0], 0
     for _ in range(2):
