@@ -407,8 +407,9 @@ def test_a_double_click_shows_the_whole_record(measurement):
 def test_the_field_for_a_file_is_as_high_as_others_unless_a_file_is_over_it(measurement, tmp_path):
     page = measurement.page
     field, tip = page.locator(".filepond--root").first, page.get_by_label("Tip", exact=True)
+    drawn = "explorer.all().find((each) => each.matches('.filepond--root')).offsetHeight"
     # The sheet of a component comes after it.
-    measurement.wait("explorer.all().find((each) => each.matches('.filepond--root')).offsetHeight < 40")
+    measurement.wait(f"{drawn} < 40")
 
     def height():
         return field.bounding_box()["height"]
@@ -425,7 +426,7 @@ def test_the_field_for_a_file_is_as_high_as_others_unless_a_file_is_over_it(meas
     (tmp_path / "large.csv").write_bytes(bytes(51_000_000))
     drop(measurement, tmp_path / "large.csv")
     page.get_by_text("File is too large", exact=True).wait_for()
-    assert height() > 1.5 * usual
+    measurement.wait(f"(usual) => {drawn} > 1.5 * usual", usual)
 
 
 def test_a_wrong_number_has_its_error_below_the_field(measurement):
