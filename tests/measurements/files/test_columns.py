@@ -297,7 +297,7 @@ def test_columns_are_told_by_names_and_numbers(write):
     [
         ({"depth": 7, "force": 1}, "depth = 7 must be the number or the name of one column of {0: 'h'"),
         ({"depth": "h", "force": (1, "mN")}, r"and its unit, as in \('h', 'nm'\)"),
-        ({"depth": (0, "V"), "force": (1, "mN")}, "out of m, mm"),
+        ({"depth": (0, "V"), "force": (1, "mN")}, "from m, mm"),
         ({"depth": (0, "nm"), "force": (0, "mN")}, "column 0 is given twice"),
         ({"height": (0, "nm")}, "a key of columns = 'height' must be one of"),
         ({"depth": (True, "nm"), "force": (1, "mN")}, "must be the number or the name"),
