@@ -93,12 +93,12 @@ class Layout:
         self.more = Parts("more", stylesheets=LAYOUT)
         self.line = Parts("top", stylesheets=LAYOUT)
         self.player = Parts("player", stylesheets=LAYOUT)
-        # What makes numbers no results, each with what to do.
-        self.cautions = Parts("bar", "cautions", stylesheets=LAYOUT)
+        # What makes numbers above it no results, each with what to do, as of the last rest.
+        self.cautions: list[Part] = []
         self.below = html("", "lights")
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
         self._side = pn.Column(self.form.view, **look)
-        plots = (self.line, self.player, self.cautions, self.below, self.grid)
+        plots = (self.line, self.player, self.below, self.grid)
         results = pn.Column(*plots, css_classes=["results"], **FULL)
         columns = pn.Row(self._side, results, css_classes=["columns"], **FULL)
         head = pn.Row(self.header, self.more, css_classes=["above"], **WIDE | {"stylesheets": LAYOUT})
@@ -144,7 +144,7 @@ class Layout:
         numbers = readouts.line(view.course)
         heads = text("heads", readouts.heads(numbers), "heads")
         page.messages.words = as_html(readouts.values(view.course, numbers, view.course.now))
-        self.line.show([heads, Part("words", "words", {})])
+        self.line.show([heads, Part("words", "words", {}), *self.cautions])
         self.player.show([player(view, page.move), self.others(view)])
         for name, part in self.parts.items():
             show(part.view, visible=name in self.opened.values())
@@ -160,9 +160,7 @@ class Layout:
         """Show texts that wait while a slider moves, because a changed one causes a new layout."""
         found = (extra.notes(view).get("below") for extra in EXTRAS.values())
         show(self.below, object=Markup("").join(made() for made in found if made))
-        cautions = view.course.cautions
-        show(self.cautions, visible=bool(cautions))
-        self.cautions.show([part for each in cautions for part in self._caution(each)])
+        self.cautions = [part for each in view.course.cautions for part in self._caution(each)]
 
     def _caution(self, caution: Caution) -> Iterator[Part]:
         """What to do, and a button that does it."""

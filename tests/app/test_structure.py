@@ -157,7 +157,7 @@ def test_a_plate_that_is_the_wrong_model_marks_its_numbers_and_offers_the_right_
         assert shown[name][0] == "doubtful", name
     assert shown["restitution"][1] == "&lt; 0.001"
     assert {shown[name][0] for name in ("depth", "plastic_depth")} == {""}
-    (said,) = (each for name, each in page.layout.cautions.parts.items() if name == "edges")
+    (said,) = (each for name, each in page.layout.line.parts.items() if name == "edges")
     assert said.look["object"].startswith("Take a plate with edges: ")
     # The export has the value.
     e = float(page.view.course.hit.restitution)
@@ -167,7 +167,7 @@ def test_a_plate_that_is_the_wrong_model_marks_its_numbers_and_offers_the_right_
     assert page.state["structure.behind"] == "edges"
     assert (page.state["structure.width"], page.state["structure.length"]) == (0.075, 0.125)
     assert not any(classes for classes, _ in cells(page).values())
-    assert not page.layout.cautions.visible
+    assert {*page.layout.line.parts} == {"heads", "words"}
     assert cells(page)["restitution"][1].endswith("<small>1 contact</small>")
 
 

@@ -23,7 +23,7 @@ SCENES = {
     "pressing": ("", "d_max"),
     "dry impact": ("?preset=striker-glass_epoxy-drop-weight", "v_0"),
     "viscous impact": ("?preset=striker-glass_epoxy-drop-weight&damping=eta&eta=524000", "v_0"),
-    "oblique impact": ("?preset=striker-glass_epoxy-drop-weight&drive=oblique&incoming_speed=2", "V_0"),
+    "oblique": ("?preset=striker-glass_epoxy-drop-weight&drive=oblique&incoming_speed=2", "V_0"),
     "plate without edges": ("?preset=small_ball-carbon_epoxy", "v_0"),
     "plate with edges": ("?preset=ball-carbon_laminate", "v_0"),
     "sweep beside an impact": ("?preset=striker-glass_epoxy-drop-weight&tiles=sweep", "v_0"),
@@ -171,7 +171,7 @@ def left_in_the_tab(browser, url):
     """Print how many elements the page has before and after many changes of drive."""
     page, _, _ = cold_load(browser, url)
     count = "explorer.all().length"
-    drives = ("force", "path", "impact", "oblique impact", "depth")
+    drives = ("force", "path", "impact", "oblique", "depth")
     # Parts of the form reach the browser when they are first shown.
     for k in range(WARM + CHANGES):
         if k == WARM:

@@ -124,15 +124,15 @@ def of_springs(view: View, i: int) -> dict:
 
 def of_pressure(view: View, i: int) -> dict:
     """Within the plastic zone, and beside the line of the mean pressure."""
-    state, top = view.course.states[i], view.end(P)
+    state = view.course.states[i]
     px, py = _pixels(view, R, P)
     a, c, mean = (float(v) for v in (state.contact_radius, state.plastic_radius, state.mean_pressure))
-    wide, on_axis = 2 * c > (width("plastic zone") + 8) * px, min(float(state.pressure(0.0)), top)
+    wide = 2 * c > (width("plastic zone") + 8) * px
     # Outside the contact, or within it above or below the line.
     middle = -width("mean") / 2 * px
     points = [(a + 3 * px, mean), (middle, mean + 9 * py), (middle, mean - 9 * py)]
     return _told({
-        "plastic zone": _at("plastic zone", *[(0.0, share * on_axis) for share in (0.5, 0.3, 0.7)] * wide),
+        "plastic zone": _at("plastic zone", *[(0.0, share * mean) for share in (0.3, 0.15, 0.5)] * wide),
         "mean": _at("mean", *points * (a > 0)),
     })  # fmt: skip
 
