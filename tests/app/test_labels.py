@@ -11,9 +11,10 @@ from app.explorer.changes import choose
 from app.explorer.drives import follow
 from app.explorer.figures import drawn, in_legend, legend
 from app.explorer.plot import HEIGHT, WIDTH, View, box, rows_of, width
-from app.explorer.plots import NAMED, PLOTS
+from app.explorer.plots import NAMED, PLOTS, D
 from app.explorer.state import PRESETS, preset_state
 from mdr_core.show.figures import ROLES
+from mdr_core.show.units import written
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH, Explorer
 from .states import state_with, view_of
@@ -72,6 +73,21 @@ def test_labels_of_the_opening_scene():
     assert said["pressure"] >= {"plastic zone", "mean"}
     assert said["force"] >= {"plastic zone", "loading", "unloading", "stored", "plastic work"}
     assert [legend(PLOTS[name], drawn(view, PLOTS[name])) for name in NAMED] == ["", "", ""]
+
+
+@pytest.mark.parametrize("ratio", [1.02, 1.2, 5.0])
+def test_the_plastic_depth_is_written_at_its_point_and_within_the_plot(ratio):
+    """At so many times the depth of yield; where d_p is small there is no room on its left."""
+    state = preset_state()
+    view = view_of(state.replace(max_depth=ratio * float(view_of(state).course.onset.depth)))
+    depth, plot = float(view.course.state.plastic_depth), PLOTS["force"]
+    x, y, text = view.places(plot, view.course.now)["dₚ"]
+    assert text == f"dₚ = {written(depth, 'length', 3)}"
+    (row,) = (each for each in rows_of(plot) if each.name == "dₚ")
+    place = box(row, x, y, text, plot.axes_of(view))
+    assert place.inside
+    # Its end is at the point, or its beginning at the edge of the plot.
+    assert place.left < 1 or abs(x - depth) < 0.01 * view.end(D)
 
 
 def test_what_no_label_names_is_in_the_legend():

@@ -191,3 +191,14 @@ def test_a_refused_argument_of_the_core_is_said_by_symbol_value_and_bound():
         mdr.Medium(E_star=-2e9, q_c=1.0)
     assert error_text(refused.value) == "E*, effective modulus, = −2.000 GPa must be finite and positive"
     assert error_text(ValueError("no contact")) == "no contact"
+
+
+def test_the_hardness_leads_to_a_law_of_your_own():
+    """Its explanation names the class of the library, and links to the section that explains it."""
+    html = str(linked(CHOICES["plasticity"].help))
+    assert hasattr(mdr, "HardnessLaw")
+    link = r'([^.]*HardnessLaw[^.]*)<a href="app/theory.html#(section-\d+)"'
+    sentence, place = re.search(link, html).groups()
+    assert "Python" in sentence
+    section = theory.html().partition(f'id="{place}"')[2].partition('id="section-')[0]
+    assert "HardnessLaw" in section
