@@ -80,7 +80,7 @@ def no_packed_bytes() -> None:
             self.error("arrays of numbers alone are taken")
         return decode_numbers(self, obj)
 
-    deserializer._decode_bytes, deserializer._decode_ndarray = decode_bytes, decode_ndarray
+    deserializer._decode_bytes, deserializer._decode_ndarray = decode_bytes, decode_ndarray  # noqa: SLF001
 
 
 #: Types are not guessed, and no other site is told the address, which has the scene or the name of a file.

@@ -263,7 +263,7 @@ class Record:
 
 def quantities_of(kind: type[Record] | Record) -> tuple[str, ...]:
     """Return the names of all quantities of a class of results, or of a result."""
-    return kind._quantities
+    return kind._quantities  # noqa: SLF001
 
 
 def check_single(result: Record, what: str) -> None:
@@ -284,7 +284,7 @@ class Presentation:
     @property
     def name(self) -> str:
         """Displayed name, such as "Impact"."""
-        return self.result._name
+        return self.result._name  # noqa: SLF001
 
     @property
     def noun(self) -> str:
@@ -295,22 +295,22 @@ class Presentation:
     @property
     def shown(self) -> tuple[str, ...]:
         """Names of the quantities in its `repr`."""
-        return self.result._shown
+        return self.result._shown  # noqa: SLF001
 
     @property
     def dimensions(self) -> tuple[str, ...]:
         """Names of the dimensions that its class may have; the last counts the states of a path."""
-        return self.result._dimensions
+        return self.result._dimensions  # noqa: SLF001
 
     @property
     def source(self) -> Any:
         """The result with the profile, the medium and the model, or None."""
-        return self.result._source()
+        return self.result._source()  # noqa: SLF001
 
     @property
     def limits(self) -> tuple[Limit, ...]:
         """Limits of the model, found at each access."""
-        return self.result._limits()
+        return self.result._limits()  # noqa: SLF001
 
 
 class Result(Record):

@@ -356,7 +356,7 @@ class MeasuredCurves(Sequence[MeasuredCurve]):
         """Join the curves of several files, given by file name; `unread` has the errors of other files."""
         positions = [each.position for each in files.values() if each.position is not None]
         position = frozen(np.concatenate(positions)) if len(positions) == len(files) else None
-        makers = [make for each in files.values() for make in each._makers]
+        makers = [make for each in files.values() for make in each._makers]  # noqa: SLF001
         places = [(file, i) for file, each in files.items() for i in range(1, len(each) + 1)]
         return cls(name, position, makers, places, unread)
 
@@ -387,4 +387,4 @@ class MeasuredCurves(Sequence[MeasuredCurve]):
 
 @rows.register
 def _rows_of_curve(curve: MeasuredCurve):
-    return curve._rows()
+    return curve._rows()  # noqa: SLF001

@@ -111,7 +111,7 @@ class Fit(Record):
 
 @rows.register
 def _rows_of_fit(fit: Fit):
-    return fit._rows()
+    return fit._rows()  # noqa: SLF001
 
 
 @limit_rows.register

@@ -240,7 +240,7 @@ def texts_of(result: OliverPharr) -> dict[str, str]:
 
 @rows.register
 def _rows_of_unloading(result: OliverPharr):
-    return result._rows()
+    return result._rows()  # noqa: SLF001
 
 
 @limit_rows.register

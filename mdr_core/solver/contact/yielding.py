@@ -375,7 +375,7 @@ class RadiusCap(YieldRule):
         for block in chunks(yielding.size, max(1, 512 // (1 + len(self.profile.kinks)))):
             rows = yielding[block]
             rule = self.flat_entries(rows, shape).entries((slice(None), None), rows.shape)
-            result[rows] = rule._plastic_sums(imprint[rows, None], increase[rows, None])
+            result[rows] = rule._plastic_sums(imprint[rows, None], increase[rows, None])  # noqa: SLF001
         return result.reshape(shape)[()]
 
     def _plastic_sums(self, imprint, increase):

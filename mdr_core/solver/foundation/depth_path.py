@@ -318,8 +318,8 @@ def joined(first: TimedIndentation, later: TimedIndentation, force, time) -> Tim
     names = ("depth", "contact_radius", "stored_energy", "plastic_work", "viscous_work", "plastic_depth")
     values = {name: np.append(getattr(first, name), getattr(later, name)[1:]) for name in names}
     return states_along(
-        _Joined(first._history, later._history, count),
-        np.append(np.arange(count), count - 1 + later._index[1:]),
+        _Joined(first._history, later._history, count),  # noqa: SLF001
+        np.append(np.arange(count), count - 1 + later._index[1:]),  # noqa: SLF001
         profile=first.profile, medium=first.medium, time=time, force=force, **values,
         error=first.error + later.error,
     )  # fmt: skip

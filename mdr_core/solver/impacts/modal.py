@@ -152,7 +152,7 @@ def contact_instants(hit, n):
 
     Half of the times of a contact are before and half after the turning point or its middle.
     """
-    turn, half = hit._motions[()].turning_time, max(n // len(hit.hits), 8) // 2
+    turn, half = hit._motions[()].turning_time, max(n // len(hit.hits), 8) // 2  # noqa: SLF001
     found = [np.linspace(one.end, other.start, 6) for one, other in pairwise(hit.hits)]
     for each in hit.hits:
         middle = turn if each.start < turn < each.end else (each.start + each.end) / 2
@@ -162,7 +162,7 @@ def contact_instants(hit, n):
 
 def motion_at(hit, time):
     """Return the `Motion` of one impact at ascending times (s)."""
-    motion = hit._motions[()]
+    motion = hit._motions[()]  # noqa: SLF001
     law, found = motion.law, _sampled(motion, time)
     y, p, yields = found["penetration"], found["imprint"], found["yields"]
     interval, increase = law.rule.loading(np.maximum(y, 0.0), p)

@@ -241,4 +241,4 @@ class Profile(check.Parameters, ABC):
 
 def check_known(profile: Profile, depth: np.ndarray) -> np.ndarray:
     """Return `depth` (m) if it does not exceed the known depth; otherwise raise the profile's error."""
-    return profile._known(depth)
+    return profile._known(depth)  # noqa: SLF001

@@ -225,10 +225,11 @@ class OneLength(Profile):
 def _unit(kind):
     """Return the profile of a class with parameters of 1, which has the length and the depth 1."""
     unit = kind(*(1.0 for _ in fields(kind)))
-    if (unit._length, unit._depth) != (1.0, 1.0):
+    length, depth = unit._length, unit._depth  # noqa: SLF001
+    if (length, depth) != (1.0, 1.0):
         raise TypeError(
-            f"{kind.__name__} with parameters of 1 has the length {unit._length:g} and the depth "
-            f"{unit._depth:g}; a OneLength must have 1 and 1: take other parameters, or derive from Profile"
+            f"{kind.__name__} with parameters of 1 has the length {length:g} and the depth {depth:g}; "
+            "a OneLength must have 1 and 1: take other parameters, or derive from Profile"
         )
     return unit
 
@@ -238,7 +239,7 @@ def _unit_table(kind):
     """Return the `RadiusTable` of the unit profile of a class; its kinks are at the unit of depth."""
     edges = np.ldexp(1.0, np.arange(-100, 101))
     end = min(_unit(kind).known_depth, edges[-1])
-    return RadiusTable(kind._unit_radius, np.append(edges[edges < end], end))
+    return RadiusTable(kind._unit_radius, np.append(edges[edges < end], end))  # noqa: SLF001
 
 
 @dataclass(frozen=True, eq=False)

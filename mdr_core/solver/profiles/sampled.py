@@ -322,9 +322,9 @@ def bent_vertices(profile: Sampled) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     Samples without a bend are not vertices. The result has the radii r and reduced heights g (m) of the N
     facets' ends, shape (N + 1,), and the changes of the slope at their inner ends, shape (N,).
     """
-    bent = profile._bend != 0
+    bent = profile._bend != 0  # noqa: SLF001
     ends = np.append(bent, True)
-    return profile._r[ends], profile._g[ends], profile._bend[bent]
+    return profile._r[ends], profile._g[ends], profile._bend[bent]  # noqa: SLF001
 
 
 def tip_through(r, z, most, averages):
