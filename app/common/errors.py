@@ -34,10 +34,9 @@ def without_folders(text: str) -> str:
 
 
 def error_text(error: ValueError) -> str:
-    """Return the message of an error of the core.
+    """Return the message of an error of the core: for a number its symbol, value with unit, bound, advice.
 
-    The message about a number has its symbol, value with unit, bound and advice. Other messages have no
-    names of Python if the error has a text without them.
+    Other messages have no names of Python if the error has a text without them.
     """
     if not isinstance(error, InvalidArgument) or not isinstance(error.value, int | float):
         text = getattr(error, "text", str(error))

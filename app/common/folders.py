@@ -1,4 +1,4 @@
-"""Folders for the files of sessions, in a folder of this process; after a crash the next start clears it."""
+"""Folders for the files of sessions, in a folder of this process; the next start clears leftovers."""
 
 import atexit
 import os

@@ -117,7 +117,7 @@ class Worker:
         part: Callable[[Any], None] = _ignore,
         waits: Callable[[int], None] = _ignore,
     ) -> Any:
-        """Run a job, a function by its name in this package ("measurement.analysis.read"); return its result.
+        """Run a job, a function by its name in this package, and return its result.
 
         `part` gets each part that the job yields, `waits` the number of sessions before this one. A new job
         replaces a running job. Raises `Refused` or `Replaced`.

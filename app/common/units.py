@@ -15,7 +15,7 @@ _TWO_READINGS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?!\d)", re.ASCII)
 
 
 def entry(value: float, unit: Unit) -> str:
-    """Format a value (SI) for a field: nine digits if they are exact, else five; `read` accepts the text."""
+    """Format a value (SI) for a field: up to nine digits if exact, else five; `read` accepts the text."""
     if not isfinite(value):
         return digits(value)
     number = value / unit.factor

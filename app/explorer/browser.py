@@ -18,8 +18,8 @@ from ..common.host import Sliced, Steps
 from ..common.ui import SHEETS
 from .page import Address, Page
 
-# JavaScript's null in Python, since version 0.28 of Pyodide: Panel compares each value from the browser with
-# it. In earlier versions null is None, so no value equals this object.
+# JavaScript's null in Python since Pyodide 0.28: Panel compares each value from the browser with it. In
+# earlier versions null is None, so no value equals this object.
 if not hasattr(pyodide.ffi, "jsnull"):
     pyodide.ffi.jsnull = object()
 # tqdm would start a thread to watch its bars.

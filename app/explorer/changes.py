@@ -118,10 +118,9 @@ def _shape(state: State, shape: str) -> dict[str, float]:
 
 
 def _plasticity(state: State, wanted: str) -> dict[str, float]:
-    """Return the constant of a class that keeps the hardness at the contact radius.
+    """Return the constant (and the radius of a hardness) that keep the hardness at the contact radius.
 
-    If nothing yields, the hardness comes from the class of the preset. A hardness at a radius gets this
-    radius.
+    If nothing yields, the hardness comes from the class of the preset.
     """
     if wanted == "none":
         return {}

@@ -150,7 +150,7 @@ class Course:
 
     @cached_property
     def onset(self) -> mdr.Indentation | None:
-        """State at which yield begins, or continues below an earlier imprint; None if it is not reached."""
+        """State at which yield begins, or continues below an earlier imprint; None if out of reach."""
         profile, medium = self.scene.profile, self.scene.medium
         depth = onset_depth(self.scene, self.initial_plastic_depth)
         return mdr.indent(profile, medium, depth) if depth <= min(profile.known_depth, 1e300) else None

@@ -46,9 +46,9 @@ class Drive(ABC):
         return {}
 
     def follow(self, scene: mdr.Scene, progress: float) -> Course:
-        """Return the states of a scene, one of them at `progress`, by default of slow loading and unloading.
+        """Return the states of a scene, one of them at `progress`; approximate if exact ones are slow.
 
-        The states are approximate if the exact solution is slow.
+        By default the drive loads and unloads slowly.
         """
         return slow(scene, progress, scene.solve())
 
@@ -128,7 +128,7 @@ class Impact(Drive):
         return {"mass": state.mass, "speed": state.speed, "plastic_depth": state.plastic_depth}
 
     def follow(self, scene, progress):
-        """Return the motion of the body; with adhesion, states of slow pressing and pulling without times."""
+        """Return the motion of the body; with adhesion, states of slow pressing and pulling, no times."""
         hit = scene.solve()
         if scene.medium.work_of_adhesion > 0 and not scene.drive.plastic_depth:
             notes = (_HELD,) * bool(hit.captured)

@@ -88,10 +88,9 @@ def _without(state: State, k: int) -> State:
 
 
 def difference(state: State, now: State | None = None) -> str:
-    """Return the name of a scene: its differences from the present scene.
+    """Return the name of a scene: its differences from the present scene, or (if equal) from its preset.
 
-    The present scene, or a scene without `now`, is compared with its preset. If its preset differs from the
-    present preset, the name also contains the preset.
+    The name also contains the preset if it differs from the present preset.
     """
     preset, known = PRESETS[state.preset], altered(state)
     choices = ("shape", *MEDIUM_CHOICES, "drive", *form_choices(state))

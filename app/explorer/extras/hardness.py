@@ -16,8 +16,8 @@ from ..search import AsyncPlot, Found, IdleSearch
 
 #: Decades of logarithmic axes of radii and of pressures.
 _RADII, _PRESSURES = 2, 3
-#: End of the axis over the pressure at the largest depth, for pressures without bound towards first contact:
-#: with dashpots, or under a tip sharper than a cone.
+#: End of the axis relative to the pressure at the largest depth, if the pressure is unbounded towards first
+#: contact: with dashpots, or under a tip sharper than a cone.
 _MOST = 4
 
 
