@@ -142,7 +142,7 @@ class Course:
         return self.states if self.motion is None else self.motion
 
     def relaxing(self, i: int, g: Any) -> Any:
-        """Return the remaining elastic compression (m) of released elements at heights g (m), in state i."""
+        """Return the remaining elastic compression (m) of released elements at heights g (m) in state i."""
         # A path in time releases no elements.
         if self.hit is None or not self.dashpots:
             return 0.0
@@ -150,7 +150,7 @@ class Course:
 
     @cached_property
     def onset(self) -> mdr.Indentation | None:
-        """State at which yield begins, or continues below an earlier imprint; None if out of reach."""
+        """State at which yield begins or continues below an earlier imprint, None if out of reach."""
         profile, medium = self.scene.profile, self.scene.medium
         depth = onset_depth(self.scene, self.initial_plastic_depth)
         return mdr.indent(profile, medium, depth) if depth <= min(profile.known_depth, 1e300) else None

@@ -1,4 +1,4 @@
-"""Buttons *Large* and *Save* of each plot, and *Save plots*; pictures with titles, legends and the scene."""
+"""Buttons *Large* and *Save* of each plot, and *Save plots*; pictures have title, legend and caption."""
 
 from functools import partial
 from typing import Any
