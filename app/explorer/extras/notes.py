@@ -69,7 +69,7 @@ def law_of_hardness(course: Course) -> str:
     starts = f"Yield starts at d_y = {written(onset, 'length')}"
     if imprint := course.initial_plastic_depth:
         starts = (
-            f"Over the imprint yield resumes at d = {written(onset_depth(course.scene, imprint), 'length')}"
+            f"Over the imprint yield goes on at d = {written(onset_depth(course.scene, imprint), 'length')}"
         )
     elif onset == np.inf:
         starts = "Nothing yields under this shape: H is too large"

@@ -196,7 +196,7 @@ class Path(Drive):
         return _solved(scene, scene.drive.time is not None and scene.medium.eta > 0)
 
     def equivalent(self, state, turning_point):
-        """Return the present depth and force, and a ramp of one relaxation time unless a ramp is set."""
+        """Return the present depth and force, and a ramp of one relaxation time if it has none."""
         numbers = {"max_depth": float(turning_point.depth), "max_force": limited_force(turning_point)}
         time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
         return numbers if _in_time(state) else numbers | {"path.ramp_time": time}
