@@ -180,7 +180,7 @@ class Path(Drive):
             if state["path.pattern"] == "creep":
                 if made.eta > 0 and made.f_c > 0:
                     raise ValueError(
-                        "creep with viscosity is not available for a hardness ∝ 1/a², because the force may "
+                        "creep with viscosity is not available for a hardness ∝ 1/a², as the force may "
                         "decrease with depth: first choose another hardness, or ramp and hold"
                     )
                 return mdr.scene.ForcePath((0.0, state.max_force, state.max_force), times)
@@ -196,7 +196,7 @@ class Path(Drive):
         return _solved(scene, scene.drive.time is not None and scene.medium.eta > 0)
 
     def equivalent(self, state, turning_point):
-        """Return the present depth and force, and a ramp of one relaxation time if it has none."""
+        """Return the present depth and force, and a ramp of one relaxation time if none is set."""
         numbers = {"max_depth": float(turning_point.depth), "max_force": limited_force(turning_point)}
         time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
         return numbers if _in_time(state) else numbers | {"path.ramp_time": time}
