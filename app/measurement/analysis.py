@@ -248,7 +248,7 @@ def _check_range(taken: Any, used: np.ndarray, arguments: dict[str, Any]) -> Non
     # A thousandth of the range hardly matters, as for noise of the depth.
     if arguments.get("q_c") != np.inf and largest - within > 1e-3 * np.ptp(depth[used]):
         raise ValueError(
-            f"the samples before the range reach {written(largest, 'length')}, deeper than the range, "
+            f"the samples before the range reach deeper than the range, {written(largest, 'length')} not "
             f"{written(within, 'length')}, and the fit would miss their yield: begin the range at the "
             "largest depth or before"
         )
@@ -301,12 +301,15 @@ def _plausible(
         return _none(quoted, Remark(text, "unloading", Remedy("class", "a"))), (), ()
     if other and ratio >= _DIFFERS:
         rest = {"loading": "unloading", "unloading": "loading"}[part]
-        text = f"E* is from the {part}; the {rest} gives {written(other, 'pressure', 2)}, {ratio:.2g} times"
+        text = (
+            f"E* is from the {part}; the {rest} alone gives {written(other, 'pressure', 2)}, "
+            f"a ratio of {ratio:.2g}"
+        )
         below = (Remark(f"{text}: the sample yields, sticks or loses energy", "unloading"),)
     if asked.medium == "constant" and E < _SOFT:
         text, remedy = _unit_to_look_at(asked.profile, curve, taken, used, E, (_SOFT, 2e12), 1e-3)
         if E < _NONE:
-            text = f"E* is below 1 MPa, but no glass, metal or ceramic is so soft: {text}"
+            text = f"E* is below 1 MPa, which no glass, metal or ceramic has: {text}"
             doubt = Remark(f"{text}, or choose another kind of sample", "units", *remedy)
             return _none(quoted, doubt), (), ()
         doubt = Remark(f"few samples of constant hardness are so soft: {text}", "units", *remedy)

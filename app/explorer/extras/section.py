@@ -29,7 +29,7 @@ def section(course: Course, asked):
     r = axis("r, radius", "length", reach)
     z = replace(axis("z, upward", "length", reach, -reach), end=0.0)
     title, of_stress = _DRAWN[quantity]
-    reason = "There is no contact, so there is no stress." if state.contact_radius == 0 else ""
+    reason = "No contact, and so no stress." if state.contact_radius == 0 else ""
     if course.chained:
         reason = "Stresses below the surface are not available along a viscous path."
     if reason:
