@@ -1,7 +1,7 @@
 """Private names of Panel and Bokeh, which any version may change; the page works without each of them.
 
 Only this module uses them, each at one place. It skips a missing name, with a warning in the log.
-common/js/private.js does the same in the browser, with a warning in the console.
+In the browser common/js/private.js does the same, with a warning in the console.
 """
 
 import asyncio

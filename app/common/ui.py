@@ -99,9 +99,9 @@ def html(text: str = "", *classes: str, **options: Any) -> Any:
 
 
 def landmarks(document: Document, parts: dict[str, tuple[str, str]], to: str = "", label: str = "") -> None:
-    """Give parts of a page their roles and names for screen readers, by their classes; the page is first.
+    """Give parts of a page roles and names for screen readers, by their classes, the topmost part first.
 
-    A link with the text `label`, the first tab stop, leads to the part with the class `to`.
+    The first tab stop is a link with the text `label` to the part with the class `to`.
     """
     told = {"landmarks": [[name, *part] for name, part in parts.items()], "to": to, "label": label}
     document.js_on_event(DocumentReady, CustomJS(args=told, code=call("landmarks", *told)))

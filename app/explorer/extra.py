@@ -50,9 +50,9 @@ class Extra:
     choice appears in the form of a drive (`Option.form`) or above a plot. All are values of the state: in
     links, and undone.
 
-    Subclasses have the rest: `Service` for data and work in a session, `Drive` for numbers that keep their
-    meaning when its choice changes (`converted`), and `Plot` for axes, notes and options that depend on the
-    state (`axes_of`, `note_of`, `options_of`).
+    Subclasses have the rest. A `Service` has data and work in a session. A `Drive` converts numbers when
+    its choice changes (`converted`). A `Plot` has axes, notes and options that depend on the state
+    (`axes_of`, `note_of`, `options_of`).
     """
 
     name: str

@@ -2,7 +2,7 @@
 
 Four things differ from Panel's usual way:
 
-- `Parts` draws form, header and heads of cards: with 45 widgets the page opens 1.3 to 1.5 times as slowly.
+- `Parts` draws form, header and heads of cards: 45 widgets would open the page 1.3 to 1.5 times as slowly.
 - Sources get whole columns in one hold, and send none back: a drag draws 25 pictures a second.
 - The browser plays all states from frames that arrive once: 38 pictures a second.
 - The state is frozen, a change is a function of it: undo keeps 100 states, a failed change leaves no trace.

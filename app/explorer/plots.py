@@ -190,8 +190,8 @@ def force(view: View, i: int) -> dict:
         room = width(text) / WIDTH * view.end(D)
         rows["dₚ"] = max(lower - 0.4 * right, room), 0.17 * view.end(F), text
     if course.chained or course.adhesive:
-        # Without areas: no live interval gives the stored energy of elements with separate memories, and
-        # with adhesion the area below the curve is not the stored energy.
+        # No areas: a live interval does not describe the stored energy of elements with separate memories.
+        # With adhesion the area below the curve is not the stored energy.
         return rows
     return rows | figures.work(states, i)
 

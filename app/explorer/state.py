@@ -245,7 +245,7 @@ def checked(name: str, value: float) -> float:
 
 
 def as_shown(state: State) -> State:
-    """Round the numbers of a state to the digits of their fields, except angles, which have other units."""
+    """Round the numbers of a state to the digits of their fields, except angles: their SI digits differ."""
     preset = PRESETS[state.preset].values
     changed = [name for name in used(state) if state[name] is not None and state[name] != preset.get(name)]
     digits = {name: state[name] for name in changed if QUANTITIES[name].kind != "angle"}

@@ -236,7 +236,7 @@ def deflection(curve: Any) -> Remark | None:
 
 
 def _check_range(taken: Any, used: np.ndarray, arguments: dict[str, Any]) -> None:
-    """Raise ValueError if the fit needs samples before the range: a medium remembers its largest depth."""
+    """Raise ValueError if the fit needs samples before the range, for the largest depth or for rates."""
     if np.count_nonzero(used) < 2:
         raise ValueError("the range has fewer than two samples for the fit: choose a longer range")
     first, depth = int(np.argmax(used)), taken.depth
@@ -296,8 +296,8 @@ def _plausible(
     ratio = max(other / E, E / other) if other else np.inf
     below: tuple[Remark, ...] = ()
     if other and ratio >= _NOT_ELASTIC:
-        text = "E* of loading and of unloading differ by a factor of ten or more, which no elastic sample"
-        text += " does: choose a kind of sample that yields"
+        text = "E* of loading and of unloading differ by a factor of ten or more, which is impossible for"
+        text += " an elastic sample: choose a kind of sample that yields"
         return _none(quoted, Remark(text, "unloading", Remedy("class", "a"))), (), ()
     if other and ratio >= _DIFFERS:
         rest = {"loading": "unloading", "unloading": "loading"}[part]

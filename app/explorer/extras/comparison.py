@@ -88,9 +88,9 @@ def _without(state: State, k: int) -> State:
 
 
 def difference(state: State, now: State | None = None) -> str:
-    """Return the name of a scene: its differences from the present scene, or (if equal) from its preset.
+    """Return the name of a scene: its differences from the present scene `now`.
 
-    The name also contains the preset if it differs from the present preset.
+    For the same scene, or another preset, they are from its preset; another preset is part of the name.
     """
     preset, known = PRESETS[state.preset], altered(state)
     choices = ("shape", *MEDIUM_CHOICES, "drive", *form_choices(state))

@@ -30,8 +30,8 @@ from ..widgets import Part, button
 #: Notes on a body that never leaves.
 _STAYS = "The body never leaves the plate: waves take all of the energy that yield leaves, e = 0."
 _CAPTURED = "The body stays on the plate for more than 100 periods of both together, e = 0."
-#: Number of modes of a plate with edges: of results; and at least, of previews and sweeps, with all modes
-#: that swing less than twice in the contact time on a rigid body. The error of e is then 0.002.
+#: Number of modes of a plate with edges in results; smallest number in previews and sweeps. These take
+#: all modes that swing less than twice in the contact time on a rigid body: the error of e is 0.002.
 MODES, FEW, _SWINGS = 100, 12, 2.0
 _PENDING = f"Computing {MODES} modes; the plots have fewer modes so far."
 
