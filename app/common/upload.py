@@ -51,7 +51,7 @@ class Uploads:
     """Incoming files of a session by their names, which may be paths; several arrive at once, in parts.
 
     Parts are bytes and arrive in order. The field bounds the size of each file, and `SESSION_BYTES` the
-    size of all incoming files. A file that exceeds a bound is dropped, with the rest of its parts.
+    size of all incoming files. A file that exceeds a bound is discarded, with the rest of its parts.
     """
 
     def __init__(self) -> None:
@@ -79,7 +79,7 @@ class Uploads:
             self._files[key] = _Coming()
         coming = self._files.pop(key, None)
         if coming is None:
-            # The rest of a dropped file.
+            # The rest of a discarded file.
             return None
         if number != len(coming.parts) + 1 or number > count:
             raise ValueError(f"a part of {in_line(name)} is missing: drop the file again")

@@ -76,7 +76,7 @@ class Row(NamedTuple):
 
 
 def read(path: Paths, options: dict[str, Any], number: int) -> tuple[Any, int, Any, list[str]]:
-    """Return a curve (at most the last), the number of curves, a question or None, and unread files.
+    """Return curve `number` or the last, the number of curves, a question or None, and unread files.
 
     The question has a text with remedies, the first rows of the table, and suggested options. If the
     suggestion is complete, it also has samples of the first curve.
@@ -248,9 +248,9 @@ def _check_range(taken: Any, used: np.ndarray, arguments: dict[str, Any]) -> Non
     # A thousandth of the range hardly matters, as for noise of the depth.
     if arguments.get("q_c") != np.inf and largest - within > 1e-3 * np.ptp(depth[used]):
         raise ValueError(
-            f"the samples before the range reach deeper than the range, {written(largest, 'length')} not "
-            f"{written(within, 'length')}, and the fit would miss their yield: begin the range at the "
-            "largest depth or before"
+            f"the samples before the range reach deeper than the range, {written(largest, 'length')} "
+            f"instead of {written(within, 'length')}, and the fit would miss their yield: begin the range "
+            "at the largest depth or before"
         )
     origin = arguments.get("contact_point")
     if origin is not None and origin >= within:

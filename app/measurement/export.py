@@ -144,7 +144,7 @@ _MEDIA = {
 def explorer_query(found: Any, tip: str, sizes: dict[str, float], medium: str) -> str:
     """Return tip, medium and depth of a fit as the query of a scene. Raises ValueError without a scene."""
     if tip == "measured":
-        raise ValueError("a link cannot contain a measured tip: open its file in the explorer")
+        raise ValueError("a measured tip is not part of the link: open its file in the explorer")
     fit, shape = found.fit, "cone" if tip in ("berkovich", "cube_corner") else tip
     values, errors = fit.to_dict(), fit.standard_errors
     choices, number, name = _MEDIA[medium]

@@ -105,7 +105,7 @@ def _caution(limit: Any) -> Caution:
         return Caution((limit.what,), f"{text}.", readouts)
     text = "Take a plate with edges: this structure swings back and hits the body again"
     if limit.what == "edges":
-        text = "Take a plate with edges: in this plate no wave returns and lifts the body"
+        text = "Take a plate with edges: in this plate no wave returns to lift the body"
         if limit.value < inf:
             text = f"Take a plate with edges: the contact lasts {digits(limit.value, 3)} times as long as"
             text += " waves take to the edge and back"
