@@ -19,7 +19,7 @@ except ImportError:
     fcntl = None  # type: ignore[assignment]
 
 _PREFIX, _LOCK = "mdr-explorer-", "in use"
-TOO_MANY = "The page reads at most {} files with {:g} MB together: drop fewer files"
+TOO_MANY = "At most {} files with {:g} MB together can be read: drop fewer files"
 NOT_KEPT = "The server cannot store this file because its disk is full. Try again later"
 
 

@@ -35,7 +35,7 @@ _CELL, _MORE = Markup("<td>{}</td>"), Markup("<p>{} more are in the CSV.</p>")
 _LISTED = 300
 GIVE_POISSON = Markup('<p class="of">Give ν on the left for Young’s modulus E of the sample.</p>')
 _NOT_QUOTED = Markup(
-    "<p>The model’s own {} not to be quoted: it assumes the contact radius of an elastic contact.</p>"
+    "<p>The model’s own {} not to be quoted: it assumes the radius of an elastic contact.</p>"
 )
 
 
