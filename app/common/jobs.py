@@ -49,7 +49,7 @@ def answers(job: str, arguments: tuple[Any, ...]) -> Iterator[tuple[str, Any]]:
     except (ValueError, ImportError) as error:
         yield "refused", text_and_remedy(error)
     except MemoryError:
-        yield "refused", ("this needs more memory than a measurement may use",)
+        yield "refused", ("this needs more memory than a measurement may use: try a smaller file",)
 
 
 def main() -> None:

@@ -20,7 +20,7 @@ _SPREAD = (1 - np.cos(np.linspace(0, np.pi, 41))) / 2
 #: Instants of an impact, and extra instants before yield, which a fast impact would pass in one step.
 INSTANTS, BEFORE_YIELD = 120, 20
 #: Note on a captured body.
-_HELD = "Adhesion holds the body: e = 0. Unloading is drawn as if the body were pulled off."
+_HELD = "Adhesion holds the body: e = 0. The plots show the unloading as if the body were pulled off."
 
 
 class Drive(ABC):

@@ -39,7 +39,7 @@ Change = Callable[[State], State]
 Tell = Callable[[str], None]
 #: Milliseconds of rest before slow updates.
 SETTLED = 300
-_FAULT = "This cannot be shown, because of a fault of the explorer. Nothing was changed."
+_FAULT = "A fault of the explorer prevents this change. Nothing was changed."
 _UNDO_STEPS = 100
 
 

@@ -34,7 +34,7 @@ class Found:
 
 #: Results before a search ends, and after a failed search.
 COMPUTING = Found({}, [], "computing …")
-FAULT = Found({}, [], "The explorer could not compute this because of an internal error.")
+FAULT = Found({}, [], "A fault of the explorer prevents this result.")
 
 
 @dataclass(frozen=True, eq=False)

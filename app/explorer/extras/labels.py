@@ -30,7 +30,7 @@ def _first(course: Course) -> str:
     """Return place and depth of first yield on a virgin surface."""
     depth = onset_depth(course.scene)
     if course.onset is None:
-        return "nothing yields" if depth == np.inf else "yield begins deeper than the tip is known"
+        return "nothing yields" if depth == np.inf else "yield begins deeper than the known tip"
     where = "the whole flat face" if course.scene.profile.face_radius else "the axis"
     # With adhesion the depth is smaller by the stretch of the rim.
     return f"{where} yields first" + f", at d = {written(depth, 'length', 3)}" * (not course.adhesive)

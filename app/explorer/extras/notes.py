@@ -36,7 +36,7 @@ def form_notes(view: View) -> dict[str, str]:
     angle = f"Half-angle {digits(degrees(atan(1 / slope)))}°" if slope else ""
     of_tip = state.tip_note if state.shape == "sampled" else angle
     eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
-    idle = "" if course.dashpots else "; no effect here, where pressing is quasi-static"
+    idle = "" if course.dashpots else "; no effect here, because pressing is quasi-static"
     return {
         "drive": f"Energy {energy}; equivalent drop height {height}" * (state.drive == "impact"),
         "shape": Markup("<figcaption>{}<br>{}</figcaption>{}").format(
