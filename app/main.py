@@ -18,6 +18,6 @@ if "fit" in _GIVEN:
     pn.panel(Measurement(_QUERY)).servable("Measurement", _ADDRESS)
 else:
     pn.extension(notifications=True, css_files=SHEETS)
-    # The theme that a browser has told by a cookie; a link may ask for another one.
+    # The theme from the browser's cookie; a link may set another theme.
     _DARK = pn.state.cookies.get("dark") == "1"
     pn.panel(Page(_QUERY, _DARK)).servable("Indentation explorer", _ADDRESS)

@@ -1,7 +1,7 @@
-"""Private ends of Panel and Bokeh, which may move with any version: the page runs without each of them.
+"""Private names of Panel and Bokeh, which any version may change; the page works without each of them.
 
-Each is used at one place, here, with what it gains. One that has moved is left out, with a line in the log.
-Those in the browser are in common/js/private.js, in the same manner, with the line in the console.
+Only this module uses them, each at one place. It skips a missing name, with a warning in the log.
+In the browser common/js/private.js does the same, with a warning in the console.
 """
 
 import asyncio
@@ -23,8 +23,8 @@ from tornado.web import HTTPError, RequestHandler
 from .common.ui import JS
 
 _LOG = logging.getLogger(__name__)
-#: As wide as the screen: a phone would lay the page out for a desk. The theme is known before anything is
-#: drawn, and the private ends in the browser come before all other scripts.
+#: The viewport is as wide as the screen; by default a phone uses the layout of a desktop. The theme is set
+#: before anything is drawn, and the private names in the browser come before all other scripts.
 _HEAD = f"""{{% block postamble %}}
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <script>{{% raw %}}{JS["head"]}{JS["private"]}{JS["page"]}{{% endraw %}}</script>
@@ -35,34 +35,34 @@ _WITHOUT_WEBGL = """{% block js_resources %}
 
 
 class NotFound(RequestHandler):
-    """404, whatever is asked for."""
+    """Handler that answers every request with 404."""
 
     def initialize(self, **given):
-        """Take what Bokeh gives the handlers of an app."""
+        """Accept Bokeh's arguments for the handlers of an app."""
 
     def prepare(self):
         raise HTTPError(404)
 
 
 def no_components() -> None:
-    """Answer 404 to what is asked for below /components/, before anything is imported.
+    """Answer requests below /components/ with 404, before any import.
 
-    Panel imports the module that such an address names, whichever it is: `unittest.__main__` ends the
-    server. The page asks for none. Routes are built from this name once the app is loaded.
+    Panel imports any module in such an address: `unittest.__main__` ends the server. The page needs no such
+    address. Panel builds its routes from this name after it has loaded the app.
     """
     if _private_attribute("panel.io.server", "ComponentResourceHandler"):
         import_module("panel.io.server").ComponentResourceHandler = NotFound
 
 
-#: Types of the arrays that are taken, of at most eight bytes.
+#: Accepted types of arrays, of at most eight bytes.
 _NUMBERS = {"bool", "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"}
 
 
 def no_packed_bytes() -> None:
-    """Refuse bytes that come packed in a message, and arrays of anything but numbers.
+    """Reject packed bytes in a message, and arrays of anything except numbers.
 
-    Unpacked, or as texts of a given length, they may be a million times as large. Bokeh makes them without
-    a bound, in the thread of the server. Browsers send bytes as buffers beside the message, and no arrays.
+    Unpacked, or as texts of a given length, they may be a million times as large. Bokeh creates them
+    without a bound, in the thread of the server. Browsers send bytes in separate buffers, and no arrays.
     """
     deserializer = _private_attribute("bokeh.core.serialization", "Deserializer")
     decode = getattr(deserializer, "_decode_bytes", None)
@@ -72,23 +72,23 @@ def no_packed_bytes() -> None:
 
     def decode_bytes(self, obj):
         if isinstance(obj["data"], str):
-            self.error("packed bytes are not taken; they are sent as a buffer")
+            self.error("packed bytes are not accepted: send them as a buffer")
         return decode(self, obj)
 
     def decode_ndarray(self, obj):
         if obj["dtype"] not in _NUMBERS:
-            self.error("arrays of numbers alone are taken")
+            self.error("only arrays of numbers are accepted")
         return decode_numbers(self, obj)
 
     deserializer._decode_bytes, deserializer._decode_ndarray = decode_bytes, decode_ndarray  # noqa: SLF001
 
 
-#: Types are not guessed, and no other site is told the address, which has the scene or the name of a file.
+#: Browsers do not guess types, and do not send other sites the address with the scene or a file name.
 _HEADERS = {"X-Content-Type-Options": "nosniff", "Referrer-Policy": "same-origin"}
 
 
 def headers() -> None:
-    """Send headers with each answer: by options of Panel there are none, and tornado asks its handlers."""
+    """Send headers with each answer: Panel has no option for this, but tornado's handlers have a method."""
 
     def set_default_headers(self):
         for name, value in _HEADERS.items():
@@ -98,14 +98,14 @@ def headers() -> None:
 
 
 def page(path: str, text: str) -> None:
-    """Serve a page that is the same for everybody as a file of the app: it needs no session."""
+    """Serve a static page as a file of the app, without a session."""
     data = text.encode()
 
     class Written(RequestHandler):
-        """Page that is written already; a browser that has it is told so."""
+        """Static page; tornado answers 304 if the browser has it."""
 
         def initialize(self, **given):
-            """Take what Bokeh gives the handlers of an app."""
+            """Accept Bokeh's arguments for the handlers of an app."""
 
         def get(self):
             self.write(data)
@@ -115,11 +115,11 @@ def page(path: str, text: str) -> None:
 
 
 def own_sessions() -> None:
-    """Let this server alone name sessions, and sign their names.
+    """Let only this server name sessions, and sign their names.
 
-    A link with the name of a session, or a token that its sender has written, would lead a visitor into a
-    session of the sender, who sees the files of the visitor and runs scripts in the page. The key is made
-    before processes are forked; one in BOKEH_SECRET_KEY goes first.
+    A link with a session name or a token from its sender would lead a visitor into a session of the sender.
+    The sender would then see the files of the visitor and run scripts in the page. The key must exist
+    before the server forks processes; BOKEH_SECRET_KEY takes precedence.
     """
     patterns, handler = (
         _private_attribute("bokeh.server.urls", "per_app_patterns"),
@@ -129,21 +129,21 @@ def own_sessions() -> None:
         return
     if not settings.secret_key():
         settings.secret_key = token_urlsafe(32)
-        # Kept from before there was a key.
+        # A cached value from before the key.
         vars(settings).pop("_secret_key_bytes", None)
     settings.sign_sessions = True
-    # The page does not embed by a script, which asks for a session, too.
+    # The page does not use embedding by a script, which would also request a session.
     patterns[:0] = [(r"/autoload.js", NotFound), (r"/?", document(handler))]
 
 
 def document(handler: Any) -> Any:
-    """A class of Panel's pages that takes no name of a session from a request.
+    """Return a class of Panel's pages that ignores session names in a request.
 
-    Earlier links to the theory, such as `?theory=eq-11`, lead to its place, without a session.
+    Earlier links to the theory, such as `?theory=eq-11`, lead to its anchor, without a session.
     """
 
     class Document(handler):
-        """Page in a session of its own."""
+        """Page in a new session."""
 
         async def prepare(self):
             request = self.request
@@ -162,51 +162,51 @@ def document(handler: Any) -> Any:
     return Document
 
 
-#: Hosts to which no name of another site can be bound.
+#: Hosts to which no other site can bind its name.
 _LOOPBACK = ("127.0.0.1", "::1", "localhost")
 
 
 def same_loopback_origin(origin: str, host: str, port: int) -> bool:
-    """Whether an origin is the host of its request, and that one of this machine, at the served port."""
+    """Whether an origin equals the host of its request, which is this machine at the served port."""
     place = urlsplit(f"//{host}")
     same = urlsplit(origin).netloc.lower() == host.lower()
     return same and place.hostname in _LOOPBACK and (place.port or 80) == port
 
 
 def websockets() -> None:
-    """Have websockets refuse other origins, and send each part of a message at once, one after the other.
+    """Make websockets reject other origins, and send each part of a message at once, in order.
 
-    A page at a name that is not allowed may connect to that name (Host = Origin): tornado 6.6 asks nothing
-    then. Bound to 127.0.0.1, the name reaches the server of a person (DNS rebinding).
+    A page at a disallowed name may connect to this name (Host = Origin): tornado 6.6 then checks nothing.
+    If the name resolves to 127.0.0.1, it reaches the user's own server (DNS rebinding).
 
-    A message has three parts. With Nagle's algorithm the second one waits for the acknowledgement of the
-    first one, which browsers delay by up to 40 ms in a drag: with a client that does so a move is answered
-    after 59 ms instead of 100 (medians of 120).
+    A message has three parts. With Nagle's algorithm the second part waits for the acknowledgement of the
+    first part. Browsers delay this by up to 40 ms in a drag. Without the algorithm such a client gets the
+    answer to a move after 59 ms instead of 100 ms (medians of 120).
     """
     patterns = _private_attribute("bokeh.server.urls", "per_app_patterns")
     handler = _private_attribute("panel.io.server", "WSHandler")
     dispatch = _private_attribute("panel.io.document", "dispatch_tornado")
     if patterns and handler:
-        # The first pattern that matches is used.
+        # Tornado uses the first matching pattern.
         patterns.insert(0, (r"/ws", websocket(handler, dispatch)))
 
 
 def websocket(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
-    """A class of Panel's websockets for allowed origins and tokens of this server, which sends promptly."""
-    #: The websocket of each session by its name: of two with one token the newer one is served.
+    """Return a class of Panel's websockets that checks origin and token, and sends without delay."""
+    #: Websockets by the names of their sessions; of two websockets with the same token the newer stays.
     sockets: dict[str, Any] = {}
 
     class Websocket(handler):
-        """Websocket that asks for origin and token, and sends each part of a message at once."""
+        """Websocket that checks origin and token, and sends each part of a message at once."""
 
         async def prepare(self):
             origin = self.request.headers.get("Origin")
-            # Programs other than browsers send none.
+            # Only browsers send an origin.
             if origin is not None and not self.check_origin(origin):
                 raise HTTPError(403)
             token = self.request.headers.get("Sec-WebSocket-Protocol", "").partition(",")[2].strip()
             known, app = False, self.application
-            # Before anything of it is unpacked; some texts are no tokens at all.
+            # Before the token is unpacked; some texts are no tokens.
             with suppress(ValueError, KeyError, TypeError):
                 known = check_token_signature(token, app.secret_key, app.sign_sessions)
             if not known:
@@ -220,7 +220,7 @@ def websocket(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
                     origin
                 )
             except ValueError:
-                # No address at all, as "http://[".
+                # An invalid address such as "http://[".
                 return False
 
         def open(self, *args, **kwargs):
@@ -239,12 +239,12 @@ def websocket(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
     async def send_message(self, message):
         """Send a message without Bokeh's lock of the websocket.
 
-        While that is taken, Panel puts off what is changed, and where two such messages overlap (Panel 1.9,
-        `_dispatch_msgs`) the second one stays behind until something else is changed: an answer is lost.
-        All parts are written before anything else can run, so that messages stay apart as well.
+        While the lock is held, Panel postpones changes. If two such messages overlap (Panel 1.9,
+        `_dispatch_msgs`), the second message waits for the next change: an answer is lost. Here all parts
+        are written before other code can run, so that messages do not mix either.
         """
         closed = import_module("tornado.websocket").WebSocketClosedError
-        # As in Bokeh, a browser may have gone.
+        # As in Bokeh: the browser may have left.
         with suppress(closed):
             await asyncio.gather(*dispatch(self.connection, msg=message))
 
@@ -254,7 +254,7 @@ def websocket(handler: Any, dispatch: Callable[..., Any] | None) -> Any:
 
 
 def template() -> str:
-    """Template of the page, of which no plot is drawn with WebGL: 194 of 3,060 kB of a first visit less."""
+    """Return the template of the page, without WebGL: this saves 194 of 3,060 kB at a first visit."""
     base = _private_attribute("panel.io.resources", "BASE_TEMPLATE")
     try:
         source = Path(base.filename).read_text(encoding="utf-8")
@@ -267,7 +267,7 @@ def template() -> str:
 
 
 def _private_attribute(module: str, name: str) -> Any:
-    """A name of a module, or None where it has moved."""
+    """Return an attribute of a module, or None if it does not exist."""
     try:
         return getattr(import_module(module), name)
     except (ImportError, AttributeError):

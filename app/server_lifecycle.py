@@ -7,7 +7,7 @@ from .common import folders
 from .explorer import extras, page, theory
 from .measurement import page as measurement
 
-#: Loaded here, so that the first visitor does not wait, and that the server does not start if one fails.
+#: Loaded here: the first visitor does not wait, and the server does not start if a module fails.
 LOADED = (extras, page, measurement)
 
 folders.clear()
@@ -20,6 +20,6 @@ security.page("/theory.html", theory.page(f"../static/extensions/panel/{theory.K
 
 
 def on_server_loaded(server_context):
-    """Rare garbage collections, of sessions only: with 24 of them a full one takes half a second."""
+    """Make garbage collections rare, and only of sessions: with 24 sessions a full one takes 0.5 s."""
     gc.freeze()
     gc.set_threshold(10_000)

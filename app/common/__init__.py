@@ -1,1 +1,1 @@
-"""What both pages use: processes, files of tips and their parts, numbers with units, texts of errors."""
+"""Code of both pages: processes, uploads, tip files, numbers with units, and texts of errors."""

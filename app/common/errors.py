@@ -1,4 +1,4 @@
-"""Texts of errors for the page, with what one can do about them."""
+"""Texts of errors for the page, with their remedies."""
 
 import re
 from typing import Any
@@ -8,9 +8,9 @@ from mdr_core.show.units import KINDS, written
 
 from .quantities import QUANTITIES, unicode_subscripts
 
-#: Most characters of a text, which may quote a file.
+#: Largest number of characters of a text, which may quote a file.
 _MOST = 2000
-#: Numbers in SI, as the core writes them.
+#: Numbers with SI units in messages of the core.
 _IN_SI = re.compile(rf"(?<![\w.])(\d+\.?\d*(?:e[+-]?\d+)?) ({'|'.join(filter(None, KINDS))})(?![\w/·²³°])")
 
 
@@ -23,20 +23,20 @@ class Refused(Exception):
 
 
 def text_and_remedy(error: Exception) -> tuple[str, tuple[Any, ...]]:
-    """Return text and remedies of an error, also of a package that reads files, without folders."""
+    """Return the text of any error without folders, and its remedies."""
     text = error_text(error) if isinstance(error, ValueError) else str(error)
     return without_folders(text[:_MOST]), getattr(error, "remedy", ())
 
 
 def without_folders(text: str) -> str:
-    """Return a text without the folders of the server in which paths of files begin."""
+    """Remove the folders of the server from the paths in a text."""
     return re.sub(r"(?<![\w.)])(?:[A-Za-z]:)?[/\\](?:[^/\\\s'\":]+[/\\]+)+", "", text)
 
 
 def error_text(error: ValueError) -> str:
-    """Return the message of an error of the core, for a number its symbol, value with unit, bound, advice.
+    """Return the message of an error of the core: for a number its symbol, value with unit, bound, advice.
 
-    All other messages are as they stand, without names of Python where they have a text.
+    Other messages have no names of Python if the error has a text without them.
     """
     if not isinstance(error, InvalidArgument) or not isinstance(error.value, int | float):
         text = getattr(error, "text", str(error))
@@ -49,5 +49,5 @@ def error_text(error: ValueError) -> str:
 
 
 def in_fitting_units(text: str) -> str:
-    """Return a message of the core, whose numbers are in SI, with each number in the unit that fits it."""
+    """Convert each number of a message of the core from SI to the unit that fits it."""
     return _IN_SI.sub(lambda found: written(float(found[1]), KINDS[found[2]]), text)

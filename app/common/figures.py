@@ -1,4 +1,4 @@
-"""What the figures of both pages have: their look, and a zoom to a box."""
+"""Look and box zoom of the figures of both pages."""
 
 from typing import Any
 
@@ -7,13 +7,13 @@ from bokeh.events import DoubleTap, PanEnd
 
 from .ui import HERE, call
 
-#: The outline of a canvas, which no linked sheet reaches.
+#: Outline of a canvas; linked sheets do not reach it.
 _FOCUS = [".bk-Canvas { --highlight-color: var(--elastic); --outline-width: 2px; }"]
 _TOOLS = [(HERE / "static" / "tools.css").read_text(encoding="utf-8")]
 
 
 def set_look(figure: Any) -> None:
-    """Give a figure and its axes the look of all plots; its colours come from the sheet."""
+    """Give a figure and its axes the look of all plots; the style sheet sets the colours."""
     figure.update(background_fill_color=None, border_fill_color=None, outline_line_color=None)
     figure.stylesheets = _FOCUS
     figure.xgrid.visible = False
@@ -24,7 +24,7 @@ def set_look(figure: Any) -> None:
 
 
 def add_zoom(figure: Any) -> None:
-    """Let a figure be zoomed to one box at a time; its button and a double click show the whole plot."""
+    """Add a zoom to one box at a time; a button and a double click show the whole plot again."""
     figure.add_tools(bk.BoxZoomTool(description="Zoom to a box"), bk.ResetTool(description="Whole plot"))
     figure.update(toolbar_location="above", toolbar_inner=True)
     figure.toolbar.update(autohide=True, logo=None, active_drag=None, stylesheets=_TOOLS)

@@ -1,4 +1,4 @@
-"""Folders for files of sessions, in one of this process: if it is killed, the next start clears it."""
+"""Folders for the files of sessions, in a folder of this process; the next start clears leftovers."""
 
 import atexit
 import os
@@ -15,12 +15,12 @@ from .upload import SESSION_BYTES, SET_FILES
 try:
     import fcntl
 except ImportError:
-    # On Windows what a killed server has left is for the system to clear.
+    # On Windows the system clears the files of a killed server.
     fcntl = None  # type: ignore[assignment]
 
 _PREFIX, _LOCK = "mdr-explorer-", "in use"
-TOO_MANY = "At most {} files with {:g} MB together are read: drop a part of them"
-NOT_KEPT = "The server cannot keep this file for reading, as its disk is full. Try again later"
+TOO_MANY = "At most {} files with {:g} MB together can be read: drop fewer files"
+NOT_KEPT = "The server cannot store this file because its disk is full. Try again later"
 
 
 class Files:
@@ -32,12 +32,12 @@ class Files:
         self._bytes = 0
 
     def keep(self, data: bytes, name: str = "") -> str:
-        """Keep a file instead of the last ones; return its path, a new one each time. Raises Refused."""
+        """Replace all files by this file, and return its new path. Raises `Refused`."""
         self.clear()
         return self.add(data, name)
 
     def add(self, data: bytes, name: str) -> str:
-        """Keep a file beside the last ones, within bounds, and return its path. Raises Refused."""
+        """Add a file, within bounds, and return its path. Raises `Refused`."""
         self._bytes += len(data)
         if self._bytes > SESSION_BYTES or len(self.paths) >= SET_FILES:
             raise Refused(TOO_MANY.format(SET_FILES, SESSION_BYTES / 1e6))
@@ -53,24 +53,24 @@ class Files:
         return str(path)
 
     def clear(self) -> None:
-        """Remove what is kept."""
+        """Remove all files."""
         if self._folder is not None:
             shutil.rmtree(self._folder, ignore_errors=True)
         self._folder, self.paths, self._bytes = None, [], 0
 
 
 def safe_name(name: str) -> str:
-    """Name of a file without what a system could take for something else, and of a length that all take."""
+    """Return a file name of safe characters and safe length for every system."""
     path = Path(re.sub(r"[^\w. #+,;=@()&-]", "_", name.replace("/", " ")).strip(". "))
     return f"{path.stem[:40] or 'file'}{path.suffix[:20]}"
 
 
 @cache
 def own() -> Path:
-    """Return the folder of this process, which is locked as long as the process runs."""
+    """Return the folder of this process, locked while the process runs."""
     folder = Path(tempfile.mkdtemp(prefix=_PREFIX))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    # Never closed: the system does that at the end of the process, however it ends.
+    # Never closed here: the system closes it when the process ends, even after a crash.
     _locked(folder / _LOCK, os.O_CREAT)
     return folder
 

@@ -1,6 +1,6 @@
-"""Where a page runs, and when what takes time is done there.
+"""Hosts of a page, which decide when slow work runs.
 
-At once, as in a test; in a server in threads; in a browser, without threads and processes, by browser.py.
+A test does it at once, a server in threads, and a browser without threads and processes (browser.py).
 """
 
 from collections.abc import Callable, Coroutine, Iterator
@@ -13,14 +13,14 @@ from typing import Any
 import panel as pn
 from bokeh.document import Document
 
-#: Something that takes time, in steps: the last one gives what is found, those before it nothing.
+#: Slow work in steps: the last step yields the result, all earlier steps yield None.
 Steps = Iterator[Any]
-#: Seconds after which others are served while steps are taken.
+#: Seconds of steps after which other sessions are served.
 _SLICE = 0.02
 
 
 def last(steps: Steps, wanted: Callable[[], bool] = lambda: True) -> Any:
-    """What the last step gives, None once it is not wanted any more."""
+    """Return the result of the last step, or None if it is not wanted any more."""
     found = None
     while wanted():
         try:
@@ -31,13 +31,13 @@ def last(steps: Steps, wanted: Callable[[], bool] = lambda: True) -> Any:
 
 
 class Host:
-    """No server and no browser, as in a test or for a file: what is asked for is done at once."""
+    """Host without server and browser, for tests and files: it does all work at once."""
 
-    #: Whether a file of somebody is read in a process, which can be stopped.
+    #: Whether a separate process, which can be stopped, reads the files of users.
     processes = False
 
     def shows(self) -> bool:
-        """Whether a browser shows the page, so that slow updates wait until the input rests."""
+        """Whether a browser shows the page; slow updates then wait until the input rests."""
         return False
 
     def once_shown(self, act: Callable[[], None]) -> None:
@@ -45,35 +45,35 @@ class Host:
         act()
 
     def call_later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:
-        """Do something later, and return what prevents it."""
+        """Do something later, and return a function that cancels it."""
         act()
         return lambda: None
 
     def on_close(self, act: Callable[[], None]) -> None:
-        """Do something when the page is closed, if that is known."""
+        """Do something when the page is closed, if the host notices this."""
 
     def next_tick(self, act: Callable[[], None]) -> None:
-        """Do something where the page may be changed, from whichever thread."""
+        """Do something in the thread that may change the page; call this from any thread."""
         act()
 
     def run(self, act: Callable[[], Coroutine[Any, Any, None]]) -> None:
-        """Do something that may wait for a process; without processes nothing waits."""
+        """Run a coroutine that may wait for a process; without processes it never waits."""
         with suppress(StopIteration):
             act().send(None)
 
     def search(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
-        """Take the steps of a search beside the page, and give what is found to `done` if it is wanted."""
+        """Run the steps of a search in the background, and pass the result to `done` if it is wanted."""
         found = last(steps, wanted)
         if wanted():
             self.next_tick(partial(done, found))
 
     def make(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
-        """Take steps that read the page, and give what they make to `done` if it is wanted."""
+        """Run steps that read the page, and pass the result to `done` if it is wanted."""
         self.search(steps, wanted, done)
 
 
 class Sliced(Host):
-    """Others are served between slices of what is made."""
+    """Host that serves other sessions between slices of a slow task."""
 
     def make(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
         self._go_on(steps, wanted, done, None)
@@ -96,7 +96,7 @@ _THREADS = ThreadPoolExecutor()
 
 
 class Server(Sliced):
-    """A session of a server."""
+    """Host for a session of a server."""
 
     processes = True
 
@@ -127,5 +127,5 @@ class Server(Sliced):
 
 
 def host_of(document: Document) -> Host:
-    """The server of a document, or nobody if it has no session."""
+    """Return the host of a document: its server, or a `Host` if it has no session."""
     return Server(document) if document.session_context is not None else Host()

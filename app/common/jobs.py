@@ -1,7 +1,7 @@
-"""The program of a process: it answers the jobs that come on its input.
+"""Program of a worker process, which answers the jobs on its input.
 
-A job is a function by its name in this package, such as "measurement.analysis.read". It is loaded when it
-is first asked for. Nothing of the page is loaded, and no asyncio, which takes 0.1 s.
+A job is the name of a function in this package, such as "measurement.analysis.read". Its first call loads
+it. The program loads nothing of the page, and no asyncio, which takes 0.1 s.
 """
 
 import os
@@ -17,14 +17,14 @@ from .errors import text_and_remedy
 
 
 def setting(name: str, default: int) -> int:
-    """Return a bound from the environment."""
+    """Return a bound from an environment variable."""
     text = os.environ.get(name, str(default))
     if not (text.isascii() and text.isdigit() and int(text) > 0):
-        raise ValueError(f"{name}={text} must be a whole number of 1 or more")
+        raise ValueError(f"{name}={text} must be a whole number of at least 1")
     return int(text)
 
 
-#: Most memory of a process (bytes), and most seconds of computing of a job, or of one curve of many.
+#: Largest memory of a process (bytes), and longest computing time (s) of a job, or of each of many curves.
 _MEMORY = setting("MDR_EXPLORER_GIGABYTES", 4) * 10**9
 SECONDS = setting("MDR_EXPLORER_SECONDS", 120)
 #: Niceness of a process.
@@ -32,13 +32,13 @@ _NICE = 5
 
 
 def packed(message: Any) -> bytes:
-    """Return a message as bytes, its length first."""
+    """Pack a message into bytes, with its length first."""
     data = pickle.dumps(message)
     return len(data).to_bytes(8, "big") + data
 
 
 def answers(job: str, arguments: tuple[Any, ...]) -> Iterator[tuple[str, Any]]:
-    """Yield kinds and answers of a job: "part", then "done" or "refused"."""
+    """Yield the answers of a job with their kinds: "part", and at the end "done" or "refused"."""
     module, _, name = job.rpartition(".")
     try:
         found = getattr(import_module(f"..{module}", __package__), name)(*arguments)
@@ -49,26 +49,26 @@ def answers(job: str, arguments: tuple[Any, ...]) -> Iterator[tuple[str, Any]]:
     except (ValueError, ImportError) as error:
         yield "refused", text_and_remedy(error)
     except MemoryError:
-        yield "refused", ("this needs more memory than a measurement may have",)
+        yield "refused", ("this needs more memory than a measurement may use: try a smaller file",)
 
 
 def main() -> None:
-    """Answer jobs until the input ends, within bounds of memory and time where the system has them."""
+    """Answer jobs until the input ends, within bounds of memory and time if the system supports them."""
     import logging
     import warnings
 
-    # Messages of readers are in nobody's sight.
+    # No user would see the warnings of readers.
     logging.disable(logging.WARNING)
     warnings.simplefilter("ignore")
     with suppress(ImportError, ValueError, OSError):
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
-        # A process that is ended leaves no image of its memory, in which the file would be.
+        # No core dump, which would contain the user's file.
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     with suppress(AttributeError, OSError):
         os.nice(_NICE)
-    # What a package prints is no answer.
+    # Text that a package prints must not mix with the answers.
     output = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     while head := sys.stdin.buffer.read(8):
@@ -81,7 +81,7 @@ def main() -> None:
 
 
 def _limit_time() -> None:
-    """Bound the processor time from now on; beyond it the system ends the process."""
+    """Limit the processor time from now; beyond the limit the system ends the process."""
     with suppress(ImportError, ValueError, OSError):
         import resource
 

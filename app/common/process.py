@@ -1,4 +1,4 @@
-"""Jobs in a process of a session: a job can be stopped, and a damaged file ends its own process alone."""
+"""Jobs in a process of each session: a job can be stopped, and a damaged file ends only this process."""
 
 import asyncio
 import os
@@ -17,9 +17,9 @@ from .jobs import SECONDS, answers, packed, setting
 _APP = Path(__file__).parents[1]
 
 
-#: Most processes of a server, and seconds without a job after which a process ends.
+#: Largest number of processes of a server, and seconds without a job after which a process ends.
 PROCESSES, _REST = setting("MDR_EXPLORER_PROCESSES", 4), 300.0
-#: The program of a process. The package is made of this folder, whatever is on the path.
+#: Program of a process. It makes the package from this folder, whatever the path contains.
 _PROGRAM = """import sys, types
 app = sys.modules["app"] = types.ModuleType("app")
 app.__path__ = [sys.argv[1]]
@@ -27,35 +27,35 @@ from app.common.jobs import main
 main()
 """
 ENDED = (
-    "The process that reads and fits has ended, because of a damaged file or too little memory; "
-    "nothing else is lost. Try another file, or fewer samples"
+    "The process that reads and fits has ended because of a damaged file or too little memory; "
+    "nothing else is lost. Try another file or fewer samples"
 )
 LATE = (
-    f"This takes more than {SECONDS} s of computing, and was stopped; nothing else is lost. "
+    f"The server stopped this job after {SECONDS} s of computing; nothing else is lost. "
     "Try fewer samples, or hold more parameters"
 )
 NO_ROOM = "The server has no room for a process that reads and fits. Try again later"
-NO_PROCESSES = "Files are read in a process, which this server cannot start: use `panel serve app`"
+NO_PROCESSES = "This server cannot start the process that reads files: use `panel serve app`"
 
 
-def _ignore(told: Any) -> None:
+def _ignore(message: Any) -> None:
     """Ignore a message."""
 
 
 def queue_text(before: int) -> str:
-    """Return how many people wait for a process before this one."""
+    """Return the number of users who wait for a process before this user, as text."""
     who = {0: "nobody is", 1: "one person is"}.get(before, f"{before} people are")
     return f"Waiting for a free process, {who} before you"
 
 
 class Replaced(Exception):
-    """Error of a job that was replaced by another one, or cancelled."""
+    """Error of a cancelled job, or of a job that another job has replaced."""
 
 
 class Places:
-    """The bound of all sessions of a server: who has a place for a process, and who waits for one.
+    """Places for the processes of all sessions of a server: workers with a place, and waiting workers.
 
-    A process at rest gives way to a session that waits.
+    An idle process loses its place if a session waits.
     """
 
     def __init__(self, most: int):
@@ -65,7 +65,7 @@ class Places:
         self._changes: list[asyncio.Future[None]] = []
 
     def admit(self) -> None:
-        """Give the places there are to those who wait."""
+        """Give free places to waiting workers."""
         while self.waiting:
             if len(self.taken) >= self._most:
                 resting = next((each for each in self.taken if not each.busy), None)
@@ -87,7 +87,7 @@ class Places:
         self.admit()
 
     async def change(self) -> None:
-        """Wait until somebody has come or gone."""
+        """Wait until the queue or the places change."""
         change = asyncio.get_running_loop().create_future()
         self._changes.append(change)
         await change
@@ -97,7 +97,7 @@ PLACES = Places(PROCESSES)
 
 
 class Worker:
-    """The process of a session, which stays for its next job unless another session waits."""
+    """Process of a session, which stays for the next job unless another session waits."""
 
     def __init__(self, places: Places = PLACES):
         self._places = places
@@ -117,10 +117,10 @@ class Worker:
         part: Callable[[Any], None] = _ignore,
         waits: Callable[[int], None] = _ignore,
     ) -> Any:
-        """Return what a job returns, a function by its name in this package, "measurement.analysis.read".
+        """Run a job, a function by its name in this package, and return its result.
 
-        `part` gets what the job yields before, `waits` how many wait before this one. A job that comes
-        while another one runs replaces that. Raises Refused or Replaced.
+        `part` gets each part that the job yields, `waits` the number of sessions before this one. A new job
+        replaces a running job. Raises `Refused` or `Replaced`.
         """
         if self.busy:
             self.end()
@@ -145,7 +145,7 @@ class Worker:
         finally:
             if self._job is mine:
                 if kind == "part":
-                    # What it still answers would be taken for the answer to the next job.
+                    # Otherwise its late answers would be read as answers to the next job.
                     self.end()
                 self._job = None
                 self._rest = asyncio.get_running_loop().call_later(_REST, self.stop)
@@ -155,13 +155,13 @@ class Worker:
         return answer
 
     def stop(self) -> None:
-        """End the process and what it does."""
+        """End the process and its job, and give up the place."""
         self.end()
         self._job = None
         self._places.leave(self)
 
     def end(self) -> None:
-        """End the process; the place stays."""
+        """End the process; keep the place."""
         if self._rest is not None:
             self._rest.cancel()
         if self._process is not None:
@@ -187,7 +187,7 @@ class Worker:
     async def _started(self, mine: object) -> asyncio.subprocess.Process:
         if self._process is not None and self._process.returncode is None:
             return self._process
-        # One thread of linear algebra; `-P`: no modules of the folder in which the server was started.
+        # One thread of linear algebra. `-P`: import no modules from the working folder of the server.
         own = {"PYTHONPATH": os.pathsep.join([str(_APP.parent), *filter(None, sys.path)])}
         own |= {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "TMPDIR": str(folders.own())}
         command = sys.executable, "-P", "-c", _PROGRAM, str(_APP)
@@ -195,7 +195,7 @@ class Worker:
         try:
             process = await asyncio.create_subprocess_exec(*command, env=os.environ | own, **pipes)
         except NotImplementedError:
-            # The loop of a notebook on Windows.
+            # The event loop of a notebook on Windows.
             raise Refused(NO_PROCESSES) from None
         except OSError:
             raise Refused(NO_ROOM) from None
@@ -207,19 +207,19 @@ class Worker:
 
 
 class Here:
-    """Jobs that are done at once, without a process: in a browser, and in tests."""
+    """Worker without a process, which runs each job at once: in a browser, and in tests."""
 
     async def run(
         self, job: str, *arguments: Any, part: Callable[[Any], None] = _ignore, **others: Any
     ) -> Any:
-        """Return what a job returns, after its parts; nobody waits. Raises Refused."""
+        """Run a job and return its result, after its parts, without a queue. Raises `Refused`."""
         for kind, answer in answers(job, arguments):
             if kind == "refused":
                 raise Refused(*answer)
             if kind == "done":
                 return answer
             part(answer)
-        raise AssertionError("a job has an answer")
+        raise AssertionError("a job must end with an answer")
 
     def stop(self) -> None:
         """Do nothing: a job is done at once."""

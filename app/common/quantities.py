@@ -1,4 +1,4 @@
-"""Numbers, choices and readouts with their texts: assets/quantities.json, and those of extras."""
+"""Numbers, choices and readouts with their texts, from assets/quantities.json and from extras."""
 
 import json
 import re
@@ -13,11 +13,11 @@ ASSETS = Path(__file__).parents[2] / "assets"
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number that can be set.
+    """Number that the user can set.
 
-    `kind` is that of its units. `bounds` and `default` are in SI, but a length of a shape has its
-    `default` in contact radii. The slider covers a factor `span` each way; 0: linear between bounds; below
-    0: no slider.
+    `kind` is the kind of its units. `bounds` and `default` are in SI, but the `default` of a shape's length
+    is in contact radii. The slider covers a factor `span` in each direction. It is linear between the
+    bounds if `span` is 0, and absent if `span` is negative.
     """
 
     name: str
@@ -37,11 +37,11 @@ class Quantity:
 
 @dataclass(frozen=True)
 class Option:
-    """An option of a choice, and the numbers of the form that it needs.
+    """Option of a choice, and the numbers that it needs in the form.
 
-    Shapes have formulas of their `height` and `reduced` profile. Drives have choices of their own (`form`),
-    readouts above the plots (`line`), and words for where dashpots act (`in_time`). Options of a choice in
-    a form may have choices, too, and numbers that fold (`fold`).
+    Shapes have formulas of their `height` and `reduced` profile. Drives have separate choices (`form`),
+    readouts above the plots (`line`), and words for the place in which dashpots act (`in_time`). Options of
+    a choice in a form may also have choices, and numbers in a fold (`fold`).
     """
 
     label: str
@@ -57,7 +57,7 @@ class Option:
 
 @dataclass(frozen=True)
 class Choice:
-    """A choice, and its options by their keys."""
+    """Choice, and its options by their keys."""
 
     label: str = ""
     help: str = ""
@@ -66,9 +66,9 @@ class Choice:
 
 @dataclass(frozen=True)
 class Readout:
-    """A readout: an attribute `of` a course, with its symbol, unit and long name.
+    """Readout: an attribute `of` a course, with its symbol, unit and long name.
 
-    `short` is its name above the plots, in one line, where that is not the long one.
+    `short` is its name in the line above the plots, if this differs from the long name.
     """
 
     name: str
@@ -86,10 +86,10 @@ class Readout:
         return course
 
 
-#: By their names; numbers of a shape begin with its own, as "cone_slope".
+#: Numbers by their names; the name of a shape's number begins with the shape, for example "cone_slope".
 QUANTITIES: dict[str, Quantity] = {}
 CHOICES: dict[str, Choice] = {}
-#: Every number that can be read, in the order in which all of them are listed.
+#: All readouts, in the order of their list on the page.
 READOUTS: list[Readout] = []
 
 
@@ -101,7 +101,7 @@ _DATA = read_data(ASSETS / "quantities.json")
 
 
 def quantity(like: str = "", **own: Any) -> Quantity:
-    """A number with its own words, and those of the numbers that are like it."""
+    """Return a number from its words and from the shared words `like`."""
     words = _DATA["like"].get(like, {}) | own
     return Quantity(**words | {"bounds": tuple(words["bounds"])})
 
@@ -109,8 +109,8 @@ def quantity(like: str = "", **own: Any) -> Quantity:
 def include(data: dict[str, Any]) -> None:
     """Add the numbers, readouts and choices of the page, or those of an extra.
 
-    Choices that are there get further options and a longer help, options that are there further numbers,
-    choices and readouts. Readouts that the core has, too, have its symbol, unit and long name.
+    Existing choices get further options and a longer help. Existing options get further numbers, choices
+    and readouts. A readout that is also a result of the core has the core's symbol, unit and long name.
     """
     QUANTITIES.update({each["name"]: quantity(**each) for each in data.get("numbers", ())})
     for words in data.get("readouts", ()):
@@ -126,7 +126,7 @@ def include(data: dict[str, Any]) -> None:
 
 
 def _option(known: Option | None, words: dict[str, Any]) -> Option:
-    """A new option, or one that is there with longer lists."""
+    """Return a new option, or the known option with longer lists."""
     if known is None:
         return Option(**words)
     return replace(known, **{name: [*getattr(known, name), *more] for name, more in words.items()})
@@ -138,5 +138,5 @@ _LOWERED = str.maketrans("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆�
 
 
 def unicode_subscripts(text):
-    """Text with indices, as in v_0, as Unicode subscripts where they exist."""
+    """Replace indices, such as in v_0, by Unicode subscripts if they exist."""
     return re.sub("_([a-z0-9]+)", lambda index: index[1].translate(_LOWERED), text)

@@ -12,14 +12,14 @@ from mdr_core.solver.profiles.sampled import tip_through
 
 from .upload import MAX_SAMPLES, in_line
 
-#: Most samples that a tip is fitted to, and most rows of a file.
+#: Largest numbers of samples in the fit of a tip, and of rows of a file.
 _FITTED, _MAX_ROWS = 2000, 20_000
-#: Share of the height of a tip below which a deviation from its samples is one of rounding.
+#: Deviation from the samples, relative to the height of the tip, below which it is rounding.
 _ROUNDING = 1e-12
 
 
 def read(path: str, name: str) -> tuple[tuple[Any, Any], str]:
-    """Return radii and heights (m) of the tip in the file at a path, and a note; see `read_tip`."""
+    """Return radii and heights (m) of the tip in a file, and a note; see `read_tip`."""
     return read_tip(decoded(Path(path).read_bytes()), name)
 
 
@@ -36,7 +36,7 @@ def read_tip(text: str, name: str = "the file") -> tuple[tuple[Any, Any], str]:
         raise ValueError(f"{name}: {error}") from None
     count = len(tip.r)
     note = f"{len(r)} rows reduced to {count} samples" if len(r) > count else f"{count} samples"
-    # The fit is a sum of terms as large as the heights, of which rounding alone may be left.
+    # The fit sums terms as large as the heights: the deviation may be rounding alone.
     if scatter is not None and scatter > _ROUNDING * float(np.ptp(z)):
         note += f"; rms deviation {written(scatter, 'length', 2)}"
     elif len(r) == count:

@@ -1,13 +1,13 @@
-"""Numbers that are typed into a field as values in SI, and values as text for a field."""
+"""Conversion between the text of a number field and values in SI."""
 
 import re
 from math import isclose, isfinite, radians, tan
 
 from mdr_core.show.units import UNITS, Unit, digits, fitting, with_unit
 
-#: Units that are read, and shown where they were typed.
+#: Accepted units that the page shows only after the user has typed them.
 _READ = {"length": (Unit("Å", 1e-10), Unit("um", 1e-6))}
-#: Letters of units, with those that keyboards have for them.
+#: Letters of units and their substitutes on keyboards.
 _KEYBOARD = str.maketrans("µ·³²", "u*32")
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d{1,3})?)\s*(.*)", re.IGNORECASE | re.ASCII)
 #: A comma before exactly three digits is a decimal comma, or separates thousands.
@@ -15,7 +15,7 @@ _TWO_READINGS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?!\d)", re.ASCII)
 
 
 def entry(value: float, unit: Unit) -> str:
-    """A value (SI) as text for a field, readable by `read`: all digits up to nine, else five."""
+    """Format a value (SI) for a field: up to nine digits if exact, else five; `read` accepts the text."""
     if not isfinite(value):
         return digits(value)
     number = value / unit.factor
@@ -24,12 +24,12 @@ def entry(value: float, unit: Unit) -> str:
 
 
 def in_full(value: float, kind: str) -> str:
-    """A value (SI) in the unit that fits it, with all digits as in `entry`."""
+    """Format a value (SI) in the unit that fits it, with the digits of `entry`."""
     return entry(value, fitting(value, kind)) if isfinite(value) else digits(value)
 
 
 def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
-    """Value (SI) of typed text, and its unit.
+    """Return the value (SI) and the unit of typed text.
 
     Decimal commas, spaces between thousands, and half-angles for slopes are accepted.
 
@@ -40,12 +40,12 @@ def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
     kind : str
         Kind of quantity, a key of `UNITS`.
     shown : Unit
-        Unit of numbers without one.
+        Unit of numbers without a unit.
 
     Raises
     ------
     ValueError
-        If the text is no number, or can be two.
+        If the text is not a number, or has two readings.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def read(text: str, kind: str, shown: Unit) -> tuple[float, Unit]:
         names = ", ".join(unit.name for unit in UNITS[kind] if unit.name) or "°" * (kind == "slope")
         raise ValueError(f"“{text:.40}” is not a number" + f" with one of the units {names}" * bool(names))
     factor = units[match[2]].factor if match[2] else shown.factor
-    # 15 nm as 1.5e-08, not as 1.5000000000000002e-08.
+    # 15 nm is 1.5e-08, not 1.5000000000000002e-08.
     value = float(f"{float(match[1]) * factor:.15g}")
     if not isfinite(value):
         raise ValueError(f"“{text}” is too large")

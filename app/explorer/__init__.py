@@ -1,3 +1,3 @@
-"""The explorer: one state, what you set on its page, and what is drawn."""
+"""The explorer: one state, its changes on the page, and its drawing."""
 
 from . import extras as extras

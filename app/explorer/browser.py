@@ -1,6 +1,6 @@
 """The page in a browser by Pyodide, without a server: no threads, no processes, one document.
 
-Private ends of Pyodide are here alone, with what they gain.
+Only this module uses private names of Pyodide.
 """
 
 import asyncio
@@ -18,16 +18,16 @@ from ..common.host import Sliced, Steps
 from ..common.ui import SHEETS
 from .page import Address, Page
 
-# What JavaScript's null is for Python from version 0.28 of Pyodide on: Panel compares each value that the
-# browser sends with it. Before, null is None already, so that no value is this one.
+# JavaScript's null in Python since Pyodide 0.28: Panel compares each value from the browser with it. In
+# earlier versions null is None, so no value equals this object.
 if not hasattr(pyodide.ffi, "jsnull"):
     pyodide.ffi.jsnull = object()
-# It watches its bars by a thread.
+# tqdm would start a thread to watch its bars.
 tqdm.monitor_interval = 0
 
 
 class Browser(Sliced):
-    """One page in its browser, which is drawn and pressed between slices of what is searched."""
+    """Host for one page in its browser, which draws and answers clicks between slices of a search."""
 
     def __init__(self) -> None:
         self._shows = False
@@ -43,7 +43,7 @@ class Browser(Sliced):
             self._waiting.append(act)
 
     def shown(self) -> None:
-        """The browser shows the page from now on."""
+        """Run the waiting functions: the browser shows the page now."""
         self._shows = True
         for act in self._waiting:
             act()
@@ -58,25 +58,25 @@ class Browser(Sliced):
         pn.state.execute(act)
 
     def search(self, steps: Steps, wanted: Callable[[], bool], done: Callable[[Any], None]) -> None:
-        # Not within the press that asks for it.
+        # After the click that starts the search.
         self.next_tick(lambda: self.make(steps, wanted, done))
 
 
 async def start(query: str, dark: bool) -> None:
-    """Show the page of a query in this browser, with the theme that it has kept."""
+    """Show the page of a query in this browser, with the theme of the last visit."""
     browser.init_doc()
     document = pn.state.curdoc
     pn.extension(notifications=True, css_files=SHEETS)
     host = Browser()
     page = Page(query, dark, host)
     pn.panel(page).server_doc(document, "Indentation explorer", Address())
-    # Panel looks for the places of roots in the order of this attribute.
+    # Panel finds the places of the roots by the order of this attribute.
     for k in range(len(document.roots)):
         place = js.document.createElement("div")
         place.id, place.style.display = f"root-{k}", "contents"
         place.setAttribute("data-root-id", f"{k:03}")
         js.document.body.append(place)
-    # What is sent is answered once the script that sends it has ended, as from a server.
+    # Answer a message after the script that sends it has ended, as a server does.
     answer = document.apply_json_patch
     document.apply_json_patch = lambda patch, setter=None: host.next_tick(
         partial(answer, patch, setter=setter)

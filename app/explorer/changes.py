@@ -12,29 +12,29 @@ from .drives import DRIVES, follow, turning_point
 from .plots import PLOTS
 from .state import PRESETS, VIEW, State, checked, kept_extras, medium, preset_state, yield_constant
 
-#: Constants of the hardness, by the power of the contact radius in them.
+#: Constants of the hardness; the index is the power of the contact radius in the constant.
 CONSTANTS = ("volume_hardness", "q_c", "f_c")
-#: Points at which a sign is looked for at once.
+#: Points of a grid in the search for a change of sign.
 _GRID = 81
 
 
 def options(state: State, name: str) -> list[str]:
-    """Applicable options of a choice, the default first."""
+    """Return the applicable options of a choice, with the default first."""
     for plot in PLOTS.values():
         if name in plot.controls:
             return plot.options_of(state, name)
-    # A measured tip has to be loaded first.
+    # The user must load a measured tip first.
     return [each for each in CHOICES[name].options if each != "sampled" or state.samples]
 
 
 def option(state: State, name: str) -> str:
-    """Option of a choice; the first one if the chosen one does not apply."""
+    """Return the chosen option of a choice, or the first option if the chosen option does not apply."""
     chosen, known = state[name], options(state, name)
     return chosen if chosen in known else known[0]
 
 
 def choose(state: State, name: str, wanted: str) -> State:
-    """Take another option of a choice, with numbers converted to keep their meaning."""
+    """Change the option of a choice, and convert numbers so that they keep their meaning."""
     known = options(state, name)
     if wanted not in known:
         raise ValueError(f"{wanted!r:.40} is not one of {', '.join(known)}")
@@ -42,7 +42,7 @@ def choose(state: State, name: str, wanted: str) -> State:
         return preset_state(wanted, tiles=state.tiles, dark=state.dark, **kept_extras(state))
     if wanted == option(state, name):
         return state
-    # Another drive is shown at its largest depth, as it opens: a place after unloading has no contact.
+    # Another drive opens at its largest depth: a state after unloading has no contact.
     view = {"at": VIEW["at"]} if name == "drive" else {}
     changed = state.replace(**{name: wanted}, **view)
     convert = _CONVERT.get(name)
@@ -53,7 +53,7 @@ def choose(state: State, name: str, wanted: str) -> State:
 
 
 def put(state: State, name: str, value: float) -> State:
-    """Set a number; E* of two bodies through their moduli, q_c of a hardness through the hardness."""
+    """Set a number: E* of two bodies by their moduli, q_c of a hardness at a radius by the hardness."""
     given = {name: checked(name, value)}
     if name == "E_star" and state.elasticity == "bodies":
         given = _moduli(state, value)
@@ -63,7 +63,7 @@ def put(state: State, name: str, value: float) -> State:
 
 
 def _moduli(state: State, E_star: float) -> dict[str, float]:
-    """Moduli of two bodies with an effective modulus, Popov (2015), Eq. (2)."""
+    """Return moduli of two bodies with an effective modulus, Popov (2015), Eq. (2)."""
     compliance = 1 / E_star - (1 - state.nu_2**2) / state.E_2
     if compliance > 0.01 / E_star:
         return {"E_1": (1 - state.nu_1**2) / compliance}
@@ -71,7 +71,7 @@ def _moduli(state: State, E_star: float) -> dict[str, float]:
 
 
 def with_tile(state: State, name: str) -> State:
-    """Show an optional plot instead of the present one, or none; large if a plot is large."""
+    """Replace the optional plot by another plot, or by none; the new plot is large if a plot is large."""
     shown = "" if state.large in state.tiles else state.large
     return state.replace(tiles=(name,) if name else (), large=name if name and state.large else shown)
 
@@ -87,7 +87,7 @@ def hit_again(state: State) -> State:
     """Let the body hit its own imprint."""
     hit = follow(state).hit
     if hit is None or not hit.plastic_depth_increase > 0:
-        raise ValueError("nothing has yielded further: the next impact is the same as this one")
+        raise ValueError("nothing has yielded further: the next impact equals this impact")
     return put(state, "plastic_depth", float(hit.plastic_depth))
 
 
@@ -95,18 +95,18 @@ def hit_again(state: State) -> State:
 
 
 def shown(value: float) -> float:
-    """A number that is found, with the five digits that its field shows: the one that is used."""
+    """Round a computed number to the five digits of its field, so that the page uses the shown number."""
     return float(f"{value:.5g}")
 
 
 def equivalent(state: State, drive: str) -> dict[str, float]:
-    """Numbers of a drive that lead to the present largest depth."""
+    """Return numbers of a drive that lead to the present largest depth."""
     numbers = DRIVES[drive].equivalent(state, turning_point(state))
     return {name: shown(value) for name, value in numbers.items()}
 
 
 def _shape(state: State, shape: str) -> dict[str, float]:
-    """Numbers that a shape has not yet: those of the present one, or multiples of the contact radius."""
+    """Return missing numbers of a shape, from the present shape or as multiples of the contact radius."""
     numbers = {}
     radius = float(turning_point(state).contact_radius)
     for name in (each for each in CHOICES["shape"].options[shape].uses if state[each] is None):
@@ -118,9 +118,9 @@ def _shape(state: State, shape: str) -> dict[str, float]:
 
 
 def _plasticity(state: State, wanted: str) -> dict[str, float]:
-    """The constant that gives the present hardness at the contact radius, at which a hardness is measured.
+    """Return the constant (and the radius of a hardness) that keep the hardness at the contact radius.
 
-    Where nothing yields that is the hardness of the class of the preset.
+    If nothing yields, the hardness comes from the class of the preset.
     """
     if wanted == "none":
         return {}
@@ -136,7 +136,7 @@ def _plasticity(state: State, wanted: str) -> dict[str, float]:
 
 
 def _damping(state: State, wanted: str) -> dict[str, float]:
-    """Viscosity with a relaxation time that shows, and does not rule, over the course."""
+    """Return a viscosity with a relaxation time of 1/30 of the course: visible, but not dominant."""
     if wanted != "eta":
         return {}
     course = follow(state)
@@ -144,7 +144,7 @@ def _damping(state: State, wanted: str) -> dict[str, float]:
     return {"eta": float(f"{tau * state.E_star / 4:.2g}")}
 
 
-#: By choices of the page; those of a drive are converted by it.
+#: Conversions by choices of the page; a drive converts its choices itself.
 _CONVERT: dict[str, Callable[[State, str], dict[str, float]]] = {
     "shape": _shape,
     "elasticity": lambda state, wanted: {"E_star": state.E_star},
@@ -155,10 +155,10 @@ _CONVERT: dict[str, Callable[[State, str], dict[str, float]]] = {
 
 
 def crossing(function, low, high):
-    """Smallest number between two positive ones at which a function changes its sign; None without one.
+    """Return the smallest number between two positive bounds at which a function changes sign, or None.
 
-    The function takes an array, in which a number costs a small part of one by itself: so it is looked for
-    on a grid of equal ratios that is refined once, which leaves 10⁻³ of it, and then by a chord, 10⁻⁶.
+    Two grids of equal ratios leave an error of 10⁻³, and a chord then leaves 10⁻⁶. Calls with arrays are
+    much faster than calls with single numbers.
     """
     for _ in range(2):
         numbers = np.geomspace(low, high, _GRID)

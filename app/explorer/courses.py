@@ -1,4 +1,4 @@
-"""Courses of scenes: their states along a path, with what a drive adds to them."""
+"""Courses of scenes: their states along a path, and results that depend on the drive."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,7 +15,7 @@ LAST_PROGRESS = 2.2
 
 
 def onset_depth(scene: mdr.Scene, imprint: float = 0.0) -> float:
-    """Depth (m) at which yield begins over an imprint of some plastic depth; infinite if nothing yields."""
+    """Return the depth (m) at which yield begins over an imprint (plastic depth, m), or infinity."""
     return float(yield_rule(scene.profile, scene.medium).onset(imprint))
 
 
@@ -28,14 +28,14 @@ _ENERGIES = (
 
 @dataclass(frozen=True)
 class Caution:
-    """A limit that is exceeded so far that some readouts are no results."""
+    """Limit that is exceeded so far that some readouts are no results."""
 
-    #: The limits (`Limit.what`) that it stands for, itself first.
+    #: The limits (`Limit.what`) that it replaces, itself first.
     limits: tuple[str, ...]
-    #: What to do, and why.
+    #: Advice with its reason.
     sentence: str
     readouts: tuple[str, ...]
-    #: Choice and option that do it, if there is one.
+    #: Choice and option that follow the advice, if they exist.
     choice: str = ""
     option: str = ""
 
@@ -44,15 +44,14 @@ class Caution:
 class Course:
     """States of a scene along its path; every array has one value (SI) for each state.
 
-    `states` are an `mdr.Indentation`, or the `PathStates` of a path in time, which lack a few of its
+    `states` are an `mdr.Indentation`, or the `PathStates` of a path in time, without a few of its
     quantities, such as the stiffness; `states[i]` is one state. `progress` is 0 at first contact, 1 at the
     largest depth, 2 at loss of contact and `LAST_PROGRESS` with the indenter at the undeformed surface.
-    `motion` has times and energies where the path is one in time, and `hit` is the impact; else they are
-    None. `turns` says whether the path may
-    reverse several times, `chained` whether elements have separate memories, which one live interval does
-    not describe. `pending` describes the approximation used until the exact solution, `notes` are other
-    sentences about the course. The index `now` of the present state and the key `drive` are set by
-    `drives.follow`.
+    `motion` has times and energies of a path in time, and `hit` is the impact; otherwise they are None.
+    `turns` is whether the path may reverse several times, `chained` whether elements have separate
+    memories, which one live interval does not describe. `pending` describes the approximation before the
+    exact solution, and `notes` are other sentences about the course. `drives.follow` sets the index `now`
+    of the present state and the key `drive`.
     """
 
     scene: mdr.Scene
@@ -67,7 +66,7 @@ class Course:
     now: int = 0
     drive: str = ""
 
-    #: What the law of the springs has besides elasticity, dashpots and yield.
+    #: Further terms of the law of the springs, after elasticity, dashpots and yield.
     more_law: ClassVar[str] = ""
 
     def __len__(self) -> int:
@@ -88,7 +87,7 @@ class Course:
 
     @property
     def times(self) -> Any:
-        """When each state is played, from 0 to 1."""
+        """Time of each state in the player, from 0 to 1."""
         time = np.arange(len(self)) if self.motion is None else self.motion.time
         return (time - time[0]) / np.ptp(time)
 
@@ -104,12 +103,12 @@ class Course:
 
     @cached_property
     def doubtful(self) -> dict[str, str]:
-        """Names of the readouts that are no results, each with what to do."""
+        """Names of the readouts that are no results, each with its advice."""
         return {name: each.sentence for each in self.cautions for name in each.readouts}
 
     @property
     def asides(self) -> dict[str, str]:
-        """Words in the cells of readouts, by their names."""
+        """Remarks in the cells of readouts, by the names of the readouts."""
         return {}
 
     @property
@@ -119,7 +118,7 @@ class Course:
 
     @property
     def structure(self) -> mdr.Structure | None:
-        """What gives way behind the medium; None for a body at rest."""
+        """Structure behind the medium; None for a body at rest."""
         return getattr(self.scene.drive, "structure", None)
 
     @property
@@ -133,41 +132,41 @@ class Course:
 
     @property
     def in_place(self) -> dict[str, str]:
-        """Readouts above the plots that have the place of others."""
-        # The damaged area is known from c.
+        """Readouts above the plots that replace others, by the names of the others."""
+        # The damaged area follows from c.
         return {"damaged_area": "viscous_work"} if self.dashpots else {}
 
     @property
     def ledger(self) -> Any:
-        """What has the energies (J) of all states; plastic work of an impact is without earlier ones."""
+        """Object with the energies (J) of all states, without the plastic work of earlier impacts."""
         return self.states if self.motion is None else self.motion
 
     def relaxing(self, i: int, g: Any) -> Any:
-        """Remaining elastic compression (m) of released elements at heights g (m), in state i."""
-        # On a path in time nothing is released.
+        """Return the remaining elastic compression (m) of released elements at heights g (m) in state i."""
+        # A path in time releases no elements.
         if self.hit is None or not self.dashpots:
             return 0.0
         return released_compression(self.states, self.motion.time, i, g)
 
     @cached_property
     def onset(self) -> mdr.Indentation | None:
-        """State at which yield begins, or goes on below an earlier imprint; None if it is not reached."""
+        """State at which yield begins or continues below an earlier imprint, None if out of reach."""
         profile, medium = self.scene.profile, self.scene.medium
         depth = onset_depth(self.scene, self.initial_plastic_depth)
         return mdr.indent(profile, medium, depth) if depth <= min(profile.known_depth, 1e300) else None
 
-    # Numbers that are read.
+    # Numbers of the readouts.
 
     @cached_property
     def largest_terms(self) -> dict[str, Any]:
-        """Of readouts that are sums, by name: the largest term of the sum, in every state."""
+        """Largest term of each readout that is a sum, in every state, by the names of the readouts."""
         states, ledger = self.states, self.ledger
         length = np.fmax(np.fmax(states.live_interval.upper, states.plastic_depth), np.abs(states.depth))
         a, modulus = np.asarray(states.contact_radius), 2 * self.scene.medium.E_star
         found = dict.fromkeys(("depth", "plastic_depth"), length)
         found |= dict.fromkeys(("force", "tangential_force"), modulus * a * length)
         found["mean_pressure"] = modulus * length / np.where(a > 0, np.pi * a, np.inf)
-        # `hasattr` would look for a name that is like a missing one, 0.3 ms a move.
+        # `hasattr` would search for a similar name, which takes 0.3 ms a move.
         known = set(_ENERGIES).intersection(dir(ledger))
         energies = {name: getattr(ledger, name) for name in known}
         found |= dict.fromkeys(energies, sum(map(np.abs, energies.values())))
@@ -186,9 +185,9 @@ class Course:
 
     @property
     def yield_speed(self) -> Any:
-        """Speed (m/s) above which the body makes a virgin medium yield, without viscosity or adhesion.
+        """Speed (m/s) above which a virgin medium without viscosity or adhesion yields.
 
-        None on a structure, which takes a part of the energy.
+        None on a structure, which takes part of the energy.
         """
         more = self.dashpots or self.adhesive or self.initial_plastic_depth or self.structure
         if self.hit is None or self.onset is None or more:
@@ -197,12 +196,12 @@ class Course:
 
 
 def nearest(progress: Any, at: float) -> int:
-    """Index of the state nearest to a progress."""
+    """Return the index of the state nearest to a progress."""
     return int(np.argmin(np.abs(progress - at)))
 
 
 def path_progress(along: Any, depth: Any) -> Any:
-    """Progress at places along a path of depths: 1 at the largest one, 2 at the end."""
+    """Return the progress at places along a path of depths: 1 at the largest depth, 2 at the end."""
     peak = int(np.argmax(depth))
     progress = np.interp(along, along[[0, peak, -1]], [0.0, 1.0, 2.0])
     progress[peak] = 1.0

@@ -1,4 +1,4 @@
-"""The seam: what an extra brings to the page. The page knows no extra by name."""
+"""The interface between the page and its extras. The page knows no extra by name."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .widgets import Part
 
 
 class Side(Protocol):
-    """A part of the side: what is served, and what it does when another view is shown."""
+    """Part of the side: its served `view`, and `show` for another state of the page."""
 
     view: Any
 
@@ -22,67 +22,67 @@ class Side(Protocol):
 
 
 class Service:
-    """What an extra has and does in a session of a page, beside its part of the side."""
+    """Data and work of an extra in a session of a page, in addition to its part of the side."""
 
     def __init__(self, page: Any):
         self.page = page
 
     def compute(self, state: State, course: Course) -> dict[str, Any]:
-        """What it adds to `view.computed`, before anything is changed."""
+        """Return additions to `view.computed`, before the page changes."""
         return {}
 
     def show(self, view: View) -> None:
         """Show another view."""
 
     def rest(self, view: View) -> None:
-        """Do what waits until the input rests."""
+        """Do slow work once the input rests."""
 
 
 @dataclass(frozen=True, eq=False)
 class Extra:
-    """Something that plugs into the page: `EXTRA` of a file in `extras/`, and what it brings.
+    """Extra of the page: `EXTRA` of a file in `extras/`.
 
-    Its numbers, choices, drives and readouts are in a JSON file of its name beside it, with the fields of
-    `Quantity`, `Choice`, `Option` and `Readout` in `app/common/quantities.py`; names of numbers and choices
-    begin with its own and a point. Presets, which it names as `assets/presets.json` does, may be there,
-    too. A drive of the name of one of the page takes its place, and further lists of its options are
-    added. A number is seen where a drive names it (`Option.uses`) or above a plot (`Plot.controls`), a
-    choice in the form of a drive (`Option.form`) or above a plot. These are values of the state, in links
-    and undone.
+    A JSON file of the same name has its numbers, choices, drives and readouts, with the fields of
+    `Quantity`, `Choice`, `Option` and `Readout` in `app/common/quantities.py`. Names of numbers and choices
+    begin with the name of the extra and a point. The file may also have presets, in the form of
+    `assets/presets.json`. A drive replaces a drive of the page with the same name, and adds lists to its
+    options. A number appears if a drive names it (`Option.uses`), or above a plot (`Plot.controls`). A
+    choice appears in the form of a drive (`Option.form`) or above a plot. All are values of the state: in
+    links, and undone.
 
-    What it alone needs is in a class of its own: of `Service`, what it keeps or does in a session; of
-    `Drive`, numbers that keep their meaning when a choice of it changes (`converted`); of `Plot`, axes,
-    notes and options that apply to a state (`axes_of`, `note_of`, `options_of`).
+    Subclasses have the rest. A `Service` has data and work in a session. A `Drive` converts numbers when
+    its choice changes (`converted`). A `Plot` has axes, notes and options that depend on the state
+    (`axes_of`, `note_of`, `options_of`).
     """
 
     name: str
-    #: Its place among the extras.
+    #: Its position among the extras.
     order: int = 0
-    #: Values of the view beside those of its JSON file, which undo leaves alone, with their defaults: a
-    #: text, None for one that is in no link, or `Entries` for a list.
+    #: Further values of the view with their defaults; undo does not change them. A default is a text, None
+    #: for a value outside links, or `Entries` for a list.
     values: dict[str, str | Entries | None] = field(default_factory=dict)
     drives: dict[str, Drive] = field(default_factory=dict)
     plots: tuple[Plot, ...] = ()
     overlays: tuple[Overlay, ...] = ()
-    #: Label of the button in the header that opens its part of the page; where the part is: "above" the
-    #: form or "over" the plots, or without a button at the "top" of the form while it is offered; whether
-    #: it is offered; and the part, made of a page when it is first opened.
+    #: Label of the header button that opens its part of the page. The part is "above" the form, "over" the
+    #: plots, or without a button at the "top" of the form while it is offered. `side` makes the part of a
+    #: page when it first opens.
     tab: str = ""
     place: str = "above"
     offered: Callable[[View], bool] = lambda view: True
     side: Callable[[Any], Side] | None = None
-    #: A part, as a button, in the header of a page for a view, or None; and parts above a plot.
+    #: A part in the header of a page for a view, for example a button, or None; and parts above a plot.
     header: Callable[[Any, View], Part | None] = lambda page, view: None
     on_plots: Callable[[Any, Plot, View], list[Part]] = lambda page, plot, view: []
-    #: What it and others need once in a session of a page, which it is made of.
+    #: Makes the service of a page, once in a session; other extras may use it.
     service: Callable[[Any], Service] | None = None
-    #: Files to download, each with its label, its name, and its text of a view.
+    #: Files to download: label, name, and function that returns the text for a view.
     files: tuple[tuple[str, str, Callable[[View], str]], ...] = ()
-    #: Notes, texts or HTML, by their places: in the form the "first" line, "drive", the "form" of it,
-    #: "shape", "medium", the "more" of it and "sources"; "below" the player a function that returns it,
+    #: Notes (text or HTML) by their places. Places in the form are the "first" line, "drive" and its
+    #: "form", "shape", "medium" and its "more", and "sources". The note "below" the player is a function,
     #: called at the next rest.
     notes: Callable[[View], dict[str, str | Callable[[], str]]] = lambda view: {}
-    #: Titles and texts, or HTML, that a saved scene has of it.
+    #: Titles and texts (or HTML) of the extra in a saved scene.
     scene_file_texts: Callable[[View], list[tuple[str, str]]] = lambda view: []
 
 

@@ -1,4 +1,4 @@
-"""Figures of the page: frames and rows of data that are filled again and again."""
+"""Figures of the plots: frames with rows of data, filled for each view."""
 
 from itertools import chain
 from math import floor, log10
@@ -17,12 +17,12 @@ from ..common.quantities import unicode_subscripts
 from ..common.ui import call, html_subscripts
 from .plot import OF_AXIS, Plot, View, overlays, rows_of
 
-#: Rows that are drawn together, from the back to the front, and the glyph of each kind.
+#: Groups of rows with a common glyph, from the back to the front, and the glyph of each kind.
 _GROUPS = ("areas", "lines", "lines right", "marks", "marks right", "labels")
 _GLYPHS = {"areas": bk.Patches, "lines": bk.MultiLine, "marks": bk.Scatter, "labels": bk.Text}
-#: Columns of a source that tell where its rows are; all others are of their look.
+#: Columns of a source with the places of its rows; all other columns are their look.
 PLACES = ("xs", "ys", "x", "y", "text")
-#: What the pointer is told: the point of the curve that is nearest.
+#: Tooltip: the nearest point of the curve.
 _TIP = "<b>@row</b><br>@symbol = $snap_y{{%.4g}} {y.unit}<br>{symbol} = $snap_x{{%.4g}} {x.unit}"
 
 _IS_CURVE = 'export default (args, tool, { value }) => value !== ""'
@@ -37,22 +37,22 @@ class Layer:
         glyph = _GLYPHS[self.kind]
         names = [*(name for name in PLACES if name in glyph.properties()), *self.rows[0].look]
         self.source = bk.ColumnDataSource({name: [] for name in names}, name=f"{plot.name} {group}")
-        # Columns come from the server, or from the frames it has sent: never the other way.
+        # Only the server, or its frames, set the columns; the browser sends none back.
         self.source.syncable = False
         drawn = glyph(**{name: field(name) for name in names})
         side = "right" if self.axis == 2 else "default"
         renderer = figure.add_glyph(self.source, drawn, name=group, y_range_name=side)
         self.hover = None
         if any(row.symbol for row in self.rows):
-            told = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
-            # Lines without a symbol, as edges and outlines, are no curves with values.
+            look = {"formatters": {"$snap_x": "printf", "$snap_y": "printf"}, "attachment": "right"}
+            # Lines without a symbol, such as edges and outlines, are no curves with values.
             curves = {"@symbol": bk.CustomJS(code=_IS_CURVE)}
-            told |= {"line_policy": "nearest", "visible": False, "filters": curves}
-            self.hover = bk.HoverTool(renderers=[renderer], **told)
+            look |= {"line_policy": "nearest", "visible": False, "filters": curves}
+            self.hover = bk.HoverTool(renderers=[renderer], **look)
             figure.add_tools(self.hover)
 
     def columns(self, places: dict, axes: list[Axis], dark: bool) -> dict[str, list]:
-        """Columns of the source: look, and places in the units of the axes."""
+        """Return the columns of the source: look, and places in the units of the axes."""
         parts = [places[row.name] for row in self.rows]
         xs = _short([x for x, *_ in parts], axes[0])
         ys = _short([y for _, y, *_ in parts], axes[self.axis])
@@ -71,7 +71,7 @@ class Layer:
 
 
 def _short(parts: list[Any], axis: Axis) -> list[list[float]]:
-    """Values of each row in the unit of an axis, to a fraction of a pixel."""
+    """Convert the values of each row to the unit of an axis, rounded to a fraction of a pixel."""
     size = axis.start if axis.log else axis.end - axis.start
     decimals = 4 - floor(log10(size / axis.factor))
     scaled = (np.atleast_1d(np.asarray(values, float)) / axis.factor for values in parts)
@@ -79,14 +79,14 @@ def _short(parts: list[Any], axis: Axis) -> list[list[float]]:
 
 
 class Picture:
-    """One plot as a figure."""
+    """Plot as a figure."""
 
-    #: Shares of the axes x and y that are seen below zero, so that marks at zero are whole.
+    #: Visible shares of the axes x and y below zero, which show marks at zero completely.
     margins = (0.02, 0.05)
 
     def __init__(self, plot: Plot):
         self.plot, self.axes = plot, None
-        # Preset and drive that are drawn: the whole plot of another one is shown.
+        # Drawn preset and drive; a change of either resets the zoom.
         self._scene: tuple[str, str] | None = None
         f = self.figure = figure(name=plot.name, tools="", x_range=(0, 1), y_range=(0, 1))
         f.update(title=None, toolbar_location=None, sizing_mode="stretch_both", min_height=100)
@@ -97,24 +97,24 @@ class Picture:
             f.extra_y_ranges = {"right": bk.Range1d()}
             f.add_layout(bk.LinearAxis(y_range_name="right"), "right")
         for axis in f.axis:
-            # A plot is low, and what is read in it is the curve.
+            # A plot is low, and its curve matters more than its ticks.
             axis.ticker.desired_num_ticks = 4
         set_look(f)
         self.layers = [Layer(plot, group, f) for group in _GROUPS if group in groups]
 
     def axes_of(self, view: View) -> list[Axis]:
-        """Axes on which the plot is drawn."""
+        """Return the axes of the drawn plot."""
         return self.plot.axes_of(view)
 
     def columns(self, view: View, i: int) -> dict[Any, dict[str, list]]:
-        """What each source has in state i."""
+        """Return the columns of each source in state i."""
         axes, places = self.axes_of(view), view.places(self.plot, i)
         if not axes:
             return {}
         return {layer.source: layer.columns(places, axes, view.state.dark) for layer in self.layers}
 
     def show(self, columns: dict, view: View) -> None:
-        """Draw columns that were made for a view."""
+        """Draw the columns of a view."""
         axes, scene = self.axes_of(view), (view.state.preset, view.state.drive)
         if scene != self._scene:
             self._whole()
@@ -134,7 +134,7 @@ class Picture:
         for k, (bounds, side, axis, before) in enumerate(known):
             whole = ends = self._ends(axis, k)
             if zoomed:
-                # Less than all of it stays so, in another unit, too, until the whole plot is asked for.
+                # A zoom stays, also in another unit, until the user resets it.
                 ends = [each * before.factor / axis.factor for each in (bounds.start, bounds.end)]
             bounds.update(start=ends[0], end=ends[1], reset_start=whole[0], reset_end=whole[1])
             side.axis_label = axis.label
@@ -144,20 +144,20 @@ class Picture:
                 layer.hover.tooltips = _TIP.format(symbol=symbol, x=axes[0], y=axes[layer.axis])
 
     def _ends(self, axis: Axis, k: int) -> tuple[float, float]:
-        """Start and end of the axis of number k, in its unit."""
+        """Return start and end of axis number k, in its unit."""
         start, end = axis.ends
         at_zero = start == 0 and not axis.log and any(layer.kind == "marks" for layer in self.layers)
         return (-self.margins[min(k, 1)] * end, end) if at_zero else (start, end)
 
     @property
     def zoomed(self) -> bool:
-        """Whether less than the whole plot is shown."""
+        """Whether the plot is zoomed."""
         known = (each for each in self.ranges if each.reset_start is not None)
         return any((each.start, each.end) != (each.reset_start, each.reset_end) for each in known)
 
     @property
     def ranges(self) -> tuple[Any, ...]:
-        """Ranges of the axes x and y, and of one on the right."""
+        """Ranges of the axes x and y, and of an axis on the right."""
         return self.figure.x_range, self.figure.y_range, *self.figure.extra_y_ranges.values()
 
     def _whole(self) -> None:
@@ -167,7 +167,7 @@ class Picture:
 
 
 class Map(Picture):
-    """A plot with an image, and a bar with its colours."""
+    """Plot with an image and a colour bar."""
 
     margins = (0.0, 0.0)
 
@@ -181,7 +181,7 @@ class Map(Picture):
         glyph.name, glyph.level, self.bar = "image", "image", glyph.construct_color_bar(padding=2, width=12)
         self.bar.update(background_fill_color=None, bar_line_color=None)
         self.figure.add_layout(self.bar, "right")
-        # Behind lines of full strength the map is not seen.
+        # Grid lines of full strength would hide the map.
         self.figure.grid.grid_line_alpha = 0.25
 
     def columns(self, view: View, i: int) -> dict[Any, dict[str, list]]:
@@ -195,7 +195,7 @@ class Map(Picture):
 
     def show(self, columns: dict, view: View) -> None:
         super().show(columns, view)
-        # The bar takes no colours from the sheet.
+        # The style sheet does not reach the colours of the bar.
         colour = ROLES["ink"][view.state.dark]
         self.bar.update(title_text_color=colour, major_label_text_color=colour)
 
@@ -207,7 +207,7 @@ class Map(Picture):
 
 
 class Logarithmic(Picture):
-    """A plot whose axes may be logarithmic."""
+    """Plot with optional logarithmic axes."""
 
     def set_axes(self, axes: list[Axis]) -> None:
         super().set_axes(axes)
@@ -225,7 +225,7 @@ class Logarithmic(Picture):
 
 
 def ticks(low: float, high: float) -> tuple[Any, Any]:
-    """Ticker and formatter of a logarithmic axis; over two decades or less Bokeh's has too many."""
+    """Return ticker and formatter of a logarithmic axis; Bokeh's ticks are too many up to two decades."""
     formatter = bk.CustomJSTickFormatter(code=call("power", "tick"))
     if high > 101 * low:
         return bk.LogTicker(num_minor_ticks=0), formatter
@@ -235,14 +235,14 @@ def ticks(low: float, high: float) -> tuple[Any, Any]:
 
 
 def picture_of(plot: Plot) -> Picture:
-    """The picture of a plot, as it is drawn with its overlays."""
+    """Return the picture of a plot with its overlays."""
     return next((each.picture for each in (*overlays(plot), plot) if each.picture), Picture)(plot)
 
 
 def drawn(view: View, plot: Plot) -> dict[str, str]:
-    """Rows of a plot to be seen in the present state or that of the largest depth, as they are called.
+    """Return the displayed names of visible rows of a plot, in the present state or at the largest depth.
 
-    Among them are labels that stand for rows, also while there is no room for them.
+    They include labels of rows, even if a label has no room.
     """
     states = [view.places(plot, i) for i in (view.course.now, view.course.peak)]
 
@@ -255,14 +255,14 @@ def drawn(view: View, plot: Plot) -> dict[str, str]:
 
 
 def in_legend(plot: Plot, shown: dict[str, str]) -> list[Row]:
-    """Of the visible rows of a plot those that its legend names: no label in the plot does."""
+    """Return the visible rows of a plot for its legend: rows without a label in the plot."""
     rows = rows_of(plot)
     labelled = {name for row in rows if row.name in shown for name in row.names}
     return [row for row in rows if row.legend and row.name in shown and row.name not in labelled]
 
 
 def legend(plot: Plot, shown: dict[str, str]) -> Markup:
-    """Legend of the visible rows of a plot that no label names, as HTML."""
+    """Return the legend of the visible rows without a label, as HTML."""
     rows = []
     for row in in_legend(plot, shown):
         hatch = "hatch" * (row.look.get("hatch_pattern", " ") != " ")

@@ -1,4 +1,4 @@
-"""The layout of the page: header, side with one part at a time, player, and the plots in cards."""
+"""Layout of the page: header, side with one open part, player, and plots in cards."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -41,36 +41,36 @@ def _toggle_dark(state: State) -> State:
 
 
 class Card:
-    """A plot in its card: title, buttons of extras, legend, choices, and a note."""
+    """Card of a plot: title, buttons of extras, legend, choices, and a note."""
 
     def __init__(self, plot: Plot, page: Any):
         self.plot, self.picture, self._page, self._legend = plot, picture_of(plot), page, {}
         self.head, figure = Parts("heading"), pn.pane.Bokeh(self.picture.figure, **FULL)
-        # Not seen before it is drawn: that may fail.
+        # Invisible before the first drawing, which may fail.
         self.view = pn.Column(self.head, figure, css_classes=["card", plot.name], visible=False, **FULL)
 
     def show_parts(self, view: View) -> None:
         """Show the texts and buttons around the plot."""
         plot, page = self.plot, self._page
-        # What is cut off by axes that stay leaves no gap: the plot would move while it is dragged.
+        # During a drag, names of rows off the axes stay in the legend: a gap would move the plot.
         kept = self._legend if view.kept else {}
         self._legend = kept | drawn(view, plot)
-        # Its formula stands with the numbers.
+        # The formula is with the numbers.
         title = Markup("<h3>{}</h3><span>{}</span>").format(plot.title, html_subscripts(plot.aside(view)))
         buttons = [part for each in EXTRAS.values() for part in each.on_plots(page, plot, view)]
         key = text("key", legend(plot, self._legend), "key")
-        # Choices have a row of their own, in which their options are not cut off.
+        # Choices have a separate row with room for their options.
         controls = [text("controls", "", "break"), *map(self._control, plot.controls)] * bool(plot.controls)
         close = [button("Close", partial(page.apply, partial(with_tile, name="")))] * bool(plot.tab)
         found = escape(plot.note_of(view))
-        # In two lines, which show the rest when they are pointed at, or large.
+        # Two lines; the tooltip, or the large plot, shows the rest.
         shown = Markup('<span title="{}">{}</span>').format(found.striptags(), found)
         note = text("note", shown, "note found")
         first = text("formula", title, "formula")
         self.head.show([first, *buttons, *close, *controls, key, note])
 
     def _control(self, name: str) -> Part:
-        """A choice above the plot, as a list, which needs less room than its options; or a number."""
+        """Return a choice above the plot, as a list, because this needs less room; or a number."""
         if name in QUANTITIES:
             return self._page.number(name)
         choice = self._page.choice(name)
@@ -78,22 +78,22 @@ class Card:
 
 
 class Layout:
-    """Header, side and plots; parts of extras and cards are made when they are first seen, and stay."""
+    """Header, side and plots; parts of extras and cards are made at their first use, and kept."""
 
     def __init__(self, page: Any):
         self._page, self.form, self.cards = page, Form(page), {}
         self.grid = pn.Column(css_classes=["plots"], **FULL)
         for name in NAMED:
             self._make(PLOTS[name])
-        #: Parts that have been made, and the name of the one that is open in each place.
+        #: Existing parts, and the name of the open part in each place.
         self.parts: dict[str, Side] = {}
         self.opened: dict[str, str] = {}
-        # On a phone what is less often used is below the plots.
+        # On a phone, less frequent actions are below the plots.
         self.header = Parts("header", stylesheets=LAYOUT)
         self.more = Parts("more", stylesheets=LAYOUT)
         self.line = Parts("top", stylesheets=LAYOUT)
         self.player = Parts("player", stylesheets=LAYOUT)
-        # What makes numbers above it no results, each with what to do, as of the last rest.
+        # Cautions with their buttons, from the last rest.
         self.cautions: list[Part] = []
         self.below = html("", "lights")
         look = FULL | {"css_classes": ["side"], "sizing_mode": "stretch_height", "width": 312}
@@ -105,7 +105,7 @@ class Layout:
         self.view = pn.Column(head, columns, css_classes=["page"], **FULL)
 
     def toggle(self, name: str) -> None:
-        """Open a part in the place of another one, or close it."""
+        """Open a part instead of another part, or close it."""
         place = EXTRAS[name].place
         if self.opened.pop(place, None) != name:
             self._open(name)
@@ -120,7 +120,7 @@ class Layout:
         self.opened[place] = name
 
     def show(self, view: View) -> None:
-        """Show a view around the plots, and in all parts that are open."""
+        """Show a view around the plots and in all open parts."""
         for card in self.seen():
             card.show_parts(view)
         offered = {name for name, each in EXTRAS.items() if each.side and each.offered(view)}
@@ -129,13 +129,13 @@ class Layout:
             if EXTRAS[name].place == "top":
                 self._open(name)
         page = self._page
-        # There is nothing to undo on a first visit, and no button for it.
+        # A first visit has nothing to undo, and no button for it.
         undo = [button("Undo", page.undo, key="z")] * (page.history.at > 0)
         redo = [button("Redo", page.redo)] * (page.history.at + 1 < len(page.history.states))
         opening = [self._button(name) for name, each in EXTRAS.items() if name in offered and each.tab]
         self.form.show(view)
         preset = page.choice("preset")
-        # What it is, and its sources, are told in the form.
+        # The form explains the preset and its sources.
         preset.look["about"] = ""
         self.header.show([_TITLE, preset, *undo, *redo, *opening])
         dark = button("Dark", partial(page.apply, _toggle_dark), pressed=view.state.dark)
@@ -152,18 +152,18 @@ class Layout:
                 part.show(view)
 
     def _button(self, name: str) -> Part:
-        """The button that opens a part."""
+        """Return the button that opens a part."""
         pressed = name in self.opened.values()
         return button(EXTRAS[name].tab, partial(self.toggle, name), pressed, key="escape", opens=name)
 
     def rest(self, view: View) -> None:
-        """Show texts that wait while a slider moves, because a changed one causes a new layout."""
+        """Show texts that wait while a slider moves, because changed texts need a new layout."""
         found = (extra.notes(view).get("below") for extra in EXTRAS.values())
         show(self.below, object=Markup("").join(made() for made in found if made))
         self.cautions = [part for each in view.course.cautions for part in self._caution(each)]
 
     def _caution(self, caution: Caution) -> Iterator[Part]:
-        """What to do, and a button that does it."""
+        """Yield the advice of a caution, and a button that follows it."""
         yield text(caution.limits[0], html_subscripts(caution.sentence), "severe")
         if caution.option:
             label = f"Take a {CHOICES[caution.choice].options[caution.option].label}"
@@ -176,7 +176,7 @@ class Layout:
         self.grid.append(self.cards[plot.name].view)
 
     def columns(self, view: View) -> dict[str, dict]:
-        """Columns of all plots that are seen, by their names; nothing on the page is changed."""
+        """Return the columns of all visible plots by name, without changing the page."""
         found = {}
         for plot in visible(view):
             if plot.name not in self.cards:
@@ -185,7 +185,7 @@ class Layout:
         return found
 
     def draw(self, columns: dict[str, dict], view: View) -> None:
-        """Draw columns made for a view, on the plots that they are of."""
+        """Draw the columns of a view on their plots."""
         for name, card in self.cards.items():
             show(card.view, visible=name in columns)
             if name in columns:
@@ -193,7 +193,7 @@ class Layout:
         show(self.grid, css_classes=["plots", f"with-{len(columns) - len(NAMED)}"])
 
     def others(self, view: View) -> Part:
-        """The list of plots of which one is shown beside the three; the next one takes its place."""
+        """Return the list of optional plots; the chosen plot is next to the three permanent plots."""
         known = {plot.name: plot.tab for plot in PLOTS.values() if plot.tab and plot.applies(view)}
         shown = next((plot.name for plot in visible(view) if plot.tab), "")
         look = {"label": "Fourth plot", "about": "", "radio": False, "classes": "of-plots", "value": shown}
@@ -206,17 +206,17 @@ class Layout:
         return Part("choice", "fourth plot", look, choose)
 
     def seen(self) -> list[Card]:
-        """The cards that are seen."""
+        """Return the visible cards."""
         return [card for card in self.cards.values() if card.view.visible]
 
 
 def frames(view: View, pictures: list[Picture]) -> list[Any]:
-    """Sources that move, the places of their rows in each state as texts, readouts, and times."""
+    """Return the moving sources, the places of their rows in each state as texts, readouts, and times."""
     return last(frames_in_steps(view, pictures))
 
 
 def frames_in_steps(view: View, pictures: list[Picture]) -> Iterator[list[Any]]:
-    """`frames`, after an empty list for each state that has been computed: all of them take 0.2 s."""
+    """Yield an empty list for each computed state, then `frames`; all states take 0.2 s."""
     numbers, states = readouts.line(view.course), range(len(view.course))
     found: dict[Any, list[str]] = {}
     for i in states:
@@ -231,14 +231,14 @@ def frames_in_steps(view: View, pictures: list[Picture]) -> Iterator[list[Any]]:
 
 
 def look(course: Course) -> dict[str, Any]:
-    """What the browser is told of a course: the last state, the present one, and states to mark."""
+    """Return the data of the player: indices of the last, the present, and the marked states."""
     return {"last": len(course) - 1, "now": course.now, "marks": marked_states(course)}
 
 
 def marked_states(course: Course) -> dict[str, int]:
-    """States that are marked on the slider, by their names: the largest depth, and the loss of contact."""
+    """Return the marked states on the slider by name: the largest depth, and the loss of contact."""
     found = {"largest depth": course.peak}
-    # A path that turns again may lose contact several times.
+    # A path with several turns may lose contact several times.
     lost = np.flatnonzero(course.states.contact_radius[course.peak :] == 0)
     if lost.size and not course.turns:
         found["loss of contact"] = course.peak + int(lost[0])
@@ -246,8 +246,8 @@ def marked_states(course: Course) -> dict[str, int]:
 
 
 def player(view: View, move: Callable[[Any], None]) -> Part:
-    """A button and a slider that move through the states of a view, in the browser.
+    """Return a button and a slider that play the states of a view in the browser.
 
-    `move` is called with None when one of them begins to, and with the index of the state in which it ends.
+    They call `move` with None when a movement begins, and with the index of the state in which it ends.
     """
     return Part("player", "player", look(view.course), move)

@@ -1,4 +1,4 @@
-"""States as links: defaults are left out, and links are read as hostile input."""
+"""States as links: links omit defaults, and the reader does not trust its input."""
 
 import re
 from contextlib import suppress
@@ -26,7 +26,7 @@ from .state import (
     used,
 )
 
-#: Most characters of a link and of a text in it.
+#: Largest numbers of characters of a link, and of a text in it.
 MAX_LENGTH, _MAX_TEXT = 8000, 300
 #: Names that mail programs, search engines and other sites append to links.
 APPENDED = re.compile(
@@ -37,7 +37,7 @@ APPENDED = re.compile(
 
 
 def write(state: State) -> str:
-    """State as a query, without the theme, which is of a browser. Raises ValueError if it is too long."""
+    """Encode a state as a query, without the browser's theme. Raises ValueError if it is too long."""
     start, sizes = preset_state(state.preset).replace(preset=OPENING), _sizes(state)
     names = dict.fromkeys(["preset", *CHOICES, *used(state), *OF_EXTRAS, "tiles", "at"])
     given = {
@@ -54,7 +54,7 @@ def write(state: State) -> str:
 
 
 def _sizes(state: State) -> set[str]:
-    """Numbers of a drive other than the preset's that its links need: they say how large the scene is."""
+    """Return necessary numbers of a drive other than the preset's: they determine the size of the scene."""
     if state.drive == preset_state(state.preset).drive:
         return set()
     return {"mass", "max_depth", "max_force"} & {*numbers_of(state, "drive")}
@@ -67,7 +67,7 @@ def _text(value: Any) -> str:
 
 
 def pairs(query: str) -> list[tuple[str, str]]:
-    """Names and values of a link, without what others appended to it."""
+    """Return names and values of a link, without names that other programs append."""
     given = parse_qsl(query, keep_blank_values=True)
     return [(name, text) for name, text in given if not APPENDED.fullmatch(name)]
 
@@ -78,7 +78,7 @@ def _known(name: str) -> bool:
 
 
 def unknown(query: str) -> list[str]:
-    """Names in a link that this version does not have, and entries of its lists that are none."""
+    """Return names in a link that this version does not know, and invalid entries of its lists."""
     found = []
     for name, text in pairs(query):
         if not _known(name):
@@ -89,12 +89,12 @@ def unknown(query: str) -> list[str]:
 
 
 def asks_for_theme(query: str) -> bool:
-    """Whether a link says that the page is dark or light."""
+    """Whether a link sets the theme."""
     return "dark" in dict(pairs(query))
 
 
 def read(query: str) -> State:
-    """State of a link, without what is not known in it. Raises ValueError if a value is invalid."""
+    """Decode the state of a link, without its unknown names. Raises ValueError if a value is invalid."""
     known = [(name, text) for name, text in pairs(query) if _known(name)]
     if sum(len(text) for _, text in known) > MAX_LENGTH:
         raise ValueError("this link is too long")
@@ -107,7 +107,7 @@ def read(query: str) -> State:
     if any(value in (None, ()) for value in needed):
         raise ValueError("this link has a shape without its numbers")
     if _sizes(state) - values.keys():
-        # As the button of this drive sets them: the depth stays.
+        # Set missing numbers like the button of this drive, which keeps the depth.
         before = state.replace(drive=preset_state(state.preset).drive)
         for name, number in equivalent(before, state.drive).items():
             if name not in values:
@@ -116,7 +116,7 @@ def read(query: str) -> State:
 
 
 def _value(name: str, text: str) -> Any:
-    """Value of a pair of a link, by what the state has by default. Raises ValueError."""
+    """Decode a value of a link by the type of its default. Raises ValueError."""
     if name in CHOICES and text not in CHOICES[name].options:
         raise ValueError(f"{name} = “{text:.40}” in this link is not known")
     if name == "samples":
@@ -130,7 +130,7 @@ def _value(name: str, text: str) -> Any:
         return _entries(name, text)
     value = _number(name, text)
     if name == "at" and not 0 <= value <= LAST_PROGRESS:
-        raise ValueError(f"at = “{text:.40}” in this link is not in 0 to {LAST_PROGRESS}")
+        raise ValueError(f"at = “{text:.40}” in this link must be between 0 and {LAST_PROGRESS}")
     return value if name == "at" else checked(name, value)
 
 
@@ -156,17 +156,17 @@ def _number(name: str, text: str) -> float:
     raise ValueError(f"{name} = “{text:.40}” in this link is not a finite number")
 
 
-#: Letters of the name of a file, without what is in it: of 255 bytes, of which some letters take two.
+#: Largest number of letters of a file name before its last part; some letters take two of 255 bytes.
 _LONGEST = 100
 
 
 def with_symbol(name: str, value: float) -> str:
-    """A number of the page with its symbol, in full."""
+    """Format a number of the page with its symbol and all digits."""
     return f"{QUANTITIES[name].symbol} = {in_full(value, QUANTITIES[name].kind)}"
 
 
 def file_name(state: State, what: str) -> str:
-    """Name of a file of a scene: its preset, what differs from that, and what is in the file.
+    """Return the file name of a scene: its preset, differences from the preset, and the content.
 
     Examples
     --------
@@ -175,14 +175,14 @@ def file_name(state: State, what: str) -> str:
     'berkovich-gold_d_max=5nm_curves.csv'
     """
     known, preset = altered(state), PRESETS[state.preset].values
-    told = [state.preset, *(state[name] for name in known if name in CHOICES)]
+    parts = [state.preset, *(state[name] for name in known if name in CHOICES)]
     changed = (name for name in used(state) if name in known or name not in preset)
-    told += [with_symbol(name, state[name]).replace("/", "-") for name in changed]
-    return re.sub(r"[^\w.=+-]+", "", "_".join(told))[:_LONGEST] + f"_{what}"
+    parts += [with_symbol(name, state[name]).replace("/", "-") for name in changed]
+    return re.sub(r"[^\w.=+-]+", "", "_".join(parts))[:_LONGEST] + f"_{what}"
 
 
 def summary(state: State) -> str:
-    """Shape, medium and drive of a scene in one line."""
+    """Describe shape, medium and drive of a scene in one line."""
     parts = regions(state)
     names = [*parts["shape"], *parts["medium"], *numbers_of(state, "drive", "damping", "adhesion")]
     numbers = [with_symbol(name, state[name]) for name in names if state[name]]

@@ -1,11 +1,11 @@
 """The page of one session, a function of one state.
 
-Four things are not Panel's usual way:
+Four things differ from Panel's usual way:
 
-- `Parts` draws form, header and heads of cards: as 45 widgets the page opens 1.3 to 1.5 times as slowly.
+- `Parts` draws form, header and heads of cards: 45 widgets would open the page 1.3 to 1.5 times as slowly.
 - Sources get whole columns in one hold, and send none back: a drag draws 25 pictures a second.
-- The browser plays all states from frames that are sent once: 38 pictures a second.
-- The state is frozen, a change is a function of it: undo keeps 100 states, a refused one leaves no trace.
+- The browser plays all states from frames that arrive once: 38 pictures a second.
+- The state is frozen, a change is a function of it: undo keeps 100 states, a failed change leaves no trace.
 """
 
 import logging
@@ -39,12 +39,12 @@ Change = Callable[[State], State]
 Tell = Callable[[str], None]
 #: Milliseconds of rest before slow updates.
 SETTLED = 300
-_FAULT = "This cannot be shown, because of a fault of the explorer. Nothing was changed."
+_FAULT = "A fault of the explorer prevents this change. Nothing was changed."
 _UNDO_STEPS = 100
 
 
 class Address(Location):
-    """The address of a page, without arguments: Panel fails to read one of 5,000 digits, or "²"."""
+    """Address of a page without arguments: Panel fails to read an argument of 5,000 digits, or "²"."""
 
     @property
     def query_params(self):
@@ -53,14 +53,14 @@ class Address(Location):
 
 @dataclass(frozen=True)
 class History:
-    """The states that a person has set, the index of the present one, and the mark of the last change."""
+    """States that the user has set, the index of the present state, and the mark of the last change."""
 
     states: tuple[State, ...]
     at: int = 0
     mark: str = ""
 
     def after(self, state: State, mark: str) -> "History":
-        """The history with a state that has been changed; changes with the same mark are one step."""
+        """Return the history with a changed state; changes with the same mark are one step."""
         if state.scene_values == self.states[self.at].scene_values:
             return self
         first = not mark or mark != self.mark
@@ -69,7 +69,7 @@ class History:
 
 
 class Page:
-    """The page of one session; where it runs is asked of its document, if no host is given."""
+    """Page of one session; by default its document determines the host."""
 
     def __init__(self, query: str = "", dark: bool = False, host: Host | None = None):
         self.document = pn.state.curdoc or Document()
@@ -77,15 +77,15 @@ class Page:
         self.state = preset_state(dark=dark)
         self.history = History((self.state,))
         self.view: View | None = None
-        # What prevents the updates that wait until the input rests, None if none wait.
+        # Cancels the updates that wait until the input rests; None if no updates wait.
         self._waiting: Callable[[], None] | None = None
-        # Whether the player moves, which needs frames of each scene that is shown.
+        # Whether the player moves; it needs the frames of each scene.
         self._moving = False
-        # The frames that are being made, None when there are none or all are sent.
+        # Unfinished frames; None if there are none.
         self._making: Iterator[list[Any]] | None = None
-        # Whether the link asks for dark (True) or light, None if it does not.
+        # Theme of the link: dark (True) or light; None if the link sets no theme.
         self._asked_dark: bool | None = None
-        # Whether the address holds a link that was not opened.
+        # Whether the address has a link that the page could not open.
         self._refused = False
         self._fields: dict[str, Field] = {}
         self.messages = Messages(name="messages")
@@ -99,11 +99,11 @@ class Page:
         self.history = History((self.state,))
 
     def __panel__(self) -> Any:
-        """What Panel shows of it, so that `pn.panel(page)` and a layout take a page as it is."""
+        """Return the root, so that `pn.panel(page)` and layouts accept a page."""
         return self.root
 
     def _open(self, query: str) -> None:
-        """Show the state of a link; if it is refused, say so and show the opening one."""
+        """Show the state of a link; for an invalid link show a notice and the opening scene."""
         try:
             asked = link.read(query)
             if link.asks_for_theme(query):
@@ -128,11 +128,11 @@ class Page:
             script = CustomJS(args={"messages": self.messages}, code=call(name, "messages"))
             self.document.js_on_event(DocumentReady, script)
         landmarks(self.document, LANDMARKS, "springs", "Skip to the plots")
-        # The address restores the page when its session is lost.
+        # The address restores the page after a lost session.
         self.document.js_on_event(ConnectionLost, CustomJS(code=call("again")))
 
     def _theme_found(self, attr, old, new):
-        """Take the theme that the browser has kept, or that of the system."""
+        """Take the theme of the browser or the system."""
         self.apply(lambda state: state.replace(dark=new))
 
     def _released(self, attr, old, new):
@@ -140,13 +140,13 @@ class Page:
             self.draw(self.state)
 
     def _kept_axes(self, state: State) -> dict[AxisSpec, Axis]:
-        """Axes of the three plots that stay while something is dragged, unless drive or preset changes."""
+        """Return the fixed axes of the three plots during a drag, unless drive or preset changes."""
         if not self._kept or any(state[name] != self.state[name] for name in ("preset", "drive")):
             return {}
         return {along: self.view.axis(along) for name in NAMED for along in PLOTS[name].axes}
 
     def query(self) -> tuple[str, str]:
-        """The page as a query, or why it has none."""
+        """Return the page as a query, or an empty query and the reason."""
         try:
             query, dark = link.write(as_shown(self.view.state)), self.view.state.dark
             theme = [f"dark={int(dark)}"] * (dark == self._asked_dark)
@@ -154,33 +154,33 @@ class Page:
         except ValueError as error:
             return "", f"No link: {error}."
 
-    # What is set on the page.
+    # Inputs of the page.
 
     def number(self, name: str, like: float = 0.0) -> Part:
-        """The field of a number; zero is shown in the unit that fits the value `like`."""
+        """Return the field of a number; zero has the unit that fits the value `like`."""
         if name not in self._fields:
             self._fields[name] = Field(name, self)
         return self._fields[name].part(self.state, like)
 
     def choice(self, name: str) -> Part:
-        """A choice."""
+        """Return the part of a choice."""
         return choice(name, self.state, partial(self.choose, name))
 
     def notes(self, view: View) -> list[dict[str, Any]]:
-        """Notes of all extras, by their places."""
+        """Return the notes of all extras, by their places."""
         return [extra.notes(view) for extra in EXTRAS.values()]
 
     def choose(self, name: str, option: str) -> None:
-        """Take another option of a choice."""
+        """Change the option of a choice."""
         self.apply(lambda state: changes.choose(state, name, option))
 
-    # Changes and refusals.
+    # Changes and their errors.
 
     def apply(self, change: Change, refused: Tell | None = None, mark: str = "", at: int = -1) -> None:
-        """Apply a change and show it; what fails leaves the page as it was.
+        """Apply a change and show it; a failed change leaves the page unchanged.
 
-        The message is a notice, or given to `refused`. Changes with the same mark, as of one drag, are one
-        step of undo. One that goes to a state of the history has its index, `at`.
+        The error is a notice, or the argument of `refused`. Changes with the same mark, for example of one
+        drag, are one step of undo. `at` is the index of a state to which undo goes.
         """
         before = after = self.state
         old = self.history
@@ -207,7 +207,7 @@ class Page:
         self._go(self.history.at + 1)
 
     def _go(self, at: int) -> None:
-        """Go to another state of the history; the view stays."""
+        """Go to another state of the history; keep the view."""
         if 0 <= at < len(self.history.states):
             view = {name: self.state[name] for name in VIEW}
             self.apply(lambda now: self.history.states[at].replace(**view), at=at)
@@ -219,7 +219,7 @@ class Page:
             self.host.once_shown(tell)
 
     def refusal(self, error: Exception, state: State | None = None) -> str:
-        """Message for an error; a fault is logged with its state."""
+        """Return the message for an error; log an internal error with its state."""
         if isinstance(error, ValueError):
             return error_text(error)
         _LOG.error("a change could not be shown, %s", state or self.state, exc_info=error)
@@ -229,9 +229,9 @@ class Page:
 
     @pn.io.hold()
     def draw(self, state: State, now: int | None = None) -> None:
-        """Show a state; everything is computed before anything is changed.
+        """Show a state; compute everything before anything changes.
 
-        `now`: the course is the same, and this the index of its present state.
+        With `now`, the course stays, and `now` is the index of its present state.
         """
         course = follow(state) if now is None else replace(self.view.course, now=now)
         computed: dict[Any, Any] = {}
@@ -242,8 +242,8 @@ class Page:
         columns = self.layout.columns(view)
         self.state, self.view = state, view
         if now is None:
-            # Those of the course before, ahead of what is drawn. New ones wait until the input rests: they
-            # are megabytes, and half a second of the process that serves everybody.
+            # Remove the frames of the last course before drawing. New frames wait until the input rests:
+            # they are megabytes, and cost the process of all sessions half a second.
             self.messages.frames = []
             self._making = None
         self.layout.draw(columns, view)
@@ -253,7 +253,7 @@ class Page:
 
     @pn.io.hold()
     def refresh(self) -> None:
-        """Show what is beside the plots of the present view."""
+        """Show the parts around the plots of the present view."""
         for service in self.services:
             service.show(self.view)
         self.layout.show(self.view)
@@ -261,11 +261,11 @@ class Page:
     # The player.
 
     def _send_frames(self):
-        """Send all states of the course if the player moves and has none."""
+        """Send all states of the course if the player moves without frames."""
         if self._moving and not self.messages.frames and not self._making:
             pictures = [card.picture for card in self.layout.seen()]
             making = self._making = frames_in_steps(self.view, pictures)
-            # Others are served meanwhile; another scene has frames of its own.
+            # Other sessions are served meanwhile; another scene needs other frames.
             self.host.make(making, lambda: making is self._making, self._have_frames)
 
     def _have_frames(self, frames: list[Any]) -> None:
@@ -275,7 +275,7 @@ class Page:
     def move(self, message: int | None) -> None:
         """Send frames when the player begins to move (None); accept the state in which it ends.
 
-        While other input arrives they are sent once that rests.
+        While other input arrives, the frames wait until it rests.
         """
         course = self.view.course
         self._moving = message is None
@@ -287,7 +287,7 @@ class Page:
     # Updates when the input rests.
 
     def _schedule(self):
-        """Schedule the slow updates; before a browser shows the page, notes need not wait."""
+        """Schedule the slow updates; notes need not wait before a browser shows the page."""
         if not self.host.shows():
             self.layout.rest(self.view)
             return
@@ -299,7 +299,7 @@ class Page:
         self._waiting = None
         self.layout.rest(self.view)
         query, why = self.query()
-        # The empty address leaves the present one: a link was not opened, or there is none.
+        # An empty address keeps the present address: a link was not opened, or the page has no link.
         self.messages.address = "" if self._refused or why else f"?{query}"
         view = self.view
         for each in self.services:

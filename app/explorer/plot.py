@@ -1,4 +1,4 @@
-"""Definition of a plot, and a view: a course with axes, from which rows are drawn, in SI."""
+"""Definition of a plot and of a view: a course with axes, which gives the places of rows in SI."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,13 +15,13 @@ from ..common.quantities import CHOICES
 from .courses import Course
 from .state import State
 
-#: Symbol of a row that shows whatever is along its axis, which says its symbol first.
+#: Symbol of a row for the quantity of its axis, whose title begins with the symbol.
 OF_AXIS = "of its axis"
 _ROUND = np.array([1, 1.5, 2, 3, 4, 5, 6, 8, 10])
 
 
 def round_up(value: float) -> float:
-    """The next of 1, 1.5, 2, 3, 4, 5, 6, 8 × 10ⁿ, so that axes rest while a slider moves."""
+    """Round up to 1, 1.5, 2, 3, 4, 5, 6, 8 × 10ⁿ, so that axes change rarely while a slider moves."""
     if not value > 0 or not isfinite(value):
         return 1.0
     power = 10.0 ** floor(log10(value))
@@ -30,7 +30,7 @@ def round_up(value: float) -> float:
 
 @dataclass(frozen=True)
 class AxisSpec:
-    """An axis of a plot: title, kind of its unit, and the lowest and largest value (SI) of a course."""
+    """Axis of a plot: title, kind of its unit, and the lowest and largest value (SI) of a course."""
 
     title: str
     kind: str
@@ -39,14 +39,14 @@ class AxisSpec:
 
 @dataclass(frozen=True, eq=False)
 class Plot:
-    """A plot: title, formula, its axes (x, y, and one on the right), and rows.
+    """Plot: title, formula, axes (x, y, and an optional axis on the right), and rows.
 
-    The formula stands with the numbers and assumptions; `aside` is what one must know beside the title.
+    The formula is shown with the numbers and assumptions, `aside` next to the title.
 
-    `places` tells where rows are in a state: x and y (SI), and the text of a label. A plot with a `tab` is
-    optional; `order` is its place among these. `applies` says whether a view has it. `controls` are names
-    of choices and numbers above it. `picture` draws it, if that is not a `Picture`, as
-    `Logarithmic` where `axes_of` returns axes with `log`.
+    `places` returns the places of rows in a state: x and y (SI), and the text of a label. A plot with a
+    `tab` is optional; `order` is its position among these. `applies` is whether a view has the plot.
+    `controls` are names of choices and numbers above it. `picture` draws the plot, by default `Picture`;
+    `axes_of` with `log` axes needs `Logarithmic`.
     """
 
     name: str
@@ -72,20 +72,20 @@ class Plot:
         return self.places(view, i)
 
     def note_of(self, view: "View") -> str:
-        """A note above the plot (a text, or HTML as `ui.marked` makes it of indices as in d_c)."""
+        """Return a note above the plot: text, or HTML such as from `ui.html_subscripts` for d_c."""
         return ""
 
     def options_of(self, state: State, control: str) -> list[str]:
-        """Options of one of its `controls` that apply to a state, the default first."""
+        """Return the options of one of its `controls` that apply to a state, the default first."""
         return list(CHOICES[control].options)
 
 
 @dataclass(frozen=True, eq=False)
 class Overlay:
-    """What an extra draws into a plot of the page: rows behind those of the plot, and their places.
+    """Rows that an extra draws behind the rows of a plot, and their places.
 
-    `places` may also give other ones for rows of the plot. `reach` says of an axis how far the rows go,
-    lowest and largest value (SI). `picture` draws the plot, if that is not its own.
+    `places` may also replace places of the plot's rows. `reach` returns the lowest and largest value (SI)
+    of the rows along an axis. `picture` draws the plot instead of the plot's `picture`.
     """
 
     on: str
@@ -95,31 +95,31 @@ class Overlay:
     picture: Callable[..., Any] | None = None
 
 
-#: Overlays of all plots, from the back to the front; extras add theirs.
+#: Overlays of all plots, from the back to the front; extras add to them.
 OVERLAYS: dict[tuple[str, str, int], Overlay] = {}
 
 
 def overlays(plot: Plot) -> list[Overlay]:
-    """Those of a plot."""
+    """Return the overlays of a plot."""
     return [each for each in OVERLAYS.values() if each.on == plot.name]
 
 
 def rows_of(plot: Plot) -> tuple[Row, ...]:
-    """Rows of a plot, behind them those of its overlays."""
+    """Return the rows of the overlays of a plot, then the rows of the plot."""
     return (*(row for each in overlays(plot) for row in each.rows), *plot.rows)
 
 
 def axis(title: str, kind: str, largest: float, lowest: float = 0.0) -> Axis:
-    """Axis from zero, or a round number below it, to one above `largest` (SI), in a fitting unit."""
+    """Return an axis from zero (or a round number below) to a round number above `largest` (SI)."""
     end = round_up(largest)
     unit = fitting(end, kind)
     return Axis(title, title, unit.name, unit.factor, -round_up(-lowest) if lowest < 0 else 0.0, end)
 
 
 class View:
-    """A state with its course and axes, and what extras have computed, by name.
+    """State with its course and axes, and computed data of extras by name.
 
-    `kept` are axes of a view before, by what is along them, on which this one is drawn, too.
+    `kept` are the axes of an earlier view that this view also uses, by their specifications.
     """
 
     def __init__(
@@ -144,7 +144,7 @@ class View:
         return self.axis(along).end
 
     def places(self, plot: Plot, i: int) -> dict[str, Any]:
-        """Where all rows of a plot are in state i; kept for the present one and that of most depth."""
+        """Return the places of all rows of a plot in state i, cached for the present and deepest state."""
         if (plot.name, i) in self._places:
             return self._places[plot.name, i]
         found = {row.name: (*NOTHING, "") for row in rows_of(plot)} | plot.places_of(self, i)
@@ -153,16 +153,16 @@ class View:
         if any(row.names for row in rows_of(plot)):
             found |= arranged(rows_of(plot), found, plot.axes_of(self))
         unknown = found.keys() - {row.name for row in rows_of(plot)}
-        # A picture of its own may draw more than rows.
+        # A special picture may draw more than rows.
         if unknown and not plot.picture:
-            raise KeyError(f"plot {plot.name!r} has places of rows that it has not: {sorted(unknown)}")
+            raise KeyError(f"plot {plot.name!r} has places of unknown rows: {sorted(unknown)}")
         if i in (self.course.now, self.course.peak):
             self._places[plot.name, i] = found
         return found
 
 
 def cached(places: Callable[[View], dict]) -> Callable[[View, int], dict]:
-    """Places in every state, kept with the view, of rows that stay while a scene is played."""
+    """Cache in the view the places of rows that are equal in all states."""
 
     def kept(view: View, i: int) -> dict:
         if places not in view.computed:
@@ -177,22 +177,22 @@ T = AxisSpec(QUANTITIES["time"].title, "time", lambda course: (0.0, float(course
 
 
 def line_at_time(view: View, i: int, up: AxisSpec) -> tuple:
-    """Vertical line at the time of state i, over the whole axis `up`."""
+    """Return a vertical line at the time of state i, over the whole axis `up`."""
     return view.course.motion.time[[i, i]], np.array([view.axis(up).start, view.end(up)])
 
 
-# Labels on curves and areas: their boxes, and which of them have a place in a plot. They are placed in the
-# smallest plot, that of a phone. Their letters have one size in every plot, so that boxes which do not
-# cover each other there do so in no larger plot either.
+# Labels on curves and areas: their boxes, and their places in a plot. The places are for the smallest plot,
+# on a phone. Letters have the same size in every plot, so boxes that do not overlap there do not overlap
+# in a larger plot either.
 
-#: Pixels within the axes of the smallest plot, of a line of 12 px letters, and kept free beside a label.
+#: Pixels inside the axes of the smallest plot, of a line of 12 px letters, and of the gap next to a label.
 WIDTH, HEIGHT, LINE, GAP = 290, 130, 14, 2
 #: Widths of letters of Helvetica and Arial over their size.
 _WIDTHS = {"fijlrt .,;:()'|": 0.28, "cksvxyz": 0.5, "mwMWCGOQ→−=∞%": 0.8}
 
 
 def width(text: str) -> float:
-    """Width (px) of a text of 12 px letters, some percent too large.
+    """Return the width (px) of a text of 12 px letters, overestimated by a few percent.
 
     Examples
     --------
@@ -214,11 +214,11 @@ class Box:
 
     @property
     def inside(self) -> bool:
-        """Whether all of it is within the axes."""
+        """Whether the box is inside the axes."""
         return self.left >= 0 and self.right <= WIDTH and self.bottom >= 0 and self.top <= HEIGHT
 
     def covers(self, other: "Box") -> bool:
-        """Whether it and another one cover each other."""
+        """Whether two boxes overlap."""
         across = self.left < other.right + GAP and other.left < self.right + GAP
         return across and self.bottom < other.top and other.bottom < self.top
 
@@ -228,7 +228,7 @@ _UP = {"bottom": 0.0, "middle": 0.5, "top": 1.0}
 
 
 def box(row: Row, x: float, y: float, text: str, axes: list[Axis]) -> Box:
-    """Box of a label at a point (SI), with the size of a letter of its axes' smallest plot."""
+    """Return the box of a label at a point (SI), in the smallest plot with these axes."""
     right, up = (_share(value, axis) for value, axis in zip((x, y), axes, strict=False))
     wide = width(text)
     left = right * WIDTH - _ACROSS[row.look["text_align"]] * wide
@@ -237,14 +237,14 @@ def box(row: Row, x: float, y: float, text: str, axes: list[Axis]) -> Box:
 
 
 def _share(value: float, axis: Axis) -> float:
-    """Place (0 to 1) of a value (SI) along an axis."""
+    """Return the place (0 to 1) of a value (SI) along an axis."""
     if axis.log:
         return log10(value / axis.start) / log10(axis.end / axis.start)
     return (value - axis.start) / (axis.end - axis.start)
 
 
 def words_along(rows: dict[str, Any], axes: list[Axis], words: dict[str, str]) -> dict[str, tuple]:
-    """Places of words on curves, by the names of their labels' rows: points of each within its axes."""
+    """Return possible points of words on curves, inside the axes, by the names of the labels' rows."""
     found, y_axis = {}, axes[1]
     for name, text in words.items():
         x, y = rows.get(name, NOTHING)
@@ -255,10 +255,10 @@ def words_along(rows: dict[str, Any], axes: list[Axis], words: dict[str, str]) -
 
 
 def arranged(rows: list[Row], places: dict[str, Any], axes: list[Axis]) -> dict[str, tuple]:
-    """Places of labels that name rows: the first of their points at which there is room, or none.
+    """Return the places of labels that name rows: their first point with enough room, or none.
 
-    Every other label has its place; `places` has points (SI) and a text for each row. A label of rows that
-    are not seen is empty; one without room keeps its text, because its rows need no legend.
+    Other labels have fixed places. `places` has points (SI) and a text for each row. A label of invisible
+    rows is empty. A label without room keeps its text, because its rows need no legend.
     """
     labels = [row for row in rows if row.kind == "labels"]
     taken, found = [], {}

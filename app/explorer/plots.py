@@ -1,4 +1,4 @@
-"""The plots of the page: springs, pressure, and force over depth."""
+"""The permanent plots of the page: springs, pressure, and force over depth."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -19,7 +19,7 @@ from .courses import Course, onset_depth
 from .plot import WIDTH, AxisSpec, Plot, View, width
 from .state import LISTS, Entries
 
-# Axes, which other plots may share.
+# Axes; other plots may share them.
 
 
 def largest_radius(course: Course) -> float:
@@ -27,26 +27,26 @@ def largest_radius(course: Course) -> float:
 
 
 def deepest(course: Course) -> float:
-    """Largest depth (m), or height to which adhesion lifts the indenter."""
+    """Return the largest depth (m), or the height of the indenter at the pull-off if it is larger."""
     return float(np.max(np.abs(course.states.depth)))
 
 
 def across(course: Course) -> tuple[float, float]:
-    """Coordinates beside the contact."""
+    """Return the range of coordinates around the contact."""
     half = 1.25 * largest_radius(course)
     return -half, half
 
 
 def _of_states(name: str) -> Callable[[Course], tuple[float, float]]:
-    """Values of a quantity, also at an onset of yield slightly ahead, which stays visible."""
+    """Return the span of a quantity, including an onset of yield slightly beyond the largest depth."""
 
     def span(course):
         onset, depth = course.onset, np.max(course.states.depth)
         values = getattr(course.states, name)
-        # Adhesion reaches below zero; there may be tension alone.
+        # Adhesion gives values below zero, possibly only tension.
         largest, lowest = np.max(values), np.min(values)
         largest = max(largest, -0.25 * lowest)
-        # With dashpots it is not marked: it is that of slow loading.
+        # With dashpots there is no mark: the onset is for slow loading.
         is_marked = onset is not None and not course.dashpots
         if is_marked and depth < onset.depth <= 2.5 * depth:
             largest = max(largest, getattr(onset, name))
@@ -56,7 +56,7 @@ def _of_states(name: str) -> Callable[[Course], tuple[float, float]]:
 
 
 def _pressures(course: Course) -> tuple[float, float]:
-    """Pressures, and tensions of adhesion."""
+    """Return the span of pressures, and of tensions with adhesion."""
     most = 1.05 * figures.ceiling(course.turning_point, across(course)[1])
     return -most if course.adhesive else 0.0, most
 
@@ -69,7 +69,7 @@ F = AxisSpec(QUANTITIES["force"].title, "force", _of_states("force"))
 P = AxisSpec("p, pressure", "pressure", _pressures)
 
 
-# What is cut off by axes that are kept.
+# Values outside kept axes.
 
 OUT_OF_RANGE = label("cut off")
 
@@ -77,16 +77,16 @@ OUT_OF_RANGE = label("cut off")
 def _cut_off(
     view: View, states: Any, axes: dict[AxisSpec, tuple[str, str]], up: AxisSpec, share: float
 ) -> dict:
-    """A label that says what leaves kept axes: quantities of states and their symbols, by their axes.
+    """Return a label with values outside kept axes, at a share of the vertical axis.
 
-    It stands at a share of the upright axis.
+    `axes` has quantities of the states and their symbols, by their axes.
     """
     if not view.kept:
         return {}
-    said = ", ".join(dict.fromkeys(_out_of_range(view, states, axes)))
+    values = ", ".join(dict.fromkeys(_out_of_range(view, states, axes)))
     across = view.axis(next(iter(axes)))
     left = across.start + 0.015 * (across.end - across.start)
-    return {"cut off": (left, share * view.end(up), f"cut off: {said}" if said else "")}
+    return {"cut off": (left, share * view.end(up), f"cut off: {values}" if values else "")}
 
 
 def _out_of_range(view: View, states: Any, axes: dict[AxisSpec, tuple[str, str]]) -> Iterator[str]:
@@ -103,7 +103,7 @@ def _out_of_range(view: View, states: Any, axes: dict[AxisSpec, tuple[str, str]]
 
 
 def springs(view: View, i: int) -> dict:
-    """Springs by their state."""
+    """Return the springs by their state."""
     course, z, state = view.course, view.axis(Z), view.course.states[i]
     rows = drawn.springs(state, view.end(X), z.start, z.end, lambda g: course.relaxing(i, g))
     return rows | _cut_off(view, state, {X: ("contact_radius", "a"), Z: ("depth", "d")}, Z, 0.6)
@@ -117,7 +117,7 @@ def _spring_formula(course: Course) -> str:
 
 
 def _cap(course: Course) -> str:
-    """Largest elastic compression of a spring; where it depends on a, at the largest depth."""
+    """Return the largest elastic compression of a spring; at the largest depth if it depends on a."""
     medium = course.scene.medium
     if medium.q_c == np.inf:
         return "∞"
@@ -130,12 +130,12 @@ def _cap(course: Course) -> str:
 
 
 def _cap_at(medium: Any, a: float) -> float:
-    """Largest elastic compression (m) of a spring at a contact radius (m)."""
+    """Return the largest elastic compression (m) of a spring at a contact radius (m)."""
     return np.pi * a * float(medium.hardness_at(a)) / (2 * medium.E_star)
 
 
 def _yields_at(view: View) -> str:
-    """The elastic compression at which a spring yields, at the present radius where it depends on that."""
+    """Return the elastic compression at which a spring yields, at the present a if it depends on that."""
     course, medium = view.course, view.course.scene.medium
     a = float(course.state.contact_radius)
     if course.adhesive or medium.q_c == np.inf or onset_depth(course.scene) == np.inf:
@@ -173,7 +173,7 @@ PRESSURE = Plot(
 
 
 def force(view: View, i: int) -> dict:
-    """The curve, of several loadings that up to state i, this state, and what is lost and stored in it."""
+    """Return the curve (of several loadings only up to state i), state i, and its energies as areas."""
     course, states, onset = view.course, view.course.states, view.course.onset
     past, right = slice(i + 1 if course.turns else None), 0.02 * view.end(D)
     depth = states.depth[past]
@@ -186,12 +186,12 @@ def force(view: View, i: int) -> dict:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if (lower := float(states.plastic_depth[i])) > 0:
         text = f"dₚ = {written(lower, 'length', 3)}"
-        # It ends at its point, and begins within the plot.
+        # The text ends at its point, and begins inside the plot.
         room = width(text) / WIDTH * view.end(D)
         rows["dₚ"] = max(lower - 0.4 * right, room), 0.17 * view.end(F), text
     if course.chained or course.adhesive:
-        # No live interval tells what is stored in elements that have each a memory of their own, and with
-        # adhesion the area below the curve is not what is stored.
+        # No areas: a live interval does not describe the stored energy of elements with separate memories.
+        # With adhesion the area below the curve is not the stored energy.
         return rows
     return rows | figures.work(states, i)
 
@@ -212,7 +212,7 @@ class ForcePlot(Plot):
         return [depth, replace(force, start=force.start - STRIP * (force.end - force.start))]
 
 
-#: Height of the strip below the lowest force over the range of the axis.
+#: Height of the strip below the lowest force, relative to the range of the axis.
 STRIP = 0.13
 
 FORCE = ForcePlot(
@@ -229,34 +229,34 @@ FORCE = ForcePlot(
 )  # fmt: skip
 
 
-#: All plots by name; extras add theirs, each with a tab.
+#: All plots by name; extras add plots with a tab.
 PLOTS: dict[str, Plot] = {plot.name: plot for plot in (SPRINGS, PRESSURE, FORCE)}
 LISTS["tiles"] = Entries(PLOTS.__contains__, 100)
-#: Names of the plots that are always shown.
+#: Names of the permanent plots.
 NAMED = tuple(PLOTS)
 
 
 def visible(view: View) -> list[Plot]:
-    """Plots that a view shows: the three, and the first optional one that applies."""
+    """Return the plots of a view: the three permanent plots, and the first applicable optional plot."""
     optional = [PLOTS[name] for name in view.state.tiles if name not in NAMED]
     return [*map(PLOTS.get, NAMED), *[plot for plot in optional if plot.applies(view)][:1]]
 
 
-#: Plots that are dragged.
+#: Plots that the user can drag.
 DRAGGED = ("springs", "force")
 
 
 def drag_path(view: View) -> dict[str, Any]:
-    """Depth and force of all states in the units of the plots."""
+    """Return depth and force of all states in the units of the plots."""
     course, d, force = view.course, view.axis(D).factor, view.axis(F).factor
     found = {"d": course.states.depth / d, "F": course.states.force / force}
     found = {name: [float(f"{value:.6g}") for value in values] for name, values in found.items()}
-    # A depth on a path that turns, or of an impact, is not one that can be set.
+    # The user cannot set the depth of an impact, or of a path with several turns.
     pressing = not course.turns and course.hit is None
     return found | {"unit": d / view.axis(Z).factor, "pressing": pressing}
 
 
 def let_drag(figure: Any) -> None:
-    """Let a figure be dragged."""
+    """Make a figure draggable."""
     for event in (PanStart, Pan, PanEnd):
         figure.js_on_event(event, CustomJS(code=call("drag", "cb_obj")))

@@ -13,18 +13,18 @@ from ..common.quantities import CHOICES, READOUTS, Readout, unicode_subscripts
 from ..common.ui import linked, symbol
 from .courses import Course
 
-#: Most readouts above the plots, beside each other.
+#: Largest number of readouts in the line above the plots.
 MOST = 8
-#: Relative to the largest term of a sum: what is left of it by rounding, some units in the last place.
+#: Rounding error of a sum relative to its largest term: some units in the last place.
 _RESIDUE = 16 * np.finfo(float).eps
-#: Restitution below which no digits are shown: the model does not have them.
+#: Restitution below which the page shows no digits, because the model is not that accurate.
 _LEAST = 1e-3
 
 
 def readings(course: Course, asked: list[Readout] = READOUTS) -> dict[Readout, Any]:
-    """Values of the readouts that a course has; a sum of which rounding alone is left is 0.
+    """Return the values of the readouts of a course; a sum that is only rounding error becomes 0.
 
-    All numbers that are shown, told or exported are read here.
+    All numbers on the page, in texts and in exports come from here.
     """
     terms = course.largest_terms
     found = {each: values for each in asked if (values := each.values(course)) is not None}
@@ -36,14 +36,14 @@ def _without_residue(values: Any, term: Any) -> Any:
 
 
 def line(course: Course) -> dict[Readout, Any]:
-    """Values of the readouts above the plots."""
+    """Return the values of the readouts above the plots."""
     in_place, names = course.in_place, CHOICES["drive"].options[course.drive].line
     names = [in_place.get(name, name) for name in names]
     return readings(course, [each for each in READOUTS if each.name in names])
 
 
 def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
-    """Value in state i with its unit."""
+    """Format the value in state i with its unit."""
     value = float(values if np.ndim(values) == 0 else values[i])
     if readout.name == "restitution" and 0 < value < _LEAST:
         return f"< {_LEAST:g}"
@@ -60,7 +60,7 @@ _EXPLAINED = Markup("<dt>{} {}</dt><dd>{} <em>{}</em></dd>")
 
 
 def values(course: Course, numbers: dict[Readout, Any], i: int) -> Markup:
-    """Cells of the line of a course in state i, as HTML; numbers that are no results are marked."""
+    """Return the cells of the line of a course in state i as HTML; mark numbers that are no results."""
     doubtful, asides = course.doubtful, course.asides
     cells = (
         _CELL.format(
@@ -75,7 +75,7 @@ def values(course: Course, numbers: dict[Readout, Any], i: int) -> Markup:
 
 
 def heads(numbers: dict[Readout, Any]) -> Markup:
-    """Heads of the line, as HTML; pointed at they say what they are, as the notes do."""
+    """Return the heads of the line as HTML; their tooltips explain them, as the notes do."""
     return _STRIP.format(Markup("").join(map(head, numbers)))
 
 
@@ -86,7 +86,7 @@ def head(readout: Readout) -> Markup:
 
 
 def table(course: Course) -> Markup:
-    """Numbers of the present state that are not in the line, as HTML."""
+    """Return the numbers of the present state outside the line, as HTML."""
     above = line(course)
     rows = (
         _NUMBER.format(symbol(each.symbol), each.long_name, text(each, value, course.now))
@@ -97,7 +97,7 @@ def table(course: Course) -> Markup:
 
 
 def explained(numbers: dict[Readout, Any], link: Callable[[str], Markup] = linked) -> Markup:
-    """What each number is, with its equation, as HTML; `link` is what makes HTML of a text."""
+    """Return explanations of numbers, with their equations, as HTML; `link` converts text to HTML."""
     rows = (
         _EXPLAINED.format(symbol(each.symbol), each.long_name, link(each.help), link(each.equation))
         for each in numbers

@@ -1,4 +1,4 @@
-"""Slow searches of a session, made while the input rests: rows of plots, and exact courses."""
+"""Slow searches of a session while the input rests: rows of plots, and exact courses."""
 
 import logging
 from collections.abc import Callable, Iterator
@@ -19,31 +19,31 @@ from .plots import PLOTS, visible
 from .state import State
 
 _LOG = logging.getLogger(__name__)
-#: How many exact courses are kept, the last ones that were found in any session.
+#: Number of exact courses that the server keeps for all sessions.
 _KEPT = 64
 
 
 @dataclass(frozen=True)
 class Found:
-    """What a search has found for a plot: rows (SI) with their axes, and a note, a text or HTML."""
+    """Result of a search for a plot: rows (SI) with their axes, and a note (text or HTML)."""
 
     rows: dict[str, Any]
     axes: list[Axis]
     note: str = ""
 
 
-#: Results before a search ends, and after one failed.
+#: Results before a search ends, and after a failed search.
 COMPUTING = Found({}, [], "computing …")
-FAULT = Found({}, [], "This could not be found, because of a fault of the explorer.")
+FAULT = Found({}, [], "A fault of the explorer prevents this result.")
 
 
 @dataclass(frozen=True, eq=False)
 class AsyncPlot(Plot):
-    """A plot whose rows and axes are found by a search.
+    """Plot whose rows and axes come from a search.
 
-    `find` gets the course and the result of `asks` (default: the `controls`), and returns what is found of
-    a scene or a state (`of_state`), or steps of which the last gives it; `quick` ones run at every move.
-    `image`: rows and columns of pixels.
+    `find` gets the course and the result of `asks` (default: the `controls`). It returns the result for a
+    scene or a state (`of_state`), or steps that end with the result. A `quick` search runs at every move.
+    `image` has the numbers of rows and columns of pixels.
     """
 
     find: Callable[..., Found | Iterator[Found | None]] = lambda course, asked: COMPUTING
@@ -53,11 +53,11 @@ class AsyncPlot(Plot):
     image: tuple[int, int] | None = None
 
     def asked(self, state: State) -> Any:
-        """Arguments of `find` beside the course."""
+        """Return the arguments of `find` after the course."""
         return self.asks(state) if self.asks else tuple(state[name] for name in self.controls)
 
     def key(self, course: Course, asked: Any) -> Any:
-        """What a search is known by."""
+        """Return the key that identifies a search."""
         return course.scene, asked, course.progress[course.now] if self.of_state else None
 
     def found(self, view: View) -> Found:
@@ -77,19 +77,19 @@ class AsyncPlot(Plot):
 
 
 def as_steps(found: Any) -> Steps:
-    """What a search returns as steps, one if it is a result."""
+    """Return the steps of a search, or one step for a result."""
     return found if isinstance(found, Iterator) else iter([found])
 
 
 class Searching(Service):
-    """Searches of a session: the last one of each name."""
+    """Searches of a session: the last search of each name."""
 
     def __init__(self, page: Any):
         super().__init__(page)
         self._keys, self._results = {}, {}
 
     def find_exact(self, courses: list[Course]) -> None:
-        """Begin to find the exact courses of those that are pending."""
+        """Start the searches for the exact courses of pending courses."""
         for k, course in enumerate(courses):
             if course.pending:
                 self._search(f"course {k}", course.scene, _exact, course)
@@ -113,7 +113,7 @@ class Searching(Service):
         self.page.host.search(steps(), wanted, partial(self._done, name, key))
 
     def _done(self, name, key, result):
-        """Draw a result if it is that of the last search; on failure go on without it."""
+        """Draw a result of the last search; if this fails, continue without it."""
         if self._keys.get(name) != key:
             return
         page = self.page
@@ -124,13 +124,13 @@ class Searching(Service):
                 return
             if isinstance(result, Course):
                 _keep(result)
-                # Searched anew once others have taken its place.
+                # Search again after other courses have replaced it.
                 del self._keys[name]
             page.draw(page.state)
         except Exception as error:
             if isinstance(result, Course):
                 EXACT.pop(result.scene, None)
-            # Not searched again: it would fail as often.
+            # Do not search again: it would fail again.
             self._keys[name] = key
             self._results[name] = key, FAULT
             page.notify(page.refusal(error))
@@ -138,10 +138,10 @@ class Searching(Service):
 
 
 class IdleSearch(Searching):
-    """Searches for the plots of a view, and for its exact course."""
+    """Searches for the plots of a view and for its exact course."""
 
     def compute(self, state: State, course: Course) -> dict[str, Found]:
-        """Results for the plots of a state; quick ones are computed."""
+        """Return results for the plots of a state; compute quick results."""
         results = {}
         for plot in (PLOTS[name] for name in state.tiles if isinstance(PLOTS[name], AsyncPlot)):
             asked = plot.asked(state)
@@ -154,7 +154,7 @@ class IdleSearch(Searching):
         return results
 
     def rest(self, view: View) -> None:
-        """Begin the slow searches of a view: its exact course, and those of its plots."""
+        """Start the slow searches of a view: for its exact course and its plots."""
         self.find_exact([view.course])
         for plot in (plot for plot in visible(view) if isinstance(plot, AsyncPlot)):
             asked = plot.asked(view.state)
@@ -163,20 +163,20 @@ class IdleSearch(Searching):
 
 
 def _keep(course: Course) -> None:
-    """Keep an exact course in the place of the oldest one."""
+    """Keep an exact course, and drop the oldest course."""
     EXACT[course.scene] = course
     for scene in list(EXACT)[:-_KEPT]:
         del EXACT[scene]
 
 
 def exact(course: Course) -> Course:
-    """The exact course of a pending one, in the same state."""
+    """Return the exact course of a pending course, in the same state."""
     made = DRIVES[course.drive].exact(course.scene)
     return replace(made, now=nearest(made.progress, course.progress[course.now]), drive=course.drive)
 
 
 def _exact(course):
-    """The exact course, or the reason of failure."""
+    """Return the exact course, or the reason for the failure."""
     try:
         return exact(course)
     except ValueError as error:

@@ -1,4 +1,4 @@
-"""The state of the page: a frozen set of numbers (SI) and choices, and its presets."""
+"""State of the page: a frozen set of numbers (SI) and choices; and presets."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -15,37 +15,37 @@ from ..common.quantities import ASSETS, CHOICES, QUANTITIES, Option, read_data, 
 from ..common.units import entry, read
 
 _DATA = read_data(ASSETS / "presets.json")
-#: The preset that the page opens with.
+#: Preset of the opening page.
 OPENING = next(iter(_DATA["scenes"]))
-#: Choices about the medium; those that fold in the form.
+#: Choices about the medium, and those in the fold of the form.
 MEDIUM_CHOICES = ("elasticity", "plasticity", "damping", "adhesion")
 FOLDED_CHOICES = ("elasticity", "damping", "adhesion")
-#: What the view is like rather than the scene, with defaults: undo leaves it alone. Extras add theirs.
+#: Values of the view with their defaults, which undo does not change; extras add values.
 VIEW: dict[str, Any] = {"at": 1.0, "tiles": (), "large": "", "dark": False}
 
 
 @dataclass(frozen=True)
 class Entries:
-    """What a list of names in a state may have: which entries, and how many of them."""
+    """Bounds of a list of names in a state: valid entries, and their largest number."""
 
     known: Callable[[str], bool]
     most: int
 
 
-#: Of lists in the state, by name; extras add theirs.
+#: Lists in the state by name; extras add lists.
 LISTS: dict[str, Entries] = {}
-#: Values of extras by their names, which have a point, with their defaults.
+#: Defaults of the values of extras by name; the names contain a point.
 OF_EXTRAS: dict[str, Any] = {}
 
 
 @dataclass(frozen=True)
 class State:
-    """Everything set on the page; `replace` returns a copy with other values.
+    """Everything that the user sets on the page; `replace` returns a copy with other values.
 
-    E* of two bodies, and q_c of a hardness at a radius, follow from these. A number of a shape that has not
-    been looked at is None: it is sized when it is. `at` is the progress of the state that is seen, `tiles`
-    the optional plots that are shown, `large` the plot that fills the page, `samples` radii and heights of
-    a measured tip, `extras` the values of extras that are not at their defaults.
+    E* of two bodies, and q_c of a hardness at a radius, follow from the other values. Numbers of a shape
+    are None before the user first chooses the shape. `at` is the progress of the visible state, `tiles` the
+    visible optional plots, `large` the plot that fills the page, `samples` radii and heights of a measured
+    tip, `extras` the values of extras that differ from their defaults.
     """
 
     preset: str = OPENING
@@ -111,40 +111,40 @@ class State:
         return self.extras.get(name, OF_EXTRAS[name]) if "." in name else getattr(self, name)
 
     def replace(self, **changes: Any) -> "State":
-        """Copy with other values."""
+        """Return a copy with other values."""
         own = {name: changes.pop(name) for name in list(changes) if name in OF_EXTRAS}
-        # A sweep has arrays.
+        # Values of a sweep are arrays.
         values = (self.extras | own).items()
         kept = {name: value for name, value in values if np.any(value != OF_EXTRAS[name])}
         return replace(self, extras=kept, **changes)
 
     def chosen(self, choice: str) -> Option:
-        """The chosen option of a choice."""
+        """Return the chosen option of a choice."""
         return CHOICES[choice].options[self[choice]]
 
     @cached_property
     def scene_values(self) -> "State":
-        """Values that undo restores: the state with the view at its defaults."""
+        """Values that undo restores: the state with the default view."""
         return self.replace(**VIEW)
 
 
 @dataclass(frozen=True)
 class Preset:
-    """A preset: its options and numbers (SI), and sources of numbers, by name."""
+    """Preset: its options and numbers (SI), and sources of numbers, by name."""
 
     label: str
     values: dict[str, Any]
     sources: dict[str, str]
 
 
-#: By their keys, as in links; extras add theirs.
+#: Presets by their keys in links; extras add presets.
 PRESETS: dict[str, Preset] = {}
-#: Media and indenters of the presets, by their names.
+#: Media and indenters of the presets, by name.
 _PARTS: dict[str, dict[str, Any]] = {"media": {}, "indenters": {}}
 
 
 def include_presets(data: dict[str, Any]) -> None:
-    """Add the presets of the page, or those of an extra, which may have media and indenters of its own."""
+    """Add the presets of the page or of an extra, which may have further media and indenters."""
     for name, known in _PARTS.items():
         known |= data.get(name, {})
     for key, scene in data.get("scenes", {}).items():
@@ -153,7 +153,7 @@ def include_presets(data: dict[str, Any]) -> None:
 
 
 def _preset(scene: dict[str, Any]) -> Preset:
-    """A scene with all that its medium and its indenter have, on a virgin surface."""
+    """Return the preset of a scene: values of its medium, indenter and drive on a virgin surface."""
     given = _PARTS["media"][scene["medium"]] | _PARTS["indenters"][scene["indenter"]] | scene
     numbers = {name: each for name, each in given.items() if name in QUANTITIES}
     values = {"elasticity": "bodies", "damping": "none", "adhesion": "none", "plastic_depth": 0.0}
@@ -167,32 +167,32 @@ include_presets(_DATA)
 
 
 def preset_values(key: str) -> dict[str, Any]:
-    """All that a preset sets: its values, and the other choices in the form of its drive."""
+    """Return all values that a preset sets, including the other choices in the form of its drive."""
     values = PRESETS[key].values
     form = CHOICES["drive"].options[values["drive"]].form
     return {name: OF_EXTRAS[name] for name in form} | values
 
 
 def kept_extras(state: State) -> dict[str, Any]:
-    """Values of extras that no preset sets, which stay when another one is chosen."""
+    """Return values of extras that no preset sets; a change of the preset keeps them."""
     of_presets = {name for key in PRESETS for name in preset_values(key)}
     return {name: value for name, value in state.extras.items() if name not in of_presets}
 
 
 def preset_state(key: str = OPENING, **view: Any) -> State:
-    """State of a preset, with a view."""
+    """Return the state of a preset, with a view."""
     return State(preset=key).replace(**preset_values(key) | view)
 
 
 def altered(state: State) -> list[str]:
-    """Names of choices and numbers that differ from the preset, by more than rounding."""
+    """Return the names of choices and numbers that differ from the preset by more than rounding."""
     values = preset_values(state.preset)
     changed = [name for name in values if state[name] != values[name]]
     return [each for each in changed if each in CHOICES or not isclose(state[each], values[each])]
 
 
 def numbers_of(state: State, *choices: str) -> list[str]:
-    """Names of the numbers that the chosen options of some choices use, with choices of their own."""
+    """Return the names of the numbers that the chosen options of choices, and their choices, use."""
     chosen = map(state.chosen, choices)
     return [
         name for option in chosen for name in (*option.uses, *option.fold, *numbers_of(state, *option.form))
@@ -200,22 +200,22 @@ def numbers_of(state: State, *choices: str) -> list[str]:
 
 
 def form_choices(state: State, choice: str = "drive") -> list[str]:
-    """Choices in the form of the chosen option of a choice, each with those of its own option."""
+    """Return the choices in the form of the chosen option of a choice, each with its further choices."""
     return [each for name in state.chosen(choice).form for each in (name, *form_choices(state, name))]
 
 
 def folded(state: State) -> list[str]:
-    """Names of the numbers of the drive that fold."""
+    """Return the names of the folded numbers of the drive."""
     return [name for choice in ("drive", *form_choices(state)) for name in state.chosen(choice).fold]
 
 
 def yield_constant(state: State) -> list[str]:
-    """Name of the constant of the hardness, q_c also of a hardness at a radius; none if nothing yields."""
+    """Return the name of the constant of the hardness; nothing if the medium does not yield."""
     return ["q_c"] if state.plasticity == "hardness" else numbers_of(state, "plasticity")
 
 
 def regions(state: State) -> dict[str, list[str]]:
-    """Names of the numbers in the form, by its regions."""
+    """Return the names of the numbers in the form, by its regions."""
     main = ["E_star", *yield_constant(state)]
     measured = [name for name in numbers_of(state, "plasticity") if name not in main]
     return {
@@ -231,12 +231,12 @@ def regions(state: State) -> dict[str, list[str]]:
 
 
 def used(state: State) -> list[str]:
-    """Names of the numbers in use."""
+    """Return the names of the numbers in use."""
     return numbers_of(state, "shape", *MEDIUM_CHOICES, "drive")
 
 
 def checked(name: str, value: float) -> float:
-    """Value (SI) of a number if it is within bounds; else ValueError."""
+    """Return the value (SI) of a number. Raises ValueError if it is out of bounds."""
     known = QUANTITIES[name]
     if not isclose(known.bounded(value), value, rel_tol=1e-12):
         shown, low, high = (written(v, known.kind) for v in (value, *known.bounds))
@@ -245,7 +245,7 @@ def checked(name: str, value: float) -> float:
 
 
 def as_shown(state: State) -> State:
-    """The state with the digits that its fields show; not of angles, which have others in SI."""
+    """Round the numbers of a state to the digits of their fields, except angles: their SI digits differ."""
     preset = PRESETS[state.preset].values
     changed = [name for name in used(state) if state[name] is not None and state[name] != preset.get(name)]
     digits = {name: state[name] for name in changed if QUANTITIES[name].kind != "angle"}
@@ -259,7 +259,7 @@ def _shown(kind: str, value: float) -> float:
 
 
 def profile(state: State) -> mdr.Profile:
-    """Shape of the indenter."""
+    """Return the shape of the indenter."""
     if state.shape == "sampled":
         return mdr.Sampled(*state.samples)
     if state.shape == "power_law":
@@ -272,13 +272,13 @@ def profile(state: State) -> mdr.Profile:
 
 
 def refuse_other_classes(state: State, what: str, instead: str) -> None:
-    """Refuses what is modelled for a hardness ∝ 1/a only, with what else to choose."""
+    """Raise ValueError for a model that requires a hardness ∝ 1/a, with the alternatives."""
     if state.plasticity in ("constant", "line"):
-        raise ValueError(f"{what} is modelled for a hardness ∝ 1/a only: choose that or {instead} first")
+        raise ValueError(f"{what} is modelled for a hardness ∝ 1/a only: choose this or {instead} first")
 
 
 def medium(state: State) -> mdr.Medium:
-    """Medium under the indenter."""
+    """Return the medium under the indenter."""
     if state.adhesion == "work":
         refuse_other_classes(state, "adhesion", "no yield")
     names = [*yield_constant(state), *numbers_of(state, "damping", "adhesion")]

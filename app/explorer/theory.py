@@ -1,4 +1,4 @@
-"""The theory, assets/theory.md, as a page that is the same for everybody."""
+"""The theory, assets/theory.md, as a static page."""
 
 import re
 from base64 import b64encode
@@ -13,21 +13,21 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 from ..common.quantities import ASSETS
 from ..common.ui import JS
 
-#: The files of Panel, and KaTeX among them, in a folder whose name has its version.
+#: Folders of Panel's files, and of KaTeX in them, whose name contains its version.
 DIST = Path(panel.__file__).parent / "dist"
 KATEX = next(DIST.glob("bundled/katex/katex@*/dist"), DIST).relative_to(DIST).as_posix()
-#: A link to a file beside the theory, which no server has.
+#: A link to a file next to the theory, which no server serves.
 _FILE = re.compile(r"\[(.*?)\]\(\w+\.md\)")
-#: A picture beside the theory, which is part of the page.
+#: A picture next to the theory, which becomes part of the page.
 _PICTURE = re.compile(r"!\[(.*?)\]\((\w+\.svg)\)")
-#: Equations that a text names, (4) or (4)–(8).
+#: References to equations, (4) or (4)–(8).
 _NAMED = re.compile(r"\(([1-9]\d?)\)(?:–\((\d{1,2})\))?")
 
 
 def html():
-    """The theory as HTML with KaTeX formulas and ids of sections and equations."""
+    """Return the theory as HTML with KaTeX formulas and ids of sections and equations."""
     parser, numbered = MarkdownIt().enable("table"), set()
-    # Its pictures are data, which it does not take for links otherwise.
+    # Pictures are data links, which the parser rejects by default.
     parser.validateLink = lambda _: True
     parser.use(dollarmath_plugin, renderer=lambda text, _: f"\\({escape(text)}\\)")
     text = (ASSETS / "theory.md").read_text(encoding="utf-8")
@@ -54,6 +54,6 @@ def _with_picture(found):
 
 
 def page(katex: str) -> str:
-    """The page as HTML, for the folder of the style sheets; `katex` is the address of KaTeX's scripts."""
+    """Return the page as HTML for the folder of the style sheets; `katex` is the address of KaTeX."""
     template = Template(Path(__file__).with_suffix(".html").read_text(encoding="utf-8"))
     return template.substitute(theme=JS["head"], katex=katex, body=html())

@@ -1,4 +1,4 @@
-"""Parts of the page as the browser is told of them: buttons, choices, number fields, and the form."""
+"""Parts of the page, drawn by the browser: buttons, choices, number fields, and the form."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -23,17 +23,17 @@ from .changes import option, options
 from .plot import View
 from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, folded, numbers_of, regions
 
-#: Letters of all options of a choice below which it is shown as radio buttons, else as a list.
+#: Number of letters in all options below which a choice has radio buttons instead of a list.
 _SHORT = 48
-#: Option of the list of presets for a scene that is none of them, so that its preset can be chosen again.
+#: Option of the list of presets for an altered scene, so that the user can choose its preset again.
 _ALTERED = "altered"
 
 
 @dataclass(frozen=True)
 class Part:
-    """A part: its kind, its name in the component, and what the browser is told of it.
+    """Part of the page: its kind, its name in the component, and its look in the browser.
 
-    `act` is called with what a person does with it.
+    `act` gets the message of a user's action.
     """
 
     kind: str
@@ -43,7 +43,7 @@ class Part:
 
 
 def text(name: str, html: str, classes: str = "note") -> Part:
-    """A text, or HTML."""
+    """Return a text, or HTML."""
     return Part("text", name, {"object": as_html(html), "classes": classes})
 
 
@@ -51,9 +51,9 @@ def button(
     label: str, act: Callable[[], None], pressed: bool | None = None, disabled: bool = False, key: str = "",
     opens: str = "",
 ) -> Part:  # fmt: skip
-    """A button: `pressed` is None if it does not stay down, `key` is a key of the keyboard.
+    """Return a button: `pressed` is None if it does not stay down, `key` is a key of the keyboard.
 
-    What has the class `opens` scrolls into view once it is pressed.
+    A click scrolls the element with the class `opens` into view.
     """
     look = {"label": label, "pressed": pressed, "disabled": disabled, "key": key, "opens": opens}
     return Part("button", label, look, lambda message: None if disabled else act())
@@ -62,15 +62,15 @@ def button(
 def upload(
     label: str, accept: str, take: Callable[[Uploaded], None], refused: str = "", busy: str = ""
 ) -> Part:
-    """A field for a file, with why the last one was refused, or what is done with it."""
+    """Return a field for a file, with the error or the progress of the last file."""
     look = {"label": as_html(label), "accept": accept, "most": TIP_BYTES, "refused": refused, "busy": busy}
     return Part("file", label, look, lambda message: take(Uploaded(**message)))
 
 
 def choice(name: str, state: State, choose: Callable[[str], None]) -> Part:
-    """A choice with its explanation, as radio buttons or a list.
+    """Return a choice with its explanation, as radio buttons or a list.
 
-    No preset is chosen if the scene differs from all of them.
+    If the scene differs from its preset, the chosen preset is an additional option, "altered".
     """
     chosen = option(state, name)
     pairs = [[each, CHOICES[name].options[each].label] for each in options(state, name)]
@@ -92,10 +92,10 @@ def _about(name: str) -> dict[str, Any]:
 class Parts(pn.custom.JSComponent):
     """Parts of the page below each other, or in a row (class "bar")."""
 
-    #: The number of messages that are answered, and looks, as text: Bokeh would look at each value.
+    #: Number of answered messages, and looks of the parts; as text, because Bokeh would check each value.
     payload = param.String("[0, []]")
 
-    # A link, so that the script is sent once.
+    # The script imports a link, so that the browser loads it once.
     _esm = JS["parts"]
 
     def __init__(self, *classes: str, **options: Any):
@@ -105,7 +105,7 @@ class Parts(pn.custom.JSComponent):
         self.on_msg(self._on_message)
 
     def show(self, parts: list[Part]) -> None:
-        """Show some parts, and no others."""
+        """Show only these parts."""
         self.parts = {part.name: part for part in parts}
         self._send()
 
@@ -115,25 +115,25 @@ class Parts(pn.custom.JSComponent):
 
     @pn.io.hold()
     def _on_message(self, event):
-        """Do what a person wants; what is refused is answered, too."""
+        """Do the user's action, and answer it even if it fails."""
         name, message = event.data
         self._answered += 1
-        # Whatever comes from outside, a list too, names a part or none.
+        # The name may be any value from outside, even a list.
         if part := self.parts.get(str(name)):
             part.act(message)
         self._send()
 
 
-#: Option of the list of shapes that asks for a file.
+#: Option of the list of shapes for a file.
 _FILE = "file"
-_FIRST = "Move a slider: orange springs have yielded. "
+_FIRST = "Move a slider. Orange springs have yielded. "
 
 
 def slider_range(known: Quantity, middle: float, value: float) -> tuple[float, float, float]:
-    """Lowest, middle and highest value (SI) of the slider of a number.
+    """Return the lowest, middle and highest value (SI) of the slider of a number.
 
-    It covers the span of the number each way about a middle value, or about the present value if that is
-    out of its reach; for span 0 all that is within bounds.
+    The slider covers the span of the number in each direction from a middle value, or from the present
+    value if it is out of this range. For span 0 it covers the bounds.
     """
     if known.span <= 0:
         return known.bounds[0], middle, known.bounds[1]
@@ -143,21 +143,21 @@ def slider_range(known: Quantity, middle: float, value: float) -> tuple[float, f
 
 
 class Field:
-    """What a number field remembers: its unit, the middle of its slider, and what was refused in it."""
+    """Memory of a number field: its unit, the middle of its slider, and the error of its last entry."""
 
     def __init__(self, name: str, page: Any):
         self._name, self._page, self._known = name, page, QUANTITIES[name]
-        self._told = _told(self._known)
-        # The number and its preset as they were shown.
+        self._static_look = _static_look(self._known)
+        # The last shown number and its preset.
         self._value, self._preset = self._known.default, ""
         self.refused = ""
 
     def part(self, state: State, like: float = 0.0) -> Part:
-        """The field with the number of a state; zero in the unit that fits the value `like`.
+        """Return the field with the number of a state; zero has the unit that fits the value `like`.
 
-        The unit is that of the preset's number until another one is typed. What others change or what is
-        dragged is shown in it, too, unless it is easier to read in another one: 2 m/s, not 2000 mm/s. A
-        refusal stays until the number changes.
+        The unit fits the preset's number until the user types another unit. Later changes keep the unit
+        unless another unit is easier to read: 2 m/s, not 2000 mm/s. An error message stays until the number
+        changes.
         """
         value = checked(self._name, state[self._name])
         loaded = state.preset != self._preset
@@ -174,10 +174,10 @@ class Field:
         look = {"text": entry(value, self._unit), "refused": self.refused, "value": value}
         look |= {"low": low, "middle": self._middle, "high": high}
         look["ends"] = [written(end, self._known.kind, 3) for end in (low, high)]
-        return Part("number", self._name, self._told | look, self._take)
+        return Part("number", self._name, self._static_look | look, self._take)
 
     def _take(self, message: Any) -> None:
-        """Take a typed number, or the value (SI) of the slider; a refusal is shown beside it."""
+        """Take a typed number, or the value (SI) of the slider; show an error next to it."""
         self.refused, dragged = "", False
         self._typed = self._unit
         match message:
@@ -188,7 +188,7 @@ class Field:
                 change = partial(changes.put, name=self._name, value=value)
                 self._page.apply(change, self._refuse, self._name * dragged)
         if not (self.refused or dragged):
-            # Not the one that fits the number, in which it was shown meanwhile.
+            # The typed unit replaces the unit that fits the number, which the field shows meanwhile.
             self._unit = self._typed
             self._page.refresh()
 
@@ -201,12 +201,12 @@ class Field:
 
 
 def _reads_well(value: float, unit: Unit) -> bool:
-    """Whether a value (SI) has in a unit at most three digits before the point and two zeros after it."""
+    """Whether a value (SI) in a unit has at most three digits before the point and two zeros after it."""
     return value == 0 or 1e-3 <= abs(value) / unit.factor < 1e3 * (1 - 1e-9)
 
 
-def _told(known: Quantity) -> dict[str, Any]:
-    """What is said of a number."""
+def _static_look(known: Quantity) -> dict[str, Any]:
+    """Return the fixed part of a number's look: label, explanation and span."""
     low, high = (written(bound, known.kind, 2) for bound in known.bounds)
     units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
     rows = [linked(known.help)]
@@ -226,13 +226,13 @@ def title(text_: str) -> Part:
 
 
 class Form:
-    """The form: drive, shape, E*, the law of the hardness and its constant; all else folds."""
+    """Form: drive, shape, E*, the law of the hardness and its constant; a fold has the rest."""
 
     def __init__(self, page: Any):
         self._page, self._open = page, {"more": False, "tip": False}
-        # What is folded and differs from the preset.
+        # Folded values that differ from the preset.
         self._altered: set[str] = set()
-        # Why the last file of a tip was refused, or that it is being read.
+        # Error of the last file of a tip, or its progress.
         self._tip_refused = self._tip_busy = ""
         self._files, self._worker = Files(), Worker() if page.host.processes else Here()
         page.host.on_close(self._end_reading)
@@ -240,7 +240,7 @@ class Form:
 
     def show(self, view: View) -> None:
         state, page = view.state, self._page
-        # An imprint that is not there has the unit of the present depth.
+        # An imprint of zero depth has the unit of the present depth.
         depth = float(view.course.turning_point.depth)
         named = regions(state)
         in_fold = named.pop("more")
@@ -252,12 +252,12 @@ class Form:
             return text(f"note {place}", Markup("").join((before, *found)))
 
         again = button("Hit again", partial(page.apply, changes.hit_again))
-        # What begins to differ from the preset is unfolded, but for the moduli that follow a typed E*.
+        # Unfold values that begin to differ from the preset, except moduli that follow a typed E*.
         now = {*FOLDED_CHOICES, *in_fold}.intersection(altered(state)) - {"E_1", "E_2"}
         opened = self._open["more"] = self._open["more"] or bool(now - self._altered)
         self._altered = now
         modulus, *constant = numbers["medium"]
-        # Below each choice the numbers of its option.
+        # The numbers of an option are below its choice.
         more = []
         for choice in FOLDED_CHOICES if opened else ():
             names = (name for name in numbers_of(state, choice) if name in in_fold)
@@ -278,14 +278,14 @@ class Form:
         self.view.show(parts)
 
     def _form(self, state: State, choice: str) -> Iterator[Part]:
-        """Choices of the chosen option, with the numbers and choices of their own options below them."""
+        """Yield the choices of the chosen option, each with the numbers and choices of its option."""
         for name in state.chosen(choice).form:
             yield self._page.choice(name)
             yield from map(self._page.number, state.chosen(name).uses)
             yield from self._form(state, name)
 
     def _shape(self, state: State) -> Part:
-        """The list of shapes, of which one asks for the file of a measured tip while there is none."""
+        """Return the list of shapes, with an option for the file of a measured tip if there is no tip."""
         shapes = self._page.choice("shape")
         if state.samples:
             return shapes
@@ -300,7 +300,7 @@ class Form:
         return Part("choice", "shape", shapes.look | {"options": pairs}, choose)
 
     def tip(self) -> Part:
-        """The field for the file of a measured tip, with what was refused in the last one."""
+        """Return the field for the file of a measured tip, with the error of the last file."""
         label = "CSV file of a measured tip: r, z"
         return upload(label, ".csv,.txt,text/csv", self._take_tip, self._tip_refused, self._tip_busy)
 
@@ -313,7 +313,7 @@ class Form:
         self._page.host.run(partial(self._read_tip, in_line(file.name), data))
 
     async def _read_tip(self, name: str, data: bytes) -> None:
-        """Read a tip, in a process that ends with the answer."""
+        """Read a tip in a process that ends after its answer."""
         self._show_busy(f"Reading {name}")
         try:
             path = self._files.keep(data)

@@ -1,4 +1,4 @@
-"""Actions of a page that wait for a process, and what they refuse."""
+"""Actions of a page that wait for a process, and their errors."""
 
 from collections.abc import Callable, Coroutine
 from contextlib import contextmanager
@@ -16,27 +16,27 @@ Act = Callable[..., Coroutine[Any, Any, None]]
 
 
 class Actions(pn.viewable.Viewer):
-    """A page whose actions are coroutines. A new job ends the action that waits for the last one."""
+    """Page with coroutines as actions. A new job ends the action that waits for the last job."""
 
     def __init__(self, worker: Worker | Here | None):
         super().__init__()
         self.document = pn.state.curdoc or Document()
         self.host = host_of(self.document)
         self.worker = Worker() if worker is None else worker
-        #: What runs, and why something could not be done.
+        #: Description of the running job, and the last error.
         self.busy = ""
         self.problem: Refused | None = None
         self._quiet = False
 
     def show(self) -> None:
-        """Show everything as it is."""
+        """Show the present state of the page."""
 
     def message(self, text: str, remedy: tuple[Any, ...] = ()) -> Refused:
-        """Return a text to be shown."""
+        """Return an error for the user."""
         return Refused(text, remedy)
 
     def do(self, act: Act, *arguments: Any) -> None:
-        """Begin an action; what it refuses is shown."""
+        """Start an action, and show its error."""
         self.host.run(partial(self._act, act, *arguments))
 
     async def _act(self, act: Act, *arguments: Any) -> None:
@@ -49,12 +49,12 @@ class Actions(pn.viewable.Viewer):
             self.show()
 
     def when_changed(self, act: Act) -> Callable[[Any], None]:
-        """Return what a widget calls: an action if the user has changed the widget, not the page."""
+        """Return a callback for a widget: it starts an action if the user, not the page, has changed it."""
         return lambda event: None if self._quiet else self.do(act)
 
     @contextmanager
     def setting(self):
-        """Set widgets without beginning actions."""
+        """Set widgets without starting actions."""
         before, self._quiet = self._quiet, True
         try:
             with pn.io.hold():
@@ -63,8 +63,8 @@ class Actions(pn.viewable.Viewer):
             self._quiet = before
 
     async def run(self, text: str, job: Callable[..., Any], *arguments: Any, **options: Any) -> Any:
-        """Return what a job returns; `text` says what runs, and is shown with what is known by then."""
-        # By its name in this package, as a process knows it.
+        """Run a job and return its result; the page shows `text` meanwhile."""
+        # A process finds the job by its name in this package.
         name = f"{job.__module__.partition('.')[2]}.{job.__name__}"
 
         def waits(before: int) -> None:
@@ -82,11 +82,11 @@ class Actions(pn.viewable.Viewer):
         return answer
 
     def stop(self) -> None:
-        """Stop what runs."""
+        """Stop the running job."""
         self.worker.stop()
         self.busy = ""
 
     def refuse(self, text: str) -> None:
-        """Show why something was not taken."""
+        """Show the reason why the page has rejected something."""
         self.problem = Refused(text)
         self.show()

@@ -1,4 +1,4 @@
-"""Reading and fitting without a page: jobs of a process, whose arguments and results can be sent."""
+"""Reading and fitting without a page: jobs of a process, with arguments and results that can be pickled."""
 
 import json
 from collections import Counter
@@ -23,29 +23,28 @@ from mdr_core.show.units import written
 from ..common.errors import text_and_remedy
 from .choices import IN_TIME, MEDIA
 
-#: Most characters of the name of a column, and of a remark, which may quote the file.
+#: Largest numbers of characters of a column name, and of a remark, which may quote the file.
 _HEAD, _REMARK = 80, 500
-#: Most files that are listed as not read.
+#: Largest number of unread files in the list.
 _UNREAD = 20
-#: Most samples that are fitted and drawn: of more, one in two, three … is taken.
+#: Largest number of samples to fit and draw; longer curves are thinned evenly.
 MOST = 2000
-#: Most samples of a curve that is drawn beside all others.
+#: Largest number of samples of a curve in the plot of all curves.
 _DRAWN = 150
-#: Kinds of remarks on what changes a number by more than its error, by the source of that.
+#: Kinds of remarks on effects that exceed the error of the number, by the source of the number.
 _OF_THE_NUMBER = {
     "unloading": {"zero", "creep", "tip"}, "fit": {"drift", "drag", "tilt", "tip", "adhesion"},
 }  # fmt: skip
-#: E* (Pa): nothing of constant hardness has less than the first, polymers have more than the second, and
-#: rubber has less than the third.
+#: Limits of E* (Pa): lowest of all materials of constant hardness, lowest of polymers, highest of rubber.
 _NONE, _SOFT, _STIFF = 1e6, 1e8, 1e9
-#: Ratio of E* of loading and unloading of an elastic sample that is a remark, and that is no E* at all.
+#: Ratio of E* of loading and unloading above which an elastic sample gets a remark, and no E* at all.
 _DIFFERS, _NOT_ELASTIC = 1.5, 10.0
 
 
 # Reading.
 
 
-#: One file, or those of a set.
+#: Path of a file, or paths of a set.
 Paths = str | list[str]
 
 
@@ -56,12 +55,12 @@ def _curves(given: str) -> Any:
 
 
 def _read_curves(path: Paths, given: dict[str, Any]) -> Any:
-    """The curves of a file or a set, which is read once for all of them."""
+    """Return the curves of a file or a set; read it once for all curves."""
     return _curves(json.dumps([path, given]))
 
 
 class Row(NamedTuple):
-    """A curve of several: its name and place, E* and H with their errors (Pa) or None, why, and samples."""
+    """Results of one of several curves: name, place, E* and H with errors (Pa) or None, reason, samples."""
 
     name: str
     file: str = ""
@@ -77,10 +76,10 @@ class Row(NamedTuple):
 
 
 def read(path: Paths, options: dict[str, Any], number: int) -> tuple[Any, int, Any, list[str]]:
-    """Return a curve of a file or its last one, the number of curves, a question or None, what is not read.
+    """Return curve `number` or the last, the number of curves, a question or None, and unread files.
 
-    The question has a text with remedies, the first rows of the table, and what is suggested. If the
-    suggestion is complete, it has samples of the first curve.
+    The question has a text with remedies, the first rows of the table, and suggested options. If the
+    suggestion is complete, it also has samples of the first curve.
     """
     count = 0
     try:
@@ -101,18 +100,18 @@ def read(path: Paths, options: dict[str, Any], number: int) -> tuple[Any, int, A
     except (ValueError, ImportError, MemoryError):
         raise
     except Exception as error:
-        # What packages raise about a damaged file.
+        # Errors of packages about a damaged file.
         name = Path(path).name if isinstance(path, str) else "a file"
         raise ValueError(f"{name} cannot be read: {type(error).__name__}, {error}") from error
 
 
 def _named(name: str, text: str) -> str:
-    """Return a text that says the name of its file."""
+    """Return a text with the name of its file."""
     return text if name in text else f"{name}: {text}"
 
 
 def _first_rows(table: Any) -> Any:
-    """Return a table with heads of some length and its first rows alone."""
+    """Return only the first rows of a table, with shortened heads."""
     few = table.few()
     return replace(few, heads={column: head[:_HEAD] for column, head in few.heads.items()})
 
@@ -134,7 +133,7 @@ def with_text(remark: Remark, text: str) -> Remark:
 
 
 def samples(curve: Any, drift: float | None = None, frame: float | None = None) -> SimpleNamespace:
-    """Return at most `MOST` samples of a curve: number from 1 on, depth, force, time, whether in a hold."""
+    """Return at most `MOST` samples of a curve: number from 1, depth, force, time, whether in a hold."""
     if drift and curve.time is not None:
         curve = curve.minus_drift(drift)
     if frame:
@@ -155,9 +154,9 @@ def ends_of(taken: SimpleNamespace, count: int, part: str) -> tuple[int, int]:
 
 
 def contact_depth(taken: SimpleNamespace, fit: Any = None) -> float | None:
-    """Return the depth (m) of first contact of a fit, or where the force of the loading leaves the air.
+    """Return the depth (m) of first contact, from the fit or from the end of the air in the loading.
 
-    It is None for a loading that does not begin in the air.
+    Return None for a loading that does not begin in the air.
     """
     if fit is not None:
         return float(fit.contact_point)
@@ -170,10 +169,10 @@ def contact_depth(taken: SimpleNamespace, fit: Any = None) -> float | None:
 
 
 def fit(curve: Any, asked: dict[str, Any]) -> SimpleNamespace:
-    """Return the fit of a curve with its classes, the number to quote, and remarks above and below that.
+    """Return the fit of a curve with its classes, the number to quote, and the remarks above and below.
 
-    `asked` has the tip, the kind of sample, arguments of the fit, and corrections of the depth. Its samples
-    are the numbers of the first and last one, () for the part that the kind of sample takes.
+    `asked` has the tip, the kind of sample, arguments of the fit, and corrections of the depth. Its
+    `samples` are the first and last sample number, or () for the default part of the kind of sample.
     """
     asked = SimpleNamespace(**asked)
     medium, taken = MEDIA[asked.medium], samples(curve, **asked.corrections)
@@ -194,7 +193,7 @@ def fit(curve: Any, asked: dict[str, Any]) -> SimpleNamespace:
         remarks += of_unloading.remarks
         above = above or tuple(each for each in of_unloading.remarks if each.kind == "units")
     below += tuple(each for each in remarks if each.kind in _OF_THE_NUMBER.get(quoted.source, ()))
-    # Classes are kept in the fit, which is sent.
+    # The fit keeps the classes, and is sent with them.
     return SimpleNamespace(
         fit=found, quoted=quoted, above=above, below=below, remarks=remarks, unloading=of_unloading,
         verdict=found.class_of_hardness, ends=ends,
@@ -204,7 +203,7 @@ def fit(curve: Any, asked: dict[str, Any]) -> SimpleNamespace:
 def fit_all(
     path: Paths, given: dict[str, Any], asked: dict[str, Any], first: int = 0, last: int | None = None
 ) -> Iterator[Row]:
-    """Yield a `Row` for each curve from `first` to before `last`: E* to quote, or why there is none."""
+    """Yield a `Row` for each curve from `first` to before `last`: E* to quote, or the reason without E*."""
     curves = _read_curves(path, given)
     files = Counter(file for file, _ in curves.places)
     for i, (file, number) in list(enumerate(curves.places))[first:last]:
@@ -237,32 +236,32 @@ def deflection(curve: Any) -> Remark | None:
 
 
 def _check_range(taken: Any, used: np.ndarray, arguments: dict[str, Any]) -> None:
-    """Raise ValueError if samples need those before: a medium remembers its largest depth, and rates."""
+    """Raise ValueError if the fit needs samples before the range, for the largest depth or for rates."""
     if np.count_nonzero(used) < 2:
-        raise ValueError("the range has fewer than two samples to be fitted: choose a longer range")
+        raise ValueError("the range has fewer than two samples for the fit: choose a longer range")
     first, depth = int(np.argmax(used)), taken.depth
     if arguments.get("eta", 0.0) != 0 and first:
         raise ValueError(
-            "with viscosity the force depends on all samples before: begin the range at sample 1"
+            "with viscosity the force depends on all earlier samples: begin the range at sample 1"
         )
     largest, within = float(depth[: first + 1].max()), float(depth[used].max())
-    # As for noise of the depth, a thousandth of the range hardly counts.
+    # A thousandth of the range hardly matters, as for noise of the depth.
     if arguments.get("q_c") != np.inf and largest - within > 1e-3 * np.ptp(depth[used]):
         raise ValueError(
-            f"the samples before the range reach deeper, {written(largest, 'length')}, than the range, "
-            f"{written(within, 'length')}, and their yield would not be fitted: begin the range at the "
-            "largest depth or before"
+            f"the samples before the range reach deeper than the range, {written(largest, 'length')} "
+            f"instead of {written(within, 'length')}, and the fit would miss their yield: begin the range "
+            "at the largest depth or before"
         )
     origin = arguments.get("contact_point")
     if origin is not None and origin >= within:
         raise ValueError(
-            f"first contact z₀ = {written(origin, 'length')} is held, and the samples reach only to "
-            f"{written(within, 'length')}: let the fit find z₀, or type a smaller z₀"
+            f"first contact z₀ = {written(origin, 'length')} must be less than the largest depth of the "
+            f"samples, {written(within, 'length')}: let the fit find z₀, or type a smaller z₀"
         )
 
 
 def _fitted(profile: Any, taken: Any, used: np.ndarray, arguments: dict[str, Any]) -> tuple[Any, Any]:
-    """Return a fit and its remarks, without the times if these, by a drift, leave no number to quote."""
+    """Return a fit and its remarks; fit without the times if a drift in them leaves no number to quote."""
     columns, time = (taken.depth[used], taken.force[used]), None if taken.time is None else taken.time[used]
     found = mdr.fit_indentation(profile, *columns, time=time, **arguments)
     timed = any(arguments.get(name, 0.0) != 0 for name in ("eta", "drag"))
@@ -274,20 +273,20 @@ def _fitted(profile: Any, taken: Any, used: np.ndarray, arguments: dict[str, Any
 
 
 def _adhesion(found: Any, taken: Any, remarks: tuple[Remark, ...]) -> tuple[Remark, ...]:
-    """Return a remark on the tension of the whole curve if there is none on that of its fitted samples."""
+    """Return a remark on tension in the whole curve if no remark reports tension in the fitted samples."""
     error = found.standard_errors.get("E_star", 0.0) / float(found.medium.E_star)
     known = any(each.kind == "adhesion" for each in remarks)
     remark = None if known else remark_on_tension(taken.depth, taken.force, error)
     return () if remark is None else (remark,)
 
 
-# Whether a modulus is one to quote for the kind of sample that was chosen.
+# Whether a modulus is plausible for the chosen kind of sample.
 
 
 def _plausible(
     quoted: Any, asked: Any, arguments: Any, curve: Any, taken: Any, used: Any, part: str
 ) -> Any:
-    """Return the number to quote or none, questions above it, and remarks below it."""
+    """Return the number to quote (or no number), questions above it, and remarks below it."""
     E = quoted.value
     if E is None:
         return quoted, (), ()
@@ -297,19 +296,20 @@ def _plausible(
     ratio = max(other / E, E / other) if other else np.inf
     below: tuple[Remark, ...] = ()
     if other and ratio >= _NOT_ELASTIC:
-        text = (
-            "loading and unloading differ by a factor of ten or more in E*, and an elastic sample has one"
-        )
-        text += ": choose the kind of a sample that yields"
+        text = "E* of loading and of unloading differ by a factor of ten or more, which is impossible for"
+        text += " an elastic sample: choose a kind of sample that yields"
         return _none(quoted, Remark(text, "unloading", Remedy("class", "a"))), (), ()
     if other and ratio >= _DIFFERS:
         rest = {"loading": "unloading", "unloading": "loading"}[part]
-        text = f"of the {part}; the {rest} alone gives {written(other, 'pressure', 2)}, {ratio:.2g} times"
+        text = (
+            f"E* is from the {part}; the {rest} alone gives {written(other, 'pressure', 2)}, "
+            f"a ratio of {ratio:.2g}"
+        )
         below = (Remark(f"{text}: the sample yields, sticks or loses energy", "unloading"),)
     if asked.medium == "constant" and E < _SOFT:
         text, remedy = _unit_to_look_at(asked.profile, curve, taken, used, E, (_SOFT, 2e12), 1e-3)
         if E < _NONE:
-            text = f"E* comes out below 1 MPa, which no glass, metal or ceramic has: {text}"
+            text = f"E* is below 1 MPa, which no glass, metal or ceramic has: {text}"
             doubt = Remark(f"{text}, or choose another kind of sample", "units", *remedy)
             return _none(quoted, doubt), (), ()
         doubt = Remark(f"few samples of constant hardness are so soft: {text}", "units", *remedy)
@@ -327,7 +327,7 @@ def _none(quoted: Any, doubt: Remark) -> Any:
 
 
 def _of_other_part(profile: Any, taken: Any, arguments: dict[str, Any], part: str) -> float | None:
-    """Return E* (Pa) of the unloading for a loading, or the reverse; None if it is vague."""
+    """Return E* (Pa) of the unloading for a loading, or the reverse; None if it is uncertain."""
     if any(arguments.get(name, 0.0) is not None for name in ("E_star", "contact_point", "baseline")):
         return None
     later = taken.number >= taken.number[np.argmax(taken.depth)]
@@ -345,8 +345,8 @@ def _of_other_part(profile: Any, taken: Any, arguments: dict[str, Any], part: st
 
 
 def _unit_to_look_at(profile, curve, taken, used, E, plausible, size) -> tuple[str, tuple[Remedy, ...]]:
-    """Return text and remedies: the unit, taken for `size` times it, with which E* would be plausible."""
-    # The tip alone tells how E* depends on a depth in another unit.
+    """Return text and remedies about a unit: with an error of a factor `size`, E* would be plausible."""
+    # The tip alone determines the change of E* with the unit of the depth.
     depth = float(np.ptp(taken.depth[used]))
     depths = np.minimum([depth, size * depth], profile.known_depth)
     forces = mdr.indent(profile, mdr.Medium(1.0), depths).force

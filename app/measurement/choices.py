@@ -1,4 +1,4 @@
-"""Tips, kinds of samples and numbers that a person chooses, by their names in links."""
+"""Tips, kinds of samples and numbers of the form, by their names in links."""
 
 from collections.abc import Callable
 from math import inf, radians, tan
@@ -10,7 +10,7 @@ from mdr_core.show.units import KINDS
 
 
 class Number(NamedTuple):
-    """A number that is typed: symbol, name, kind of unit, unit while it is empty, and bounds (SI)."""
+    """Typed number: symbol, name, kind of unit, unit of the empty field, and bounds (SI)."""
 
     symbol: str
     label: str
@@ -36,7 +36,7 @@ NUMBERS = {
 MODULI = ("poisson", "tip_modulus", "tip_poisson")
 CANTILEVER = ("spring_constant", "sensitivity")
 CORRECTIONS = ("drift", "frame", "depth_noise")
-#: Parameters of the fit, which are fitted while their fields are empty.
+#: Parameters of the fit; a parameter is fitted while its field is empty.
 FITTED = {
     name: Number(
         each.quantity.symbol,
@@ -46,14 +46,14 @@ FITTED = {
     )
     for name, each in PARAMETERS.items()
 }
-#: What needs the times of the samples.
+#: Numbers that need the times of the samples.
 IN_TIME = ("drift", *(name for name, each in PARAMETERS.items() if each.in_time))
 #: Parts of a curve, by their labels.
 PARTS = {"All": "all", "Loading": "loading", "Unloading": "unloading"}
 
 
 class Tip(NamedTuple):
-    """A kind of tip: its name, its numbers, and the profile that they make."""
+    """Kind of tip: name, numbers, and the function that makes a profile of the numbers."""
 
     label: str
     numbers: tuple[str, ...]
@@ -81,7 +81,7 @@ TIPS = {
 
 
 class Medium(NamedTuple):
-    """A kind of sample: name, parameters that are fitted at first, part of the curve, class of hardness."""
+    """Kind of sample: name, initially fitted parameters, part of the curve, class of hardness."""
 
     label: str
     fitted: tuple[str, ...]
@@ -90,7 +90,7 @@ class Medium(NamedTuple):
 
     @property
     def at_zero(self) -> list[str]:
-        """Parameters that are 0 unless they are to be fitted."""
+        """Further parameters, which are 0 at first."""
         others = ("baseline", "tilt", "drag")
         return [name for name in others if name not in self.fitted]
 
@@ -109,13 +109,13 @@ MEDIA = {
         "Elastic with adhesion (pull-off)", ("E_star", "work_of_adhesion", "contact_point", "baseline")
     ),
 }
-#: The kind of sample with the hardness of each class, and what each is called.
+#: Kinds of samples by class of hardness, and names of the classes.
 OF_CLASS = {each.letter: name for name, each in MEDIA.items() if each.letter}
 CLASS_NAMES = {"a": "constant hardness", "b": "hardness ∝ 1/a", "c": "hardness ∝ 1/a²"}
 
 
 class Example(NamedTuple):
-    """A measured curve of the library: button, file, name, tip, kind of sample and numbers."""
+    """Measured curve of the library: button, file and name, with tip, kind of sample and numbers."""
 
     button: str
     file: str
@@ -125,7 +125,7 @@ class Example(NamedTuple):
     numbers: dict[str, float | None]
 
     def read(self) -> bytes:
-        """Return what is in the file."""
+        """Return the contents of the file."""
         return mdr.example(self.file).read_bytes()
 
 

@@ -1,4 +1,4 @@
-"""A fit as a file, JSON with its samples or CSV of its numbers, in SI; and its scene in the explorer."""
+"""Export of a fit in SI: JSON with its samples, CSV of its numbers, and a scene in the explorer."""
 
 import json
 from dataclasses import asdict, replace
@@ -20,7 +20,7 @@ _UNITS = {"drift": "m/s", "frame": "m/N", "depth_noise": "m"}
 
 
 def contents(found: Any, about: dict[str, Any], corrections: dict[str, float]) -> dict[str, Any]:
-    """Return numbers of a fit with units and errors, remarks, and what was fitted.
+    """Return the numbers of a fit with units and errors, its remarks, and its samples.
 
     `about` has the `file`, the number of the `curve` and its `length`, `remarks`, and `E` with its error.
     """
@@ -58,7 +58,7 @@ def contents(found: Any, about: dict[str, Any], corrections: dict[str, float]) -
 
 
 def as_json(found: Any, told: dict[str, Any]) -> str:
-    """Return `contents` with scene and samples as JSON; what is not finite is null."""
+    """Return `contents` with scene and samples as JSON; values that are not finite become null."""
     fit = found.fit
     scene = mdr.Scene(fit.profile, fit.medium, mdr.scene.DepthPath(float(np.max(fit.path.depth))))
     samples = {"depth": fit.depth, "force": fit.force, "time": fit.time, "residuals": fit.residuals}
@@ -83,7 +83,7 @@ def _finite(value: Any) -> Any:
 
 
 def as_csv(found: Any, told: dict[str, Any]) -> str:
-    """Return the numbers of `contents` as a table; a number without an error was held or measured."""
+    """Return the numbers of `contents` as CSV; numbers without an error were held or measured."""
     samples = "samples {first} to {last} of {of}, {fitted} fitted".format(**told["samples"])
     lines = [f"{told['version']}: fit to {told['file']}, {samples}"]
     lines += [each["text"] for each in told["remarks"]] + told["limits"]
@@ -99,7 +99,7 @@ def _float(value: Any) -> float | None:
 
 
 def table_of(rows: list[Any], settings: dict[str, str], moduli: tuple[Any, Any] | None) -> mdr.CurveTable:
-    """Return curves that were fitted as a table, with Young's modulus by ν and the material of the tip."""
+    """Return the fitted curves as a table, with Young's modulus from ν and the material of the tip."""
     columns = {name: [getattr(row, name) for row in rows] for name in ("E", "E_error", "H", "H_error")}
     E, E_error, H, H_error = (np.array(column, float) for column in columns.values())
     table = mdr.CurveTable(
@@ -115,7 +115,7 @@ def table_of(rows: list[Any], settings: dict[str, str], moduli: tuple[Any, Any] 
 
 
 def rounded(value: float, error: float | None) -> float:
-    """Return a number in the digits that are shown: two of its error, or four without one.
+    """Round a number to its displayed digits: to two digits of its error, or to four without an error.
 
     Examples
     --------
@@ -142,13 +142,13 @@ _MEDIA = {
 
 
 def explorer_query(found: Any, tip: str, sizes: dict[str, float], medium: str) -> str:
-    """Return tip, medium and depth of a fit as the query of a scene. Raises ValueError if there is none."""
+    """Return tip, medium and depth of a fit as the query of a scene. Raises ValueError without a scene."""
     if tip == "measured":
-        raise ValueError("a measured tip is opened from its own file")
+        raise ValueError("a measured tip is not part of the link: open its file in the explorer")
     fit, shape = found.fit, "cone" if tip in ("berkovich", "cube_corner") else tip
     values, errors = fit.to_dict(), fit.standard_errors
     choices, number, name = _MEDIA[medium]
-    # As deep as the curve, so that its force is seen.
+    # As deep as the curve, so that its force is visible.
     numbers = {
         "E_star": rounded(values["E_star"], errors.get("E_star")),
         "max_depth": rounded(float(np.max(fit.path.depth)), None),

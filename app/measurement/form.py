@@ -1,4 +1,4 @@
-"""The left column: file, tip, sample and parameters. Its widgets are a part of the state of the page."""
+"""The left column: file, tip, sample and parameters. Its widgets are part of the state of the page."""
 
 from functools import partial
 from math import inf
@@ -24,21 +24,21 @@ _PART, _GROUP = Markup("<h2>{}</h2>"), Markup('<h3 class="group">{}</h3>')
 _FILE = Markup("<b>{}</b>{}: {} samples")
 _UNREAD = Markup('<p class="refused">Not read: {}</p>')
 _LINKED = Markup("This link was made with <b>{}</b>: drop that file here.")
-#: Shown in empty fields of corrections.
+#: Hints in empty fields of corrections.
 _NO_CORRECTION = {"drift": "0 nm/s", "frame": "0 nm/mN", "depth_noise": "0 nm"}
-#: What parts the curves of a table, besides the values of a column.
+#: Ways to part the curves of a table, other than by the values of a column.
 _BY = {
     "one curve": "whole",
     "curves parted by empty lines or words": "gaps",
     "curves where the depth starts anew": "restart",
 }
 _CHOOSE = {"choose": ""}
-#: Beginnings of the suffixes of files that are no tables.
+#: Beginnings of the suffixes of AFM files, which are not tables.
 _AFM = ".jpk", ".h5", ".hdf5", ".ibw", ".nid", ".zip"
 
 
 class Form:
-    """The left column of a page."""
+    """Left column of a page."""
 
     def __init__(self, page: Any):
         uploads, self._page = Uploads(), page
@@ -71,7 +71,7 @@ class Form:
         self.view = self._column(page)
 
     def _column(self, page: Any) -> Any:
-        """Return the widgets below each other."""
+        """Return the widgets in a column."""
         number = self.numbers
         samples = pn.Row(css_classes=["tools"], **WIDE)
         for name, each in EXAMPLES.items():
@@ -95,7 +95,7 @@ class Form:
         return show_errors(pn.Column(*parts, css_classes=["asked"], width=360, margin=0))
 
     async def take_tip(self, name: str, data: bytes, began: float) -> None:
-        """Read a measured tip, beside a job on the curve."""
+        """Read a measured tip, while a job on the curve may run."""
         name = in_line(name)
         show(self.tip_about, object=f"Reading {name} …")
         try:
@@ -108,13 +108,13 @@ class Form:
             await self._page.fit()
 
     def refuse_tip(self, text: str) -> None:
-        """Show why the file of a tip was not taken; the tip before it stays."""
-        stays = "" if self.tip_samples is None else "; the tip before it stays"
+        """Show the reason why the file of a tip was rejected; keep the last tip."""
+        stays = "" if self.tip_samples is None else "; the last tip stays"
         show(self.tip_about, object=ERROR.format(texts.sentence(f"{text.rstrip('.')}{stays}")))
 
     @property
     def is_afm(self) -> bool:
-        """Whether the file of the page is no table."""
+        """Whether the file of the page is an AFM file, not a table."""
         page = self._page
         if page.curve is not None:
             return page.curve.source.startswith("as afmformats")
@@ -126,24 +126,24 @@ class Form:
         self._tip_worker.stop()
         self._tip_files.clear()
 
-    # What is chosen.
+    # Chosen values.
 
     def value(self, name: str) -> float | None:
-        """Return a number (SI), None if its field is empty."""
+        """Return a number (SI), or None if its field is empty."""
         return self.numbers[name].si
 
     def given(self, *names: str) -> dict[str, float]:
-        """Return those of some numbers that are typed."""
+        """Return the typed numbers among `names`."""
         return {name: value for name in names if (value := self.value(name)) is not None}
 
     def request(self, timed: bool, samples: tuple[int, ...]) -> dict[str, Any]:
-        """Return what `analysis.fit` is asked for. Raises ValueError for a tip that is none."""
+        """Return the argument `asked` of `analysis.fit`. Raises ValueError for an invalid tip."""
         medium, corrections = self.medium.value, self.corrections()
         request = {"profile": self.profile(), "medium": medium, "arguments": self.arguments(timed)}
         return request | {"corrections": corrections, "samples": samples}
 
     def modulus(self, quoted: Any) -> tuple[float, float] | None:
-        """Return Young's modulus of the sample and its error (Pa), None without Poisson's ratio."""
+        """Return Young's modulus of the sample and its error (Pa), or None without Poisson's ratio."""
         materials = self.materials()
         return None if materials is None or quoted.value is None else quoted.sample_modulus(*materials)
 
@@ -162,17 +162,17 @@ class Form:
         return shown
 
     def unusual_numbers(self) -> dict[str, float | None]:
-        """Return numbers that differ from the first ones of the kind of sample, None for an empty field."""
+        """Return numbers that differ from the defaults of the kind of sample; None for an empty field."""
         medium = self.medium.value
         first = dict.fromkeys(MEDIA[medium].at_zero if medium else (), 0.0)
         return {name: each.si for name, each in self.numbers.items() if each.si != first.get(name)}
 
     def corrections(self) -> dict[str, float]:
-        """Return what is subtracted from the depth, as `analysis.samples` has it."""
+        """Return the corrections of the depth for `analysis.samples`."""
         return {name: value for name, value in self.given("drift", "frame").items() if value}
 
     def missing(self) -> str:
-        """Return what is still to be given before a fit, in words; nothing if that is all."""
+        """Return the name of a missing input of the fit, or an empty text."""
         if not self.tip.value:
             return "the tip"
         if self.tip.value == "measured" and self.tip_samples is None:
@@ -183,7 +183,7 @@ class Form:
         return "" if self.medium.value else "the sample"
 
     def profile(self) -> Any:
-        """Return the indenter. Raises ValueError for a tip that is none."""
+        """Return the indenter. Raises ValueError for an invalid tip."""
         known = TIPS[self.tip.value]
         sizes = [self.value(name) for name in known.numbers]
         return known.profile(*(self.tip_samples if self.tip.value == "measured" else sizes))
@@ -197,22 +197,22 @@ class Form:
         return [name for name in names if timed or name not in IN_TIME]
 
     def arguments(self, timed: bool) -> dict[str, Any]:
-        """Return arguments of `mdr_core.fit_indentation`: None for a parameter that is fitted."""
+        """Return arguments of `mdr_core.fit_indentation`; None for a fitted parameter."""
         arguments: dict[str, Any] = {name: self.value(name) for name in self.parameters(timed)}
         if not MEDIA[self.medium.value].letter:
             return arguments | {"q_c": inf}
         return arguments | self.given("depth_noise")
 
     def set_medium(self, name: str) -> None:
-        """Choose a kind of sample: what it fits is empty, all else 0."""
+        """Choose a kind of sample: clear the fields of its fitted parameters, and set the others to 0."""
         self.medium.value = name
         for each in FITTED if name else ():
             self.numbers[each].set(0.0 if each in MEDIA[name].at_zero else None)
 
-    # What is shown.
+    # Display.
 
     def show(self, page: Any) -> None:
-        """Show the fields that the curve, the tip and the kind of sample have."""
+        """Show the fields for the curve, the tip and the kind of sample."""
         tip, medium, curve = self.tip.value, self.medium.value, page.curve
         timed = curve is None or curve.time is not None
         names = self.parameters(timed)
@@ -240,7 +240,7 @@ class Form:
         self._show_reader(page)
 
     def _show_reader(self, page: Any) -> None:
-        """Show how the file is read, opened if something is missing."""
+        """Show the options of the reader, unfolded if something is missing."""
         is_table, wanted, is_afm = page.table is not None, page.wanted, self.is_afm
         show(self.reader, visible=is_table or bool(wanted) or is_afm)
         if wanted:
@@ -249,7 +249,7 @@ class Form:
         show(self.columns.confirm, visible=page.question is not None)
 
     def show_about(self, page: Any) -> None:
-        """Show the name of the file, and what is known of it."""
+        """Show the name of the file, its number of samples, and unread files."""
         about = Markup("")
         if page.curve is not None:
             of = f", curve {page.results.number.value} of {page.count}" if page.count > 1 else ""
@@ -261,7 +261,7 @@ class Form:
 
 
 class Columns:
-    """The choosers of a page for the table of its file."""
+    """Choosers for the columns of a table."""
 
     def __init__(self, page: Any):
         roles = {role: f"to-{role}" for role in SIZES}
@@ -282,14 +282,14 @@ class Columns:
         ]
         parts = depth, self.meaning, *others, self.by, self.confirm
         self.view = pn.Column(*parts, css_classes=["reader"], visible=False, **WIDE)
-        # Columns of each part of a table, and what parts the curves, as they are shown.
+        # Shown columns of each part of a table, and shown option `by`.
         self._parts: list[dict[str, Any]] = []
         self._by: Any = None
 
     def show(self, table: Any, columns: Any, by: Any) -> None:
-        """Show the columns of a table as they are suggested, or as the file was read by them."""
+        """Show the suggested columns of a table, or the columns of the last reading."""
         self._parts, self._by = columns if isinstance(columns, list) else [], by
-        # Of several parts the first one is shown; the others have its units.
+        # Show the first of several parts; the others have the same units.
         first = dict(columns[0] if self._parts else columns)
         self.meaning.value = "piezo" if "piezo" in first else "depth"
         first["depth"] = first.pop("piezo", first.get("depth"))
@@ -303,7 +303,7 @@ class Columns:
         self.by.param.update(options=options, value=value)
 
     def _ways_to_part(self, table: Any, by: Any) -> tuple[dict[str, Any], Any]:
-        """Return what may part the curves, and which of it is shown."""
+        """Return the options that may part the curves, and the shown option."""
         if self._parts:
             options = {f"{len(self._parts)} pairs of columns": ""}
             if len(self._parts) > 1:
@@ -319,7 +319,7 @@ class Columns:
         return options, "whole" if by is None else by
 
     def options(self) -> dict[str, Any]:
-        """Return what is chosen, as `mdr_core.read_curves` has it. Raises ValueError if it is not all."""
+        """Return the chosen options of `mdr_core.read_curves`. Raises ValueError if some are missing."""
         chosen: dict[str, Any] = {}
         for role in SIZES:
             column, unit = self.columns[role].value, self.units[role].value
@@ -335,7 +335,7 @@ class Columns:
         return {"columns": columns} | ({} if is_suggested else {"by": by})
 
     def _all_parts(self, chosen: dict[str, Any]) -> list[dict[str, Any]]:
-        """Return the columns of all parts: the first as it is chosen, the others with its units."""
+        """Return the columns of all parts: the chosen first part, and the others with its units."""
         place, parts = "piezo" if "piezo" in chosen else "depth", [chosen]
         for part in self._parts[1:]:
             own = part | {place: part.get("piezo") or part["depth"]}
@@ -346,7 +346,7 @@ class Columns:
 
 
 def column_labels(table: Any, words: Any = ()) -> dict[str, int]:
-    """Return numbers of columns by their names, or by their first numbers; `words` are columns of words."""
+    """Return column numbers by label: the name or the first values; `words` are columns of words."""
     firsts = {k: ", ".join(f"{x:.3g}" for x in values[:3]) for k, values in table.values.items()}
     found = {f"{k + 1}: {head or firsts[k] + ' …'}": k for k, head in table.heads.items()}
     for key in words:

@@ -1,4 +1,4 @@
-"""The page of one person for a measurement: a file in, the number to quote out."""
+"""The page of one user for a measurement, from a file to the number to quote."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -32,39 +32,39 @@ _LANDMARKS = {
     "asked": ("complementary", "Curve, tip and sample"),
     "found": ("main", "Result"),
 }
-#: Most curves that are fitted by one job.
+#: Largest number of curves in one job.
 _CURVES = 100
-#: Seconds after a file in which others come that were dropped together with it, as one set.
+#: Seconds after a file in which further files belong to the same set.
 _TOGETHER = 0.7
 
 
 class Measurement(Actions):
-    """The page. Tip, sample and numbers are in its widgets; file, range and options of the reader here.
+    """Page with the file, the range and the options of the reader; widgets have tip, sample and numbers.
 
-    Its main actions are `take_file`, `read` and `fit`, each of which goes on with the next one.
+    Its main actions are `take_file`, `read` and `fit`; each continues with the next action.
     """
 
     def __init__(self, link: str = "", worker: Worker | Here | None = None):
         super().__init__(worker)
-        # The file or the set, its path or paths on the server, the name of the example that it is, and when
-        # it was taken (s).
+        # Name of the file or set, its path or paths on the server, name of the example, and time of the
+        # last file (s).
         self.file, self.path, self._example, self._taken_at = "", "", "", -_TOGETHER
         self._files = Files()
-        # What prevents that a set is read, None if that does not wait.
+        # Cancels the reading of a set; None if no set waits.
         self._waiting: Callable[[], None] | None = None
-        #: Columns and what parts curves, as the reader is given them; and for tables with known heads.
+        #: Options `columns` and `by` of the reader; and options of tables with known heads.
         self.options: dict[str, Any] = {}
         self._known: dict[Any, tuple[dict[str, Any], dict[str, float]]] = {}
-        #: The curve, the number of curves, its samples that are fitted, and the question about its file.
+        #: The curve, the number of curves, its thinned samples, and the question about its file.
         self.curve, self.count, self.taken, self.question = None, 0, None, None
         #: The fit, Young's modulus of the sample and its error (Pa), and rows of all curves.
         self.found = self.E = None
         self.rows: list[analysis.Row] = []
-        #: Files of a set that are not read, and why.
+        #: Unread files of a set, with reasons.
         self.unread: list[str] = []
-        #: Whether the user has stopped what ran: the next change begins it again.
+        #: Whether the user has stopped the job; the next change starts it again.
         self.cancelled = False
-        # Samples that are fitted, () for those of the kind of sample, which was the last one.
+        # Chosen samples, () for the default of the kind of sample; and the last kind of sample.
         self._samples, self._medium = (), ""
         self.form, self.results = Form(self), Results(self)
         self._view()
@@ -82,7 +82,7 @@ class Measurement(Actions):
         head = pn.Row(*header, self.address, css_classes=["fit-header"], **WIDE)
         self.view = pn.Column(head, columns, css_classes=["fit-page"], **BOTH)
         landmarks(self.document, _LANDMARKS, "found", "Skip to the result")
-        # The address restores what was typed when the session is lost.
+        # The address restores the typed values after a lost session.
         self.document.js_on_event(ConnectionLost, CustomJS(code=call("again")))
         self.host.on_close(self.close)
 
@@ -96,12 +96,12 @@ class Measurement(Actions):
         self.form.close()
 
     def message(self, text: str, remedy: tuple[Any, ...] = ()) -> Refused:
-        """Return a text with the name of the file that was dropped, instead of that of the kept one."""
+        """Return an error with the name of the dropped file, instead of the name of the kept file."""
         kept = Path(self.path).name if isinstance(self.path, str) else ""
         return Refused(text.replace(kept or "\0", self.file), remedy)
 
     def cancel(self) -> None:
-        """Stop what runs."""
+        """Stop the running job."""
         self.stop()
         self.cancelled = self.found is None
         self.show()
@@ -109,7 +109,7 @@ class Measurement(Actions):
     # The link.
 
     def _open(self, link: query.Link) -> None:
-        """Show what a link asks for: an example once the page is there, another file by its name."""
+        """Show the content of a link: an example once the page is loaded, another file by its name."""
         self._begin(link.tip, link.medium, link.numbers)
         self.file, self.options, self._samples = link.file, link.options, link.samples
         with self.setting():
@@ -119,13 +119,13 @@ class Measurement(Actions):
             if not self.host.processes:
                 begin()
                 return
-            # A process is for a page that has connected, which a request alone has not.
+            # Start a process only for a connected page, not for a request alone.
             self.document.on_event(DocumentReady, lambda event: self.path or begin())
             self.busy = f"Reading {self.file}"
         self.show()
 
     def _begin(self, tip: str, medium: str, numbers: dict[str, float | None]) -> None:
-        """Begin with a tip, a kind of sample and numbers, for the first curve of another file."""
+        """Set a tip, a kind of sample and numbers, for the first curve of another file."""
         with self.setting():
             self.form.tip.value = tip
             self._set_medium(medium)
@@ -135,7 +135,7 @@ class Measurement(Actions):
         self.options, self._samples = {}, ()
 
     def link(self) -> query.Link:
-        """Return the link of what is typed and chosen."""
+        """Return the link of the typed and chosen values."""
         tip, medium, curve = self.form.tip.value, self.form.medium.value, self.results.number.value - 1
         numbers = self.form.unusual_numbers()
         return query.Link(self.file, curve, tip, medium, numbers, self._samples, self.options)
@@ -143,7 +143,7 @@ class Measurement(Actions):
     # Files.
 
     async def take_file(self, name: str, data: bytes, began: float) -> None:
-        """Read a file that was dropped, or a set. Tip and sample stay, unless they were an example's."""
+        """Read a dropped file or set. Keep tip and sample, unless they belong to an example."""
         together, self._taken_at = began < self._taken_at + _TOGETHER, monotonic()
         if together:
             self._take_together(name, data)
@@ -152,7 +152,7 @@ class Measurement(Actions):
         if self._example:
             self._begin("", "", dict.fromkeys(form.numbers))
         elif name != self.file:
-            # What is known of another curve does not hold for this one.
+            # Clear the corrections of another curve.
             self._begin(form.tip.value, form.medium.value, dict.fromkeys((*CORRECTIONS, *CANTILEVER)))
         await self._take(name, data)
 
@@ -170,12 +170,12 @@ class Measurement(Actions):
         await self.read()
 
     def _forget(self) -> None:
-        """Forget the file before."""
+        """Forget the last file."""
         self.curve, self.question, self.found, self.count, self.path = None, None, None, 0, ""
         self.cancelled = False
 
     def _take_together(self, name: str, data: bytes) -> None:
-        """Read a file with those that were dropped before it, once no further one follows."""
+        """Read a file together with the last files, once no further file follows."""
         self.stop()
         if self._waiting:
             self._waiting()
@@ -184,7 +184,7 @@ class Measurement(Actions):
         self._files.add(data, name)
         self.path = [*self._files.paths]
         self.file, self.busy = f"{len(self.path)} files", f"Taking {len(self.path)} files"
-        # All of the page once, and then the number of files.
+        # Show the whole page once, then only the number of files.
         (self.show if len(self.path) == 2 else self.results.show_headline)()
         self._waiting = self.host.call_later(self._read_together, round(1000 * _TOGETHER))
 
@@ -196,17 +196,17 @@ class Measurement(Actions):
 
     @property
     def table(self) -> Any:
-        """The first rows of the table that is read or asked about, or None."""
+        """First rows of the table of the curve or the question, or None."""
         return getattr(self.question or self.curve, "table", None)
 
     @property
     def deflection(self) -> Remark | None:
-        """The remark that the depth lacks the stiffness of the cantilever, or None."""
+        """Remark that the depth needs the stiffness of the cantilever, or None."""
         return analysis.deflection(self.curve) if self.curve is not None else None
 
     @property
     def wanted(self) -> set[str]:
-        """Names of what the reader of the file asks for."""
+        """Names of missing inputs of the reader."""
         asked = (self.problem if self.curve is None else None), self.deflection
         names = {each.what for one in asked if one for each in one.remedy if each.action == "give"}
         return names | {"columns"} if self.question else names
@@ -217,7 +217,7 @@ class Measurement(Actions):
         return self.form.given(*CANTILEVER) | self.options
 
     async def read(self) -> None:
-        """Read the curve of the file, and fit it; or ask what its columns are."""
+        """Read the curve of the file and fit it, or ask about its columns."""
         confirmed = self.question is not None
         self.curve = self.taken = self.found = self.question = None
         self.rows = []
@@ -246,7 +246,7 @@ class Measurement(Actions):
         await self.fit()
 
     async def _ask(self, question: Any) -> None:
-        """Ask what the columns of a table are, or read it as another table with the same heads."""
+        """Ask about the columns of a table, or read it like an earlier table with the same heads."""
         known = self._known.get(question.table.key)
         if known and not self.options:
             self.options, cantilever = known
@@ -256,7 +256,7 @@ class Measurement(Actions):
             await self.read()
             return
         why = question.text if question.text.endswith("?") else f"{question.text.rstrip('.')}."
-        text = f"{self.file}: {why} Check what is chosen below, and press Read"
+        text = f"{self.file}: {why} Check the choices below, and press Read"
         self.question, self.problem = question, self.message(text, question.remedy)
         suggestion = question.suggestion
         with self.setting():
@@ -264,20 +264,20 @@ class Measurement(Actions):
         self.show()
 
     async def columns_changed(self) -> None:
-        """Read a file again that was read; a question is confirmed by its button."""
+        """Read a known file again; a question waits for its button."""
         if self.question is None:
             await self.read_as_chosen()
         else:
-            # What is drawn is what was suggested.
+            # The preview shows the suggestion.
             self.question.preview = None
             show(self.results.figures, visible=False)
 
     async def read_as_chosen(self) -> None:
-        """Read the file by the columns that are chosen."""
+        """Read the file with the chosen columns."""
         await self.read_with(self.form.columns.options())
 
     async def read_with(self, options: dict[str, Any]) -> None:
-        """Read the file by other columns, or by what else parts its curves."""
+        """Read the file with other columns, or with another option `by`."""
         self.options = options if "columns" in options else self.options | options
         self._samples = ()
         await self.read()
@@ -291,7 +291,7 @@ class Measurement(Actions):
 
     @property
     def ends(self) -> tuple[int, int]:
-        """Numbers of the first and the last sample that are fitted."""
+        """Numbers of the first and the last fitted sample."""
         count = len(self.curve)
         if self._samples and self._samples[0] < min(self._samples[1], count):
             return self._samples[0], min(self._samples[1], count)
@@ -302,7 +302,7 @@ class Measurement(Actions):
 
     @property
     def part(self) -> str | None:
-        """Which part of the curve is fitted: "all", "loading", "unloading", or None."""
+        """Fitted part of the curve: "all", "loading", "unloading", or None for another range."""
         return next((part for part in PARTS.values() if self._ends_of(part) == self.ends), None)
 
     def _set_medium(self, name: str) -> None:
@@ -310,7 +310,7 @@ class Measurement(Actions):
         self._medium = name
 
     async def medium_chosen(self) -> None:
-        """Fit another kind of sample. Of one hardness and another, what is held stays."""
+        """Fit another kind of sample; keep held parameters if both kinds yield."""
         before, name = self._medium, self.form.medium.value
         held = self.form.given("E_star", "contact_point", "baseline", "tilt", "drag")
         both_yield = before and name and MEDIA[before].letter and MEDIA[name].letter
@@ -336,7 +336,7 @@ class Measurement(Actions):
                 await self._fit_samples((first, last))
 
     async def _fit_samples(self, ends: tuple[int, int]) -> None:
-        # The usual ends are those without a choice.
+        # Without a choice, `ends` are the default ends.
         self._samples = ()
         self._samples = () if ends == self.ends else ends
         await self.fit()
@@ -352,7 +352,7 @@ class Measurement(Actions):
             self.problem = None
             self.taken = analysis.samples(self.curve, **self.form.corrections())
         if self.curve is not None and self.busy:
-            # The fit that runs is that of another tip or sample.
+            # The running fit is for another tip or sample.
             self.stop()
         if self.curve is None or self.form.missing() or self.deflection:
             self.show()
@@ -362,14 +362,14 @@ class Measurement(Actions):
         await self.modulus_chosen()
 
     async def modulus_chosen(self) -> None:
-        """Show Young's modulus of the sample by the numbers for it."""
+        """Compute and show Young's modulus of the sample."""
         self.problem = self.E = None
         if self.found is not None:
             self.E = self.form.modulus(self.found.quoted)
         self.show()
 
     async def fit_all(self) -> None:
-        """Fit each curve of the file as the one that is shown."""
+        """Fit each curve of the file like the shown curve."""
         self.rows = []
 
         def one(row: analysis.Row) -> None:
@@ -379,7 +379,7 @@ class Measurement(Actions):
             self.results.show_progress()
 
         request = self.form.request(True, self.ends if self._samples else ())
-        # A job may take some time only, and others have their turn between two of them.
+        # The time of a job is limited, and other sessions take turns between two jobs.
         for first in range(0, self.count, _CURVES):
             text, last = f"Fitting curve {first + 1} of {self.count}", min(first + _CURVES, self.count)
             given = self.path, self._reading, request, first, last
@@ -388,7 +388,7 @@ class Measurement(Actions):
 
     @pn.io.hold()
     def show(self) -> None:
-        """Show everything as it is."""
+        """Show the present state of the page."""
         with self.setting():
             self.form.show(self)
             self.results.show()

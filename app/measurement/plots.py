@@ -17,17 +17,17 @@ from ..common.ui import BOTH, WIDE, html, show
 from .analysis import contact_depth
 
 _NAMES = "others", "measured", "model", "noise", "residuals"
-#: What the legend names: rows by their sources, each with the role and the kind of its swatch.
+#: Rows of the legend by their sources, with role and kind of the swatch, and label.
 _LEGEND = {
     "others": ("free", "marks", "not fitted"), "measured": ("measured", "marks", "measured"),
     "model": ("elastic", "lines", "model"),
 }  # fmt: skip
 _KEY = Markup('<span class="{}"><i class="{}"></i>{}</span>')
 _HEAD = Markup('<h3>Force and depth</h3><span class="key">{}</span>')
-#: Air that is seen before first contact, as a share of the depth range of the contact.
+#: Visible air before first contact, relative to the depth range of the contact.
 _AIR = 1 / 3
 _FIGURES = {
-    "force": "Force over measured depth, as measured and of the model",
+    "force": "Measured force and force of the model over measured depth",
     "residual": "Residuals of the force over measured depth, between bounds of the noise",
 }
 
@@ -40,19 +40,19 @@ class Plots:
         self.force = figure(name="force plot", css_classes=["of-force"], x_range=(0, 1), **look)
         look |= {"name": "residual plot", "css_classes": ["of-residual"]}
         self.residual = figure(x_range=self.force.x_range, **look)
-        # The plot is low: labels of more values would touch each other.
+        # The plot is low: more labels would touch each other.
         self.residual.yaxis.ticker.desired_num_ticks = 3
         for each, name in ((self.force, "force"), (self.residual, "residual")):
             add_zoom(each)
-            # The same width inside the axes, so that depths stand below each other.
+            # The same width inside the axes aligns the depths.
             each.update(min_border_left=76, min_border_right=14)
             _style(each, _FIGURES[name])
         self.sources = {name: bk.ColumnDataSource({"x": [], "y": []}, name=name) for name in _NAMES}
-        #: Models with a property of theirs and its colours, light and dark: a browser knows which it shows.
+        #: Models, each with a property and its colours, light and dark; the browser chooses the theme.
         self.looks = [(model, name, ROLES[role]) for model, name, role in self._draw()]
         for model, name, colours in self.looks:
             setattr(model, name, colours[0])
-        # Ends of the axis of depth, as they were set last: others are those of a zoom.
+        # Last set ends of the axis of depth; other ends are a zoom.
         self._ends = (0.0, 1.0)
         self.head = html("", "head-of-plots")
         force, self._residual_pane = (pn.pane.Bokeh(each, **BOTH) for each in (self.force, self.residual))
@@ -77,11 +77,11 @@ class Plots:
         ]  # fmt: skip
 
     def show(self, taken: Any, used: np.ndarray, fit: Any = None) -> None:
-        """Show samples from a little before first contact on, and the fit of those that are used."""
+        """Show samples from a little before first contact, and the fit of the used samples."""
         length = fitting(float(np.max(np.abs(taken.depth))), "length")
         force = fitting(float(np.max(np.abs(taken.force))), "force")
         self.force.yaxis.axis_label = f"F, force ({force.name})"
-        # Named once, below the lower plot.
+        # One label, below the lower plot.
         self.residual.xaxis.axis_label = f"z, measured depth ({length.name})"
         self.force.xaxis.axis_label = "" if fit is not None else self.residual.xaxis.axis_label
         data = dict.fromkeys(_NAMES, (np.array([]), np.array([])))
@@ -92,7 +92,7 @@ class Plots:
             self.residual.yaxis.axis_label = f"residual ({small.name})"
             data["model"] = fit.depth, (fit.force - fit.residuals) / force.factor
             data["residuals"] = fit.depth, fit.residuals / small.factor
-            # Before first contact a rate at which the hardness falls is infinite, times a width of 0.
+            # Before first contact an infinite rate of the hardness is multiplied by a width of 0.
             with np.errstate(invalid="ignore"):
                 noise = np.broadcast_to(fit.residual_noise, fit.depth.shape) / small.factor
             order = np.argsort(fit.depth)
@@ -114,7 +114,7 @@ class Plots:
 
 
 class AllCurves:
-    """One figure of all curves of a file or a set; of a map, moduli at their positions."""
+    """Figure of all curves of a file or a set; for a map, moduli at their positions."""
 
     def __init__(self) -> None:
         look = {"sizing_mode": "stretch_width", "height": 280, "output_backend": "canvas", "tools": "save"}
@@ -140,7 +140,7 @@ class AllCurves:
         )
 
     def show(self, rows: list[Any]) -> None:
-        """Show the curves of rows, or E* at their positions where all have one."""
+        """Show the curves of rows, or E* at their positions if all rows have a position."""
         known = [row for row in rows if row.samples is not None]
         found = [row for row in rows if row.E is not None]
         placed = bool(found) and all(row.position is not None for row in rows)
@@ -176,13 +176,13 @@ def _style(plot: Any, name: str) -> None:
 
 
 def _begin(depth: np.ndarray, contact: float | None) -> float:
-    """Return the depth (m) from which on a contact is drawn, −∞ for a curve without air."""
+    """Return the first shown depth (m) before a contact, −∞ for a curve without air."""
     within = 0.0 if contact is None else float(np.max(depth)) - contact
     return contact - _AIR * within if contact is not None and within > 0 else -inf
 
 
 def _reach(values: np.ndarray, margin: float) -> tuple[float, float]:
-    """Return the ends of an axis with all values and a margin."""
+    """Return the ends of an axis for all values with a margin."""
     known = values[np.isfinite(values)]
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
     wide = margin * ((high - low) or 1.0)
@@ -190,9 +190,9 @@ def _reach(values: np.ndarray, margin: float) -> tuple[float, float]:
 
 
 def _set(*axes: tuple[Any, float, float]) -> bool:
-    """Set the ends of axes, also where they are reset, if one has changed: else a zoom stays.
+    """Set the ends of axes, and the ends of a reset, if an end has changed; otherwise keep a zoom.
 
-    Return whether one has changed.
+    Return whether an end has changed.
     """
     changed = any((axis.reset_start, axis.reset_end) != (start, end) for axis, start, end in axes)
     for axis, start, end in axes if changed else ():

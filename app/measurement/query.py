@@ -1,4 +1,4 @@
-"""The link of the page: what is chosen and typed, in SI, and how the file is read."""
+"""The link of the page: chosen and typed values, in SI, and options of the reader."""
 
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -11,19 +11,19 @@ from mdr_core.measurements.reading import WORDS
 from ..common.upload import in_line
 from .choices import FITTED, MEDIA, NUMBERS, TIPS
 
-#: Most characters of a link that is read, and most parts of a table in it.
+#: Largest numbers of characters of a link, and of parts of a table in it.
 _LENGTH, _PARTS = 4000, 100
-#: Quantities of the columns of a table, and most characters of their units.
+#: Quantities of the columns of a table, and largest number of characters of their units.
 _ROLES, _UNIT = ("depth", "piezo", "force", "time", "stiffness"), 12
 
 
 @dataclass(frozen=True)
 class Link:
-    """What a link asks for.
+    """Content of a link.
 
-    `numbers` differ from the first ones of the kind of sample, None for a fitted parameter. `samples` are
-    the numbers of the first and last sample, () for those of the kind of sample. `options` are columns and
-    what parts curves, as `mdr_core.read_curves` has them.
+    `numbers` differ from the defaults of the kind of sample; None is a fitted parameter. `samples` are the
+    numbers of the first and last sample, () for the default of the kind of sample. `options` are `columns`
+    and `by` of `mdr_core.read_curves`.
     """
 
     file: str = ""
@@ -44,7 +44,7 @@ class Link:
 
 
 def read(query: str) -> Link:
-    """Return what a link asks for, without what is not known or not valid."""
+    """Decode a link, without unknown names and invalid values."""
     given = dict(parse_qsl(query[:_LENGTH]))
     numbers: dict[str, float | None] = {}
     for name, known in (NUMBERS | FITTED).items():
@@ -69,7 +69,7 @@ def read(query: str) -> Link:
 
 
 def _pairs(columns: Any, by: Any) -> dict[str, str]:
-    """Return pairs of a query; columns of several parts are separated by semicolons."""
+    """Encode `columns` and `by` as pairs of a query; semicolons separate several parts."""
     parts = columns if isinstance(columns, list) else [columns]
     pairs: dict[str, str] = {}
     for role in _ROLES:
@@ -83,7 +83,7 @@ def _pairs(columns: Any, by: Any) -> dict[str, str]:
 
 
 def _columns(given: dict[str, str]) -> Any:
-    """Return the columns in a link: one choice, or a list of several parts."""
+    """Decode the columns in a link: a dictionary, or a list for several parts."""
     texts = {role: given.get(f"{role}_column", "").split(";")[:_PARTS] for role in _ROLES}
     parts: list[dict[str, Any]] = [{} for _ in range(max(map(len, texts.values())))]
     for role, cells in texts.items():
@@ -97,7 +97,7 @@ def _columns(given: dict[str, str]) -> Any:
 
 
 def _by(given: dict[str, str]) -> Any:
-    """Return what parts the curves: a word, the number of a column, or several numbers."""
+    """Decode `by`: a word, the number of a column, several numbers, or None if it is invalid."""
     text = given.get("by", "")
     numbers = text.split(",")
     if text in WORDS:

@@ -1,4 +1,4 @@
-"""Buttons for what one can do about a remark."""
+"""Buttons for the remedies of remarks."""
 
 from functools import partial
 from typing import Any
@@ -11,7 +11,7 @@ from ..common.ui import button, call
 from . import texts
 from .choices import CLASS_NAMES, FITTED, MEDIA, NUMBERS, OF_CLASS
 
-#: What parts the curves of a table.
+#: Labels of the buttons that part the curves of a table.
 _BY = {
     "whole": "Read it as one curve",
     "gaps": "Part the curves at empty lines",
@@ -20,7 +20,7 @@ _BY = {
 
 
 def remedy_button(remedy: Remedy, page: Any) -> Any:
-    """Return the button of a remedy, or None for what is done already or cannot be done on the page."""
+    """Return the button of a remedy, or None if it is done already or impossible on the page."""
     what, value, form = remedy.what, remedy.value, page.form
     shown = form.parameters(page.curve is None or page.curve.time is not None)
     is_fitted = what in shown and form.value(what) is None
@@ -33,7 +33,7 @@ def remedy_button(remedy: Remedy, page: Any) -> Any:
         case "free" if what in shown and not is_fitted:
             return button(f"Free the {name}", partial(set_number, si=None))
         case "hold" if is_fitted and value is None:
-            # At the value that was found, unless the user knows another one.
+            # Hold the fitted value unless the user knows another value.
             found = page.found and float(page.found.fit.to_dict()[what])
             return _leading(
                 page, f"Hold the {name}", what, *([partial(set_number, si=found)] if found else [])
@@ -60,7 +60,7 @@ def remedy_button(remedy: Remedy, page: Any) -> Any:
 
 
 def _of_table(remedy: Remedy, page: Any) -> Any:
-    """Return the button for a unit, a column, or what parts the curves of a table."""
+    """Return the button for a unit, a column, or the option `by` of a table."""
     what = {"piezo": "depth"}.get(remedy.what, remedy.what)
     if what == "by" and remedy.value:
         options = {"by": remedy.value}
@@ -71,14 +71,14 @@ def _of_table(remedy: Remedy, page: Any) -> Any:
         return _leading(page, f"Look at the unit of {what}", f"unit-{what}")
     if what in SIZES:
         return _leading(page, f"Give the column of {what}", what)
-    # A question about the columns stands where they are chosen.
+    # A question about the columns is next to their choosers.
     if what == "columns" and page.question is None:
         return _leading(page, "Choose the columns", "depth")
     return None
 
 
 def _is_better(letter: str, page: Any) -> bool:
-    """Whether a class of hardness fits better, and has no button beside the classes yet."""
+    """Whether a class of hardness fits better, and has no button next to the classes yet."""
     own = MEDIA[page.form.medium.value].letter if page.form.medium.value else ""
     known = texts.misfits(page.found) if page.found and own else {}
     if letter not in known:
@@ -97,7 +97,7 @@ def _class(letter: str, page: Any) -> tuple[str, Any]:
 
 
 def _leading(page: Any, label: str, name: str, *acts: Any) -> Any:
-    """Return a button that leads to a field, which may be folded."""
+    """Return a button that leads to a field, also in a fold."""
 
     def lead() -> None:
         page.form.reader.collapsed = False

@@ -1,4 +1,4 @@
-"""The right column: the number to quote, why it is that one, the curve over the model, and its files."""
+"""The right column: the number to quote with its reasons, the curve with the model, and downloads."""
 
 from functools import partial
 from importlib.util import find_spec
@@ -23,14 +23,14 @@ from .widgets import ERROR, fold
 
 _HERE = Path(__file__).parent
 _SLIDER = (_HERE / "slider.css").read_text(encoding="utf-8")
-#: Files that are dropped together are sent at once; a browser would send two every two seconds.
+#: Send all dropped files at once; by default a browser sends two files every two seconds.
 _DROPS = "FilePond.setOptions({maxParallelUploads: 1000, itemInsertInterval: 0})"
 _REMARK = Markup("<p>{}</p>")
 _EXPLORER = Markup('<a href="?{}">Model of this curve in the explorer</a>')
 
 
 class Results:
-    """The right column of a page."""
+    """Right column of a page."""
 
     def __init__(self, page: Any):
         self._page = page
@@ -69,7 +69,7 @@ class Results:
     def _tools(self) -> None:
         page = self._page
         self.cancel = button("Cancel", page.cancel, visible=False)
-        # Of the width of a hidden field a row would be as wide.
+        # The width of a hidden field would set the width of the row.
         self.report = pn.widgets.TextInput(visible=False, **WIDE)
         self.copy = button("Copy")
         self.copy.js_on_click(args={"field": self.report}, code=call("copy", "field"))
@@ -100,7 +100,7 @@ class Results:
         self.range = pn.Row(self.part, slider, css_classes=["range"], visible=False, **WIDE)
 
     def _curves(self) -> None:
-        """Make what a file with several curves has."""
+        """Make the parts for a file with several curves."""
         page = self._page
         self.number = pn.widgets.IntInput(
             label="Curve", start=1, end=2, value=1, css_classes=["choice", "curve-number"], **WIDE
@@ -111,7 +111,7 @@ class Results:
         self.summary, self.list = html("", "note"), html("", "curves", visible=False)
         csv = download("All as CSV", self._csv, filename="curves.csv")
         excel = download("All as Excel", self._excel, filename="curves.xlsx")
-        # A static page has no package that writes Excel files.
+        # A static page has no package for Excel files.
         excel.visible = find_spec("openpyxl") is not None
         files = {"visible": False, "sizing_mode": None, "margin": 0}
         self.curves_files = pn.Row(csv, excel, css_classes=["tools"], **files)
@@ -122,7 +122,7 @@ class Results:
         self.several = pn.Column(*parts, css_classes=["several"], visible=False, **WIDE)
 
     def _table(self) -> mdr.CurveTable:
-        """Return all curves that are fitted, as a table."""
+        """Return all fitted curves as a table."""
         page = self._page
         settings = {"made by": f"mdr_core {mdr.__version__}", "file": page.file} | page.form.settings()
         if page.unread:
@@ -152,7 +152,7 @@ class Results:
         return tuple(dict.fromkeys(every))
 
     def contents(self) -> dict[str, Any]:
-        """Return what the files of a fit have."""
+        """Return the contents of the files of a fit."""
         page = self._page
         about = {"file": page.file, "curve": self.number.value - 1, "length": len(page.curve), "E": page.E}
         about["remarks"] = self.all_remarks()
@@ -161,10 +161,10 @@ class Results:
     def _written(self, write: Any) -> StringIO:
         return StringIO(write(self._page.found, self.contents()))
 
-    # What is shown.
+    # Display.
 
     def show(self) -> None:
-        """Show the page as it is."""
+        """Show the present state of the page."""
         page = self._page
         self.show_headline()
         found = page.found
@@ -187,7 +187,7 @@ class Results:
         self._show_curves()
 
     def show_headline(self) -> None:
-        """Show the number, or what is done or missing."""
+        """Show the number, the running job, or the missing input."""
         show(self.cancel, visible=bool(self._page.busy))
         show(self.headline, object=self._headline())
 
@@ -236,7 +236,7 @@ class Results:
         show(of_unloading, visible=found.unloading is not None)
         if found.unloading is not None:
             show(self.unloading, object=texts.unloading_table(found.unloading))
-        # The doubt that withholds the number is the reason that is given.
+        # Omit the remark that is already the reason for no number.
         reason = found.quoted.reason if found.quoted.value is None else ""
         every = [each for each in self.all_remarks() if each not in seen and not reason.endswith(each.text)]
         every += map(page.message, texts.limits(found, page.form.tip.value, page.form.medium.value))
@@ -248,7 +248,7 @@ class Results:
         name = f"{Path(page.file).stem}_fit"
         for kind, widget in self.files.items():
             show(widget, filename=f"{name}.{kind}")
-        # What a saved picture needs besides.
+        # Name and caption of a saved picture.
         self.plots.force.tags = [name, texts.caption(found, page.E, page.file)]
         shown = form.parameters(found.fit.time is not None)
         given = form.corrections() | form.given("depth_noise")
@@ -293,7 +293,7 @@ class Results:
         show(self.list, visible=done, object=texts.curves_table(page.rows, page.file) if done else "")
 
     def show_progress(self) -> None:
-        """Show how many curves of a file are fitted."""
+        """Show the number of fitted curves of a file."""
         page = self._page
         running = bool(page.busy) and bool(page.rows)
         show(self.progress, visible=running, max=max(page.count, 1), value=len(page.rows))
@@ -303,7 +303,7 @@ class Results:
         show(self.summary, object=text)
 
     def fill(self, column: Any, remarks: Any, form: Markup = _REMARK) -> None:
-        """Show remarks below each other, each with buttons for what one can do about it."""
+        """Show remarks in a column, each with buttons for its remedies."""
         page, parts = self._page, []
         for remark in remarks:
             buttons = [each for each in (remedy_button(one, page) for one in remark.remedy) if each]

@@ -18,11 +18,11 @@ from mdr_core.show.units import KINDS, digits, fitting, with_unit, written
 from ..common.ui import html_subscripts, own_html
 from .choices import CLASS_NAMES, FITTED, MEDIA, NUMBERS
 
-#: The page before there is a curve, and what holds for every number, which no remark repeats.
+#: The page without a curve; and assumptions of every number, which no remark repeats.
 WELCOME, HELP = (own_html(Path(__file__).with_name(name)) for name in ("welcome.html", "help.html"))
-#: Ratio of misfits from which another class fits clearly better.
+#: Smallest ratio of misfits for which another class fits clearly better.
 _CLEARLY = 5.0
-#: Relative error below which an error is that of the arithmetic.
+#: Relative error below which only the arithmetic has an error.
 _EXACT = 1e-6
 _SOURCES = {"unloading": "from the unloading, by Oliver and Pharr", "fit": "from the fit"}
 _LARGE = Markup('<p class="big">E* = <output>{}</output></p><p class="of">Effective modulus, {}.{}</p>')
@@ -31,18 +31,18 @@ _TO_DO = Markup('<p class="big none">{}</p><p class="of">{}</p>')
 _WAITING = Markup('<p class="waiting" role="status">{} …</p>')
 _TABLE, _ROW = Markup("<table>{}</table>"), Markup("<tr class='{}'><th>{}</th>{}</tr>")
 _CELL, _MORE = Markup("<td>{}</td>"), Markup("<p>{} more are in the CSV.</p>")
-#: Most curves of a file that are listed.
+#: Largest number of listed curves of a file.
 _LISTED = 300
 GIVE_POISSON = Markup('<p class="of">Give ν on the left for Young’s modulus E of the sample.</p>')
 _NOT_QUOTED = Markup(
-    "<p>The model’s own {} not to be quoted: its contact radius is that of an elastic contact.</p>"
+    "<p>The model’s own {} not to be quoted: it assumes the radius of an elastic contact.</p>"
 )
 
 
 def sentence(text: str, file: str = "") -> Markup:
-    """Return a remark as a sentence: a capital, symbols with indices, true minus signs.
+    """Return a remark as a sentence, with a capital letter, indices in symbols and true minus signs.
 
-    The name of a file in it, which may look like a symbol, stays as it is.
+    The name of a file in the remark, which may look like a symbol, stays unchanged.
     """
     first = text.partition(" ")[0]
     if first == "a" or (first[1:].isalpha() and not (file and text.startswith(file))):
@@ -73,39 +73,39 @@ def short(value: float, error: float | None, unit: str) -> tuple[str, str]:
 
 
 def near(value: float, kind: str, like: float = 0.0) -> str:
-    """Return a value with its unit; 0 has that of the value `like`."""
+    """Return a value with its unit; 0 has the unit of the value `like`."""
     return written(value, kind) if value else with_unit("0", fitting(0.0, kind, like).name)
 
 
 def value_of(fit: Any, name: str) -> str:
-    """Return a parameter of a fit with its error, or as it was held."""
+    """Return a fitted parameter with its error, or a held parameter."""
     if name in ("hardness", "q_c", "f_c") and name in fit.standard_errors and np.isinf(fit.medium.q_c):
         return "∞: nothing has yielded"
     return amount(fit.to_dict()[name], fit.standard_errors.get(name), PARAMETERS[name].quantity.unit)
 
 
 def waiting(text: str) -> Markup:
-    """Return the headline while something is done."""
+    """Return the headline while a job runs."""
     return _WAITING.format(text)
 
 
 def to_do(what: str, how: str = "Then the fit runs at once.") -> Markup:
-    """Return the headline that says what is missing."""
+    """Return the headline with the missing input."""
     return _TO_DO.format(what, how)
 
 
 def headline(found: Any, E: tuple[float, float] | None, assumed: list[str], others: str = "") -> Markup:
-    """Return the number to quote, large, with its source and error, what is assumed, and other curves."""
+    """Return the number to quote, large, with its source, error and assumptions, and other curves."""
     quoted = found.quoted
     if quoted.source is None:
         return _TO_DO.format("No E* to quote", "")
     number, noise = short(quoted.value, quoted.standard_error, "Pa")
-    told = [f"± {noise} of noise"] * bool(noise)
-    told += [f"{' and '.join(assumed)} {'are' if len(assumed) > 1 else 'is'} assumed"] * bool(
+    notes = [f"± {noise} of noise"] * bool(noise)
+    notes += [f"{' and '.join(assumed)} {'are' if len(assumed) > 1 else 'is'} assumed"] * bool(
         noise and assumed
     )
-    told += [others] * bool(others)
-    html = _LARGE.format(number, _SOURCES[quoted.source], f" {'; '.join(told)}." * bool(told))
+    notes += [others] * bool(others)
+    html = _LARGE.format(number, _SOURCES[quoted.source], f" {'; '.join(notes)}." * bool(notes))
     for symbol, value, error, name in _beside(found, E):
         number, noise = short(value, error, "Pa")
         html += _SECOND.format(symbol, number, f" ± {noise}" * bool(noise), name)
@@ -122,7 +122,7 @@ def _beside(found: Any, E: tuple[float, float] | None) -> Iterator[tuple[str, fl
 
 
 def of_curves(rows: list[Any], what: str) -> str:
-    """Return the range of E* of the curves of a file or a set, nothing of one curve."""
+    """Return the range of E* of the curves of a file or a set, or an empty text for one curve."""
     known = [row.E for row in rows if row.E is not None]
     if len(known) < 2:
         return ""
@@ -142,7 +142,7 @@ def why(found: Any) -> Markup:
 
 
 def _table(*rows: tuple[Any, ...], own: Any = None) -> Markup:
-    """Return rows as a table; the row whose heading is `own` stands out."""
+    """Return rows as a table, and emphasize the row with the heading `own`."""
     cells = ((row[0], Markup("").join(map(_CELL.format, row[1:]))) for row in rows)
     return _TABLE.format(
         Markup("").join(_ROW.format("own" * (head == own), head, rest) for head, rest in cells)
@@ -150,13 +150,13 @@ def _table(*rows: tuple[Any, ...], own: Any = None) -> Markup:
 
 
 def unloading_table(result: Any) -> Markup:
-    """Return the numbers of Oliver and Pharr and of ISO 14577 that the record has."""
+    """Return the numbers of Oliver and Pharr and of ISO 14577 as a table."""
     named = ((OLIVER_PHARR[name], text) for name, text in texts_of(result).items())
     return _table(*((html_subscripts(f"{q.symbol} {q.long_name}"), _minus(text)) for q, text in named))
 
 
 def verdict(found: Any) -> str:
-    """Return what the samples say of the class of hardness."""
+    """Return a sentence on the class of hardness of the curve."""
     if found.verdict is None:
         return ""
     if len(found.verdict.possible) > 1:
@@ -168,20 +168,20 @@ def verdict(found: Any) -> str:
 
 
 def misfits(found: Any) -> dict[str, float]:
-    """Return the misfit of each class over the largest force, nothing without a verdict."""
+    """Return the misfit of each class over the largest force, or nothing without a verdict."""
     known = found.fit.classes.items() if found.verdict else ()
     return {letter: float(each.misfit) for letter, each in known}
 
 
 def better(found: Any, own: str) -> str:
-    """Return the class that fits clearly better than the one that was fitted, or nothing."""
+    """Return the class that fits clearly better than the fitted class, or an empty text."""
     known = misfits(found)
     best = min(known, key=known.__getitem__, default="")
     return best if best != own and _CLEARLY * known[best] <= known.get(own, np.inf) else ""
 
 
 def classes_table(found: Any, own: str) -> Markup:
-    """Return the misfit of each class, and which class the curve is of."""
+    """Return a table with the misfit of each class, and the class of the curve."""
     heads = {letter: f"({letter}) {CLASS_NAMES[letter]}" for letter in misfits(found)}
     rows = (
         (heads[letter], f"{100 * misfit:.2g} %", "fitted" * (letter == own))
@@ -192,7 +192,7 @@ def classes_table(found: Any, own: str) -> Markup:
 
 
 def curves_table(rows: list[Any], file: str) -> Markup:
-    """Return the curves of a file or a set, those without a number first."""
+    """Return a table of the curves of a file or a set; curves without a number come first."""
     ordered = sorted(rows, key=lambda row: row.E is not None)
     cells = (
         (row.name, *(_found(*pair) for pair in ((row.E, row.E_error), (row.H, row.H_error))),
@@ -208,7 +208,7 @@ def _found(value: float | None, error: float | None) -> str:
 
 
 def curves_summary(count: str, table: Any) -> str:
-    """Return how many curves are fitted, mean and standard deviation of E*, E and H, and the medians."""
+    """Return the number of fitted curves, and mean, standard deviation and median of E*, E and H."""
     parts, summary = [count], table.summary().to_dict("index")
     for name, symbol in {"E*": "E*", "E": "E", "hardness": "H"}.items():
         if known := summary.get(name):
@@ -223,14 +223,14 @@ def curves_summary(count: str, table: Any) -> str:
 
 
 def limits(found: Any, tip: str, medium: str) -> list[str]:
-    """Return assumptions that are exceeded, except those of every such tip and sample."""
+    """Return exceeded assumptions, except assumptions that every such tip or sample exceeds."""
     known = {"slope"} if tip in ("berkovich", "cube_corner", "cone") else set()
     known |= {"flow"} if MEDIA[medium].letter == "a" else set()
     return [each.sentence for each in found.fit.path.limits if each.exceeded and each.what not in known]
 
 
 def range_text(curve: Any, ends: tuple[int, int], fitted: bool) -> str:
-    """Return the samples that are fitted, with depth and force of the first and the last one."""
+    """Return the range of the fitted samples, with depth and force at both ends."""
     deepest, largest = (float(np.max(np.abs(each))) for each in (curve.depth, curve.force))
     places = [
         f"{k} ({near(float(curve.depth[k - 1]), 'length', deepest)}, "
@@ -241,7 +241,7 @@ def range_text(curve: Any, ends: tuple[int, int], fitted: bool) -> str:
 
 
 def caption(found: Any, E: tuple[float, float] | None, file: str) -> str:
-    """Return the name of a file with the numbers of its fit, as one line."""
+    """Return the name of a file with the numbers of its fit in one line."""
     quoted = found.quoted
     if quoted.source is None:
         return f"{file}: no E* to quote"
@@ -256,7 +256,7 @@ def caption(found: Any, E: tuple[float, float] | None, file: str) -> str:
 def report(
     found: Any, E: tuple[float, float] | None, file: str, shown: list[str], corrections: dict[str, float]
 ) -> str:
-    """Return a fit as lines of text to be pasted into a report."""
+    """Return a fit as lines of text for a report."""
     lines = [
         caption(found, E, file) if found.quoted.source else f"{file}: No E* to quote: {found.quoted.reason}"
     ]

@@ -1,4 +1,4 @@
-"""Widgets of the page: a number with its unit, a field for a file, lists and folds."""
+"""Widgets of the page: number with unit, field for a file, list and fold."""
 
 from collections.abc import Callable
 from typing import Any, ClassVar
@@ -15,25 +15,25 @@ from ..common.units import entry, read
 from ..common.upload import PART_BYTES, SESSION_BYTES, Uploads
 from .choices import Number
 
-#: A text that says why something was not taken.
+#: Message of an error.
 ERROR = Markup('<p class="refused" role="alert">{}</p>')
 _LABEL = Markup("<span><i>{}</i> {}</span>")
 
 
 def select(label: str, options: Any, *classes: str) -> Any:
-    """Return a list to choose from."""
+    """Return a drop-down list."""
     return field(pn.widgets.Select, *classes, label=label, options=options)
 
 
 def fold(title: str, *parts: Any, **options: Any) -> Any:
-    """Return a card that opens."""
+    """Return a card that folds."""
     return pn.Card(*parts, title=title, **{"collapsed": True, "css_classes": ["fold"]} | WIDE | options)
 
 
 class UnitInput(pn.widgets.TextInput):
-    """A number with its unit, such as "10 µm"; `si` is its value, None while the field is empty.
+    """Number field with a unit, such as "10 µm"; `si` is its value, None while the field is empty.
 
-    `error` says why the last text was not taken; it is shown below the field.
+    `error` is the reason why the last text was rejected, shown below the field.
     """
 
     si = param.Number(None, allow_None=True)
@@ -50,7 +50,7 @@ class UnitInput(pn.widgets.TextInput):
         self.param.watch(self._show, "si")
 
     def set(self, si: float | None) -> None:
-        """Set the value, instead of a text that was not taken too."""
+        """Set the value, which also replaces a rejected text."""
         self.si, self._unit = si, self._first
         self._show()
 
@@ -63,7 +63,7 @@ class UnitInput(pn.widgets.TextInput):
     def _process_param_change(self, params: dict[str, Any]) -> dict[str, Any]:
         found = super()._process_param_change(params)
         if "title" in found:
-            # Bokeh takes HTML, for indices of symbols; Panel a text.
+            # Bokeh accepts HTML, which indices of symbols need; Panel only text.
             title = _LABEL.format(html_subscripts(self._known.symbol), self._known.label)
             found["title"] = HTML(html=[title])
         return found
@@ -99,7 +99,7 @@ class UnitInput(pn.widgets.TextInput):
 
 
 def show_errors(column: pn.Column) -> pn.Column:
-    """Show the error of each number field of a column below the field."""
+    """Show the error of each number field in a column below the field."""
 
     errors: dict[UnitInput, Any] = {}
 
@@ -118,9 +118,9 @@ def show_errors(column: pn.Column) -> pn.Column:
 
 
 class FileField(pn.widgets.FileDropper):
-    """A field for a file of bounded size, which comes in parts.
+    """Field for a file of bounded size, which arrives in parts.
 
-    `take` gets name, data and beginning of a file, as `Uploads.add` returns them; `refuse` gets a text.
+    `take` gets name, data and start time of a file, as `Uploads.add` returns them; `refuse` gets an error.
     """
 
     def __init__(

@@ -1,18 +1,17 @@
-// Parts of the page: `payload` says how many messages are answered and what is seen. The server hears the name of a part and
-// what is done with it. A part is made of what is told of it first; what may change later is shown by the function beside it.
+// Parts of the page. `payload` has the number of answered messages and the looks of the visible parts. The browser sends the
+// name of a part and the user's action. A maker in KINDS returns an element and a function that shows later looks.
 import { make_player } from "./player.js"
 import { save } from "./save.js"
 
 const made = (tag, className, innerHTML = "") => Object.assign(document.createElement(tag), { className, innerHTML })
-// The scale of a slider: values as they stand along it, linear or logarithmic, and back.
+// Scales of a slider: from values to places along it, linear or logarithmic, and back.
 const SCALES = { linear: [Number, Number], logarithmic: [Math.log, Math.exp] }
-// A number, typed with its unit or dragged. What is typed is sent at once; of a drag one value is under way, and what is
-// dragged meanwhile is a wish, which replaces what waits. What was refused stays in its field, to be corrected.
+// A number, typed with its unit or dragged. Typed text is sent at once. A drag sends one value at a time; the latest value
+// waits as a wish until the answer. Rejected text stays in the field for correction.
 class NumberPart {
   constructor({ label, spoken, about, span, id }, send) {
     this.send = send
-    // What the server has told last, how many messages it has answered, and how many are asked; a wish, and whether a
-    // person types.
+    // The last look from the server, the numbers of answered and sent messages, the wish, and whether the user types.
     Object.assign(this, { now: null, answered: 0, asked: 0, wish: null, typing: false })
     this.scale = span > 0 ? "logarithmic" : "linear"
     this.el = made("div", "number", `<div class="row"><label for="text-${id}">${label}</label>
@@ -29,13 +28,13 @@ class NumberPart {
   listen() {
     const { text, range, help, about } = this
     range.addEventListener("input", () => this.drag())
-    // What waits when the slider is let go is sent at once: an answer may have been lost.
+    // Send the wish when the user releases the slider: an answer may have been lost.
     range.addEventListener("change", () => this.askWish())
     range.addEventListener("dblclick", () => this.ask({ value: this.now.middle }))
     text.addEventListener("input", () => { this.typing = true })
     text.addEventListener("change", () => this.ask({ text: text.value }))
     text.addEventListener("focus", () => text.select())
-    // Typed and left as it was.
+    // The user has typed but not changed the text.
     text.addEventListener("blur", () => { this.typing = false; this.show() })
     text.addEventListener("keydown", ({ key }) => (key === "Escape" ? this.ask({}) : key === "Enter" && text.select()))
     help.addEventListener("click", () => { help.ariaExpanded = String(!(about.hidden = !about.hidden)) })
@@ -58,7 +57,7 @@ class NumberPart {
     this.show()
     if (!this.busy) this.askWish()
   }
-  // The step of the slider for the present value, and the value for its step: three digits, but at the ends.
+  // The step of the slider for the present value; and the value for its step, with three digits except at the ends.
   step() {
     const [scaled] = SCALES[this.scale], { value, low, high } = this.now
     return this.range.max * (scaled(value) - scaled(low)) / (scaled(high) - scaled(low))
@@ -71,7 +70,7 @@ class NumberPart {
   }
   share() { this.range.style.setProperty("--share", this.range.value / this.range.max) }
   show() {
-    // An answer to an earlier value, or another change of the page, does not touch what is being typed.
+    // An answer to an earlier value, or another change of the page, does not replace text while the user types.
     if (this.busy || this.typing) return
     this.showText()
     this.showSlider()
@@ -109,14 +108,14 @@ const KINDS = {
     const el = made("button", "act")
     Object.assign(el, { onclick: () => send(null) }).dataset.key = key
     return [el, ({ label, pressed, disabled }) => {
-      // What is unfolded below it may be below the window.
+      // The unfolded part may be below the window.
       const opened = pressed && el.ariaPressed === "false" && el.matches(":focus")
       if (opened && key === "fold") requestAnimationFrame(() => el.scrollIntoView())
       if (opened && opens) pages.reveal(opens)
       Object.assign(el, { textContent: label, name: label, disabled, ariaPressed: pressed })
     }]
   },
-  // A picture of plots, saved in the browser: each with its figure and its place.
+  // Save plots as a picture in the browser; each plot has its figure and its place.
   save({ plots, size }, send, named) {
     const [el, show] = KINDS.button({ key: "" })
     let [looks, scene, file] = [[], "", ""]
@@ -131,7 +130,7 @@ const KINDS = {
       ? `<div class="radio"><button class="word" popovertarget="about-${id}">${label}</button>${popover}<div class="options"></div></div>`
       : `<div class="list"><label for="list-${id}">${label}</label><select id="list-${id}" title="${label}"></select>${help}</div>`)
     const list = el.querySelector(radio ? ".options" : "select")
-    // What is chosen before the answer to an earlier option waits, and replaces what waits.
+    // An option chosen before the last answer waits, and replaces an option that waits.
     let [asked, done, wish, offered] = [0, 0, null, ""]
     const choose = (option) => {
       if (done < asked) wish = option
@@ -148,7 +147,7 @@ const KINDS = {
     return [el, ({ options, value }, answered) => {
       if (offered !== JSON.stringify(options)) filled(options)
       offered = JSON.stringify(options)
-      // Also what was refused is answered: the present option stands again. Earlier answers do not touch what is asked now.
+      // The answer to a rejected option restores the present option. Answers to earlier options change nothing.
       done = answered
       if (done < asked) return
       if (wish !== null) return choose(wish)
@@ -166,7 +165,7 @@ const KINDS = {
     const { el, show } = make_player({ messages: named("messages"), figures, ask })
     return [el, (look, answered) => show(look, answered < asked)]
   },
-  // A file, chosen or dropped. Its size is looked at first: a message that is too large ends the session.
+  // A chosen or dropped file. Check its size first: a message that is too large ends the session.
   file({ label, accept, most, id }, send) {
     const el = made("div", "file", `<label for="file-${id}">${label}</label><input id="file-${id}" type="file" accept="${accept}" aria-describedby="said-${id}">
       <p class="said" id="said-${id}" aria-live="polite"></p>`)
@@ -176,7 +175,7 @@ const KINDS = {
       if (!file) return
       const data = file.size > most ? null : await file.arrayBuffer()
       send({ name: file.name, size: file.size, data })
-      // Else a file of the same name is not read again.
+      // Otherwise a file of the same name is not read again.
       input.value = ""
     })
     return [el, ({ refused, busy }) => {
@@ -190,9 +189,9 @@ export function render({ model, el, view }) {
   el.classList.add("parts")
   const parts = new Map(), named = (name) => view.model.document.get_model_by_name(name)
   let [asked] = JSON.parse(model.payload)
-  // What was acted on last: its name, and its place among the parts that are seen. Where its answer takes the focus away, as a
-  // button that is gone or a plot that is laid out anew, that part gets it, or the one that has its place: else the focus
-  // begins at the top of the page. It is kept by the model, because a new layout renders all anew.
+  // Name and place of the part of the last action. The answer may remove the focus, because a button disappears or a plot gets
+  // a new layout. Then this part, or the part at its place, gets the focus; otherwise it would go to the top of the page. The
+  // model is the key, because a new layout renders everything again.
   const focus = (names, seen) => {
     const { name, place } = ACTED.get(view.model)
     ACTED.delete(view.model)
@@ -203,7 +202,7 @@ export function render({ model, el, view }) {
   }
   const sender = (name) => (what) => {
     const seen = [...el.children].filter((part) => !part.hidden), [part] = parts.get(name)
-    // What a key does from elsewhere, as Ctrl+Z, leaves the focus where it is.
+    // An action by a key from elsewhere, such as Ctrl+Z, leaves the focus unchanged.
     if (part.contains(part.getRootNode().activeElement)) ACTED.set(view.model, { name, place: seen.indexOf(part) })
     model.send_msg([name, what])
     return asked += 1

@@ -1,16 +1,16 @@
-// The player: a button and a slider that move through the states of a scene, on the page and in a saved scene. It asks null
-// when a move begins, and the state in which it ends. Other scripts find it as `player`.
+// The player: a button and a slider that move through the states of a scene, on the page and in a saved scene. It calls `ask`
+// with null when a move begins, and with the last state when it ends. Other scripts use it as `player`.
 export function make_player({ messages, figures, ask }) {
   const el = Object.assign(document.createElement("div"), { className: "player" })
   el.innerHTML = `<button class="act"></button><select class="speed" aria-label="Speed of the player" hidden>
     <option value="1">1×</option><option value="0.5">½×</option><option value="0.25">¼×</option></select><div class="along"><input type="range" aria-label="State along the path"><div class="marks"></div></div>`
   const [button, speed, range, marked] = ["button", "select", "input", ".marks"].map((each) => el.querySelector(each))
-  // The state that is seen, and the one that the server has drawn last.
+  // The visible state, and the last state drawn by the server.
   let [value, drawn, moving, wait] = [0, 0, false, null]
-  // When the first state was, or would have been, played.
+  // Time at which the first state was, or would have been, played.
   let begin = null
   let [sources, places, words, times] = []
-  // A gap in a line is null in a text, which would be drawn as zero.
+  // A gap in a line is null in JSON; the plot would draw null as zero.
   const read = (text) => JSON.parse(text, (_, part) => part ?? NaN)
   const stand = (k) => {
     range.value = value = Math.min(k, range.max)
@@ -42,8 +42,8 @@ export function make_player({ messages, figures, ask }) {
     moving = false
     ask(value)
   }
-  // The number of the last state, and that of the state which the server has drawn: it is seen unless the player moves,
-  // which it does not while a playing one waits for frames. An answer to an `earlier` move does not undo the last one.
+  // Take the numbers of the last state and of the state drawn by the server, and show the latter unless the player moves. It
+  // does not move while it waits for frames. An answer to an `earlier` move does not undo the last move.
   const show = ({ last, now, marks }, earlier = false) => {
     drawn = now
     mark(last, marks)
@@ -52,22 +52,22 @@ export function make_player({ messages, figures, ask }) {
     stand(moving && (times || !playing()) ? value : now)
   }
   messages.properties.frames.change.connect(() => {
-    // Frames are taken back before another course is drawn. The server does not send again what is as it has drawn it.
+    // The server removes the frames before it draws another course. It does not send unchanged data again.
     if (times && value !== drawn) stand(drawn);
     [sources, places, words, times] = messages.frames
     if (!times) return
     range.max = times.length - 1
     if (value !== drawn) stand(value)
   })
-  // What is seen is told in words: the state at once, the plots once they rest.
+  // Describe the visible state in words: on the slider at once, on the plots once they rest.
   const tell = () => {
     const numbers = messages.words.matchAll(/data-name="(\w+)"[^>]*>([^<]*)/g)
-    const told = Array.from(numbers, ([, name, number]) => `${name.replaceAll("_", " ")} ${number}`)
-    range.ariaValueText = told.slice(0, 2).join(", ")
+    const readings = Array.from(numbers, ([, name, number]) => `${name.replaceAll("_", " ")} ${number}`)
+    range.ariaValueText = readings.slice(0, 2).join(", ")
     clearTimeout(wait)
     wait = setTimeout(() => figures.forEach((figure) => {
       const el = toolkit.element(figure)
-      if (el) el.ariaDescription = told.join(", ")
+      if (el) el.ariaDescription = readings.join(", ")
     }), 300)
   }
   button.onclick = () => {
@@ -79,7 +79,7 @@ export function make_player({ messages, figures, ask }) {
       // A run takes three seconds.
       const lasts = 3000 / speed.value
       begin ??= now - lasts * (value < range.max ? times[value] : 0)
-      // Longer than a run, which rests in its last state.
+      // A cycle is longer than a run, which pauses in its last state.
       const clock = ((now - begin) / lasts) % 1.12
       move(times.findLastIndex((time) => time <= clock))
     }
@@ -89,7 +89,7 @@ export function make_player({ messages, figures, ask }) {
     rest()
     requestAnimationFrame(step)
   }
-  // It goes on from the state that is seen.
+  // Continue from the visible state.
   speed.onchange = () => { begin = null }
   range.oninput = () => go(range.valueAsNumber)
   range.onchange = rest

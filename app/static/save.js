@@ -1,7 +1,7 @@
-// Plots as one picture of two pixels a point, each in its place with its title and its legend, and the scene below.
-// Bokeh draws the plot alone: it measures its legend at one pixel a point, and draws it elsewhere at two.
-// Until a plot has its new size, which takes seconds on a busy machine; what is then still to be painted is painted
-// within two frames of the browser.
+// Save plots as one picture of two pixels per point, each in its place with title and legend, and the scene below.
+// Bokeh draws only the plot: it measures its legend at one pixel per point, and misplaces it at two.
+// Wait until a plot has its new size, which takes seconds on a busy machine. The browser then paints the rest within two
+// frames.
 const pause = (ms) => new Promise((done) => setTimeout(done, ms))
 async function settled(figure, width, height) {
   for (let waited = 0; waited < 10_000; waited += 20) {
@@ -13,8 +13,8 @@ async function settled(figure, width, height) {
   await pause(50)
 }
 const FONT = "Helvetica, Arial, sans-serif"
-// Points: widths of a swatch and of a mark, from there to the word, and to the next item; heights of a line and of a
-// title, and the letters of an axis, beside which those of a title and a legend are as on the page.
+// In points: widths of a swatch and a mark, gaps to the word and to the next item, heights of a line and a title; and size of
+// the letters of an axis, which scales title and legend.
 const [SWATCH, MARK, BESIDE, BETWEEN, LINE, HEAD, LETTERS] = [28, 14, 8, 18, 18, 32, 12]
 const SHAPES = {
   circle: (context, x, y, r) => context.arc(x, y, r, 0, 2 * Math.PI),
@@ -56,28 +56,28 @@ const DRAWN = {
   },
 }
 DRAWN.Line = DRAWN.MultiLine
-// Whether two colours, #rrggbb, are as good as the same.
+// Whether two colours, #rrggbb, are nearly equal.
 const parts = (colour) => [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16))
 const alike = (one, other) => parts(one).every((part, k) => Math.abs(part - parts(other)[k]) < 16)
-// The look of a glyph that is one for all of its data.
+// The common look of all data of a glyph.
 const look_of = ({ attributes }) => {
   const plain = (look) => (look?.value === undefined ? look : look.value)
   return Object.fromEntries(Object.entries(attributes).map(([name, look]) => [name, plain(look)]))
 }
-// What the legend names of a plot: the rows that are seen, each with its kind and its look.
+// Items of the legend of a plot: the visible rows, each with its kind and its look.
 function items_of({ renderers }, rows) {
   const some = (part) => (typeof part === "number" ? isFinite(part) : Array.from(part ?? []).some(some))
   return renderers.flatMap(({ name, glyph, data_source: { data } }) => {
     const { row, ys, y } = data
-    // Without rows in its data all of a renderer is one, which has its name.
+    // Without rows in its data, a renderer is a single row with its name.
     if (!row) return rows.includes(name) && some(y) ? [{ label: name, kind: glyph.type, look: look_of(glyph) }] : []
     const named = (label, k) => rows.includes(label) && row.indexOf(label) === k && some((ys ?? y)[k])
     const look = (k) => Object.fromEntries(Object.entries(data).map(([name, column]) => [name, column[k]]))
     return row.flatMap((label, k) => (named(label, k) ? [{ label, kind: glyph.type, look: look(k) }] : []))
   })
 }
-// Items with their places, in lines between the left and a width, and the height of all that is above a plot whose
-// letters are so many times as large as usual.
+// Items with their places, in lines between the left and a width; and the height of title and legend. `scale` is the
+// size of letters relative to the usual size.
 function laid(context, items, left, width, scale) {
   let [x, y] = [left, scale * (HEAD + LINE / 2)]
   const places = items.map((item) => {
@@ -93,7 +93,7 @@ function laid(context, items, left, width, scale) {
 async function drawn(context, figure, { rows, title }, [left, top, width, height], paper, ink) {
   context.save()
   context.translate(left, top)
-  // A plot that is large has larger letters.
+  // A large plot has larger letters.
   const scale = parseFloat(figure.below[0].axis_label_text_font_size) / LETTERS, edge = figure.min_border_left
   Object.assign(context, { fillStyle: ink, textBaseline: "middle", font: `${14 * scale}px ${FONT}` })
   context.fillText(title, edge, scale * HEAD / 2, width - edge)
@@ -127,7 +127,7 @@ export async function save(name, scene, plots, [width, height]) {
   context.scale(2, 2)
   context.fillStyle = paper
   context.fillRect(0, 0, width, height)
-  // With all six digits, as a canvas tells it.
+  // The canvas returns the colour with all six digits.
   const full = context.fillStyle
   for (const { figure, look, place } of plots) await drawn(context, figure, look, place, full, ink)
   Object.assign(context, { fillStyle: ink, font: `11px ${FONT}` })

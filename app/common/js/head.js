@@ -1,5 +1,5 @@
-// Dark or light before anything is drawn: as a link asks, else as was chosen in this browser, else as the system is. A
-// cookie tells the server, which then draws the next page so from the start. A browser may refuse to keep either.
+// Choose dark or light before the page is drawn: from the link, else from the last choice in this browser, else from the
+// system. A cookie lets the server draw the next page in this theme. A browser may block cookies and storage.
 window.theme = (() => {
   const kept = (act) => { try { return act() } catch { return null } }
   const remember = (dark) => kept(() => {
@@ -19,7 +19,7 @@ window.theme = (() => {
     },
   }
 })()
-// A page whose first websocket is refused says so: it stays empty otherwise. Later ones are those of a page that comes back.
+// Show an error if the server rejects the first websocket: the page would stay empty. Later sockets are reconnections.
 window.WebSocket = class extends WebSocket {
   static first = true
   constructor(...given) {
@@ -30,8 +30,8 @@ window.WebSocket = class extends WebSocket {
     this.addEventListener("open", () => { opened = true })
     this.addEventListener("close", () => {
       if (opened || !first) return
-      const said = `The server does not answer this page: it is served for other addresses than ${location.host}. Open it at one of those, or start the server with --allow-websocket-origin ${location.host}`
-      document.body.append(Object.assign(document.createElement("p"), { textContent: said, role: "alert", className: "refused" }))
+      const message = `The server does not answer this page: it does not accept the address ${location.host}. Open the page at an accepted address, or start the server with --allow-websocket-origin ${location.host}`
+      document.body.append(Object.assign(document.createElement("p"), { textContent: message, role: "alert", className: "refused" }))
     })
   }
 }

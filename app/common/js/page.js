@@ -1,17 +1,17 @@
-// Scripts of both pages: functions that callbacks of Bokeh and Panel call by their names.
+// Scripts of both pages: functions that callbacks of Bokeh and Panel call by name.
 window.pages = (() => {
   const all = (root) => [...root.querySelectorAll("*")].flatMap((each) => [each, ...(each.shadowRoot ? all(each.shadowRoot) : [])])
   return {
-    // The server is gone: the page comes back from its address once it answers.
+    // Reload the page from its address once a lost server answers again.
     again() {
       const later = () => setTimeout(() => fetch(location.href).then((r) => (r.ok ? location.reload() : later()), later), 1000)
       later()
     },
-    // A plot has got its size, and with it its canvas.
+    // Tidy a plot once it has its size and its canvas.
     tidy(figure) {
       window.toolkit?.tidy(figure)
     },
-    // The value of a field is copied, also where the browser gives a page no clipboard, as one that is not served over https.
+    // Copy the value of a field, even without a clipboard, which browsers only give to pages served over https.
     copy(field) {
       const area = Object.assign(document.createElement("textarea"), { value: field.value })
       document.body.append(area)
@@ -19,7 +19,7 @@ window.pages = (() => {
       document.execCommand("copy")
       area.remove()
     },
-    // Landmarks of a page, each with its class, role and name; as the first tab stop a link to what has the class `to`.
+    // Set landmarks of a page by class, role and name. The first tab stop is a link to the element with the class `to`.
     landmarks(landmarks, to, label) {
       const found = (name) => all(document).find((each) => each.classList.contains(name))
       const mark = () => {
@@ -30,7 +30,7 @@ window.pages = (() => {
       }
       mark()
       document.documentElement.lang = "en"
-      // What is opened later is a part of the page.
+      // Also mark elements that the user opens later.
       const page = found(landmarks[0][0])?.getRootNode()
       if (page && page !== document) new MutationObserver(mark).observe(page, { childList: true })
       if (to) {
@@ -44,24 +44,24 @@ window.pages = (() => {
         document.body.prepend(skip)
       }
     },
-    // Once the page is there: the keys of undo and Escape, the theme, and the address.
+    // Set up the keys of undo and Escape, the theme, and the address.
     start(messages) {
-      // The server has drawn what a cookie told it, which a first visit has not.
+      // The server has drawn the theme of the cookie; a first visit has no cookie.
       if (!theme.asked) messages.dark = theme.own
       theme.show(messages.dark)
       messages.properties.dark.change.connect(() => theme.choose(messages.dark))
-      // Letters of the plots are larger on a wide screen, as all else is.
+      // All letters are larger on a wide screen, also those of the plots.
       const measure = () => { messages.wide = innerWidth >= 1600 }
       measure()
       addEventListener("resize", measure)
-      // The address says what is shown, without a step in the history.
+      // Put the present scene into the address, without an entry in the history.
       messages.properties.address.change.connect(() => {
-        // The opening scene has no query, and the address then no mark of one.
+        // The opening scene has no query; remove its question mark.
         if (messages.address) history.replaceState(null, "", messages.address === "?" ? location.pathname : messages.address)
       })
       document.addEventListener("keydown", (event) => {
         const on = event.composedPath()[0]
-        // In a field they are those of what is typed; Escape takes back what was typed in a number, and closes what a field is in.
+        // In a text field the keys edit the text. Escape restores a number field, and closes a panel with another field.
         const typing = on.matches?.("input[type=text], textarea") && (event.key !== "Escape" || on.closest(".number"))
         if (event.altKey || typing) return
         const key = event.key.toLowerCase(), act = (name) => all(document).find((each) => each.matches(`.act[name=${name}]:not([hidden])`))?.click()
@@ -74,19 +74,19 @@ window.pages = (() => {
         if (on.matches?.("select")) return
         if (event.key === "Escape") {
           const open = all(document).filter((each) => each.matches("[popover='']:popover-open, [data-key=escape][aria-pressed=true], .help[aria-expanded=true]"))
-          // The browser closes popovers. What lies over the plots stands first, and is closed before a large plot below it.
+          // The browser closes popovers. A panel over the plots comes first, so it closes before a large plot below it.
           return void (open.some(({ popover }) => popover) || open[0]?.click())
         }
         if (key === "z") act("Undo")
       })
-      // Plots that have become a few pixels less high, as by a note that is opened, are drawn so.
+      // Redraw plots after small changes of height, for example by an opened note.
       let before = null
       new ResizeObserver(([{ contentRect: { height } }]) => {
         if (before !== null) toolkit.figures(messages.document).forEach(toolkit.lay_out)
         before = height
       }).observe(all(document).find((each) => each.shadowRoot && each.classList.contains("plots")))
     },
-    // Whether a slider or the indenter is being dragged.
+    // Track whether the user drags a slider or the indenter.
     watch(messages) {
       document.addEventListener("pointerdown", (event) => {
         const [on, ...within] = event.composedPath(), { held } = messages.document.get_model_by_name("springs")
@@ -95,20 +95,20 @@ window.pages = (() => {
       })
       for (const name of ["pointerup", "pointercancel"]) document.addEventListener(name, () => { messages.dragged = false }, true)
     },
-    // A drag takes the indenter along, or the mark on the curve: to another depth when pressing, else to the nearest state.
+    // Move the indenter, or the mark on the curve, with a drag: to another depth when pressing, else to the nearest state.
     drag(event) {
       const figure = event.origin, { name, x_range: x, y_range: y, inner_height } = figure
-      // A box that is drawn to zoom is no drag.
+      // The user draws a zoom box.
       if (figure.toolbar.tools.some(({ type, active }) => type === "BoxZoomTool" && active)) return
       const { d, F, unit, pressing } = JSON.parse(dragging.path), wide = (range) => range.end - range.start
       const [begin, depth, pixel] = event.event_name === "panstart" ? [event.sy, d[player.value] * unit, wide(y) / inner_height] : figure.tags
       figure.setv({ tags: [begin, depth, pixel] }, { sync: false })
       const wish = Math.max(depth + (event.sy - begin) * pixel, 1e-3 * wide(y))
       const end = event.event_name === "panend"
-      // Without a hold the finger scrolls the page, or the browser has cancelled the drag and its place is none.
+      // Without a hold the finger scrolls the page, or the browser has cancelled the drag and its position is null.
       if (!figure.held && !end) return
       if (name === "springs" && pressing) {
-        // One request at a time: the server empties it once it has drawn.
+        // One request at a time: the server sets it to null after drawing.
         if (figure.held && (end || dragging.depth === null)) dragging.depth = wish
       } else if (end) player.rest()
       else {
@@ -118,7 +118,7 @@ window.pages = (() => {
         player.go(away.indexOf(Math.min(...away)))
       }
     },
-    // A finger drags a plot by its mark alone, within 24 pixels of it; elsewhere it scrolls the page. A mouse drags anywhere.
+    // Let a finger drag only within 24 pixels of the mark; elsewhere it scrolls the page. A mouse drags anywhere.
     touch(figures, dragging) {
       window.dragging = dragging
       for (const figure of figures) {
@@ -134,29 +134,29 @@ window.pages = (() => {
         el?.addEventListener("touchstart", (event) => figure.held && event.preventDefault(), { passive: false })
       }
     },
-    // A box is drawn once: then the plot is dragged again, and a finger scrolls the page. Other scripts hear the same end of a
-    // drag, and are not to take the box for one.
+    // End the zoom after one box, so that the user can drag and scroll again. The delay hides the box from other scripts that
+    // handle the end of the same drag.
     end_box({ origin }) {
       const [box] = origin.toolbar.tools.filter(({ type }) => type === "BoxZoomTool")
       setTimeout(() => { box.active = false })
     },
-    // A double click on a plot shows the whole of it.
+    // Show the whole plot after a double click.
     whole({ origin }) {
       origin.reset.emit()
     },
-    // A number at a logarithmic axis: both axes of a plot write it in the same way, 0.01 or 1000, and 10⁻⁵ beyond these.
+    // Format a number of a logarithmic axis, the same on both axes: 0.01 or 1000, and 10⁻⁵ beyond these.
     power(tick) {
       const power = Math.floor(Math.log10(tick) + 1e-9), mantissa = Number((tick / 10 ** power).toPrecision(3))
       if (power >= -3 && power <= 3) return String(Number(tick.toPrecision(6)))
       const raised = String(power).replace(/./g, (letter) => ({ "-": "⁻" })[letter] ?? "⁰¹²³⁴⁵⁶⁷⁸⁹"[letter])
       return `${mantissa === 1 ? "" : `${mantissa}·`}10${raised}`
     },
-    // Colours of the data in the theme of the page: of each model a property, and its colours, light and dark.
+    // Set the data colours of the theme; each entry has a model, its property, and the colours in light and dark.
     shade(looks) {
       const dark = Number(document.documentElement.classList.contains("dark"))
       for (const [model, name, colours] of looks) model.setv({ [name]: colours[dark] }, { sync: false })
     },
-    // The button *Dark* of a page without a state of its own says which theme there is, and chooses the other one.
+    // Make the button *Dark* show and change the theme, on a page without a state.
     theme_button(looks) {
       const button = all(document).find((each) => each.classList.contains("theme")).shadowRoot.querySelector("button")
       const show = () => {
@@ -169,7 +169,7 @@ window.pages = (() => {
       })
       show()
     },
-    // The curve and its residuals as one picture; tags of the curve are the name of its file, and the text below it.
+    // Save the curve and its residuals as one picture; the tags of the curve are the file name and the caption.
     async save_fit([force, residual]) {
       const { save } = await import(new URL("app/static/save.js", document.baseURI).href)
       const [name, caption] = force.tags, rows = force.renderers.map((each) => each.name)
@@ -179,18 +179,18 @@ window.pages = (() => {
       ]
       await save(name, caption, plots, [960, 720])
     },
-    // Both ends of the range have their names.
+    // Name both handles of the range slider.
     name_handles() {
       for (const slider of all(document).filter((each) => each.classList.contains("ends")))
         toolkit.name_handles(slider, ["First sample of the fit", "Last sample of the fit"])
     },
-    // Scroll what has a class into view, once it is there.
+    // Scroll the element with a class into view, once it exists.
     reveal(name, tries = 120) {
       const place = all(document).find((each) => each.classList.contains(name) && each.getClientRects().length)
       if (place) place.scrollIntoView({ block: "nearest" })
       else if (tries > 0) requestAnimationFrame(() => pages.reveal(name, tries - 1))
     },
-    // Lead to the first field of what has a class, once it is there: a fold may have to open before.
+    // Focus the first field of the element with a class, once it exists: a fold may have to open before.
     lead(name) {
       const lead = (tries) => {
         const place = all(document).find((each) => each.classList.contains(name) && each.getClientRects().length)

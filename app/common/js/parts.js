@@ -1,3 +1,3 @@
-// Parts of the page are made by a script that is sent once.
+// Render parts of the page with a script that the browser loads once.
 const { render } = await import(new URL("app/static/parts.js", document.baseURI).href)
 export { render }

@@ -1,4 +1,4 @@
-"""All extras: every module of this folder has one, as `EXTRA`, and its data in a JSON file of its name."""
+"""All extras: every module of this folder has an `EXTRA`, and its data in a JSON file of the same name."""
 
 from importlib import import_module
 from pathlib import Path
@@ -40,15 +40,15 @@ def _read(path: Path) -> dict[str, Any]:
 
 
 def _extra(name: str) -> Extra:
-    """The extra of a module."""
+    """Return the extra of a module."""
     try:
         return import_module(f".{name}", __name__).EXTRA
     except AttributeError as error:
-        raise ValueError(f"{name}.py: {error}; it ends with EXTRA = Extra({name!r}, …)") from error
+        raise ValueError(f"{name}.py: {error}; it must end with EXTRA = Extra({name!r}, …)") from error
 
 
 def _register(extra: Extra, data: dict[str, Any]) -> None:
-    """Let the page have an extra; the data of its JSON file are included already."""
+    """Register an extra, after the data of its JSON file."""
     OF_EXTRAS.update({each["name"]: QUANTITIES[each["name"]].default for each in data.get("numbers", ())})
     choices = [name for name in data.get("choices", {}) if "." in name]
     OF_EXTRAS.update({name: next(iter(CHOICES[name].options), "") for name in choices})

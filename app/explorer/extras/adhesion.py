@@ -1,4 +1,4 @@
-"""Adhesion over force and depth: first contact, the pull-off, and what a loop loses and gives back."""
+"""Adhesion in the force–depth plot: first contact, pull-off, and lost and returned energies of a loop."""
 
 from functools import lru_cache
 
@@ -28,7 +28,7 @@ ROWS = (
 
 
 def places(view: View, i: int) -> dict:
-    """Contact and pull-off, and for one loading what is lost and given back in state i."""
+    """Return contact and pull-off; for a single loading also the lost and returned energies in state i."""
     if not view.course.adhesive:
         return {}
     # Loops of several loadings overlap.
@@ -36,7 +36,7 @@ def places(view: View, i: int) -> dict:
 
 
 def _ends(view: View) -> dict:
-    """Where contact begins, and the largest tension of unloading, with its value."""
+    """Return the point of first contact, and the largest tension of unloading with its value."""
     depth, force = view.course.states.depth, view.course.states.force
     last = view.course.peak + int(np.argmin(force[view.course.peak :]))
     text = f"Fₐ = {written(view.course.states.pull_off_force[last], 'force', 3)}"
@@ -51,21 +51,21 @@ def _ends(view: View) -> dict:
 
 
 def _under_force(course: Course) -> bool:
-    """Whether a force is prescribed: contact is then lost earlier."""
+    """Whether the drive prescribes a force: contact is then lost earlier."""
     return isinstance(course.scene.drive, ForcePath)
 
 
 @lru_cache(maxsize=4)
 def _loop(course: Course, turn: int) -> AdhesiveLoop:
-    """Loop of loading to a state and unloading: all states of unloading have the same."""
+    """Return the loop of loading to a state and unloading; all states of unloading share it."""
     return adhesive_loop(course.states[: turn + 1], _under_force(course))
 
 
 def _energies(view: View, i: int) -> dict:
-    """Areas of a loading and unloading with adhesion, with their energies as text.
+    """Return areas of a loading and unloading with adhesion, with their energies as text.
 
-    The stored energy is no area below the curve, because surfaces are separated, too: drawn is what comes
-    back before the force is tension.
+    The stored energy is no area below the curve, because it also separates surfaces. The plot shows the
+    energy that returns before the force becomes tensile.
     """
     course = view.course
     loop = _loop(course, min(i, course.peak))
@@ -77,7 +77,7 @@ def _energies(view: View, i: int) -> dict:
     left, top = view.axis(D).start, view.end(F)
     height, width = top - view.axis(F).start, view.end(D) - left
     said, back = "", float(trapezoid(returned[1], returned[0]))
-    # An early loop may reach below the axis, which is that of the whole course.
+    # An early loop may reach below the axis, which covers the whole course.
     if closed and loop.depth[0] > left - 1e-6 * width:
         net = loop.lost - loop.gained
         said = f"dissipated {written(loop.lost, 'energy', 3)}"
@@ -93,8 +93,8 @@ def _energies(view: View, i: int) -> dict:
 
 
 def _before_tension(d, force) -> tuple:
-    """Area below the part of an unloading that begins with forces above zero, up to zero force."""
-    # At its end, the pull-off, there is always tension.
+    """Return the area below an unloading, from its beginning to zero force; nothing if it has none."""
+    # The pull-off, at its end, is always tensile.
     count = int(np.argmax(force <= 0))
     if count == 0:
         return NOTHING

@@ -1,4 +1,4 @@
-"""Buttons of each plot, *Large* and *Save*, and *Save plots*, with titles, legends and the scene."""
+"""Buttons *Large* and *Save* of each plot, and *Save plots*; pictures have title, legend and caption."""
 
 from functools import partial
 from typing import Any
@@ -16,24 +16,24 @@ from ..plots import visible
 from ..state import State
 from ..widgets import Part, button
 
-#: Letters of a large plot, and of all plots in a wide window, over those of the page.
+#: Size of letters in a large plot, and in all plots of a wide window, relative to the page.
 _SCALE, _WIDE = 1.5, 1.2
 
 
 def turned(state: State, name: str) -> State:
-    """With a plot large, or with none if it is large already."""
+    """Make a plot large, or small if it is large."""
     return state.replace(large="" if state.large == name else name)
 
 
 def large_button(page: Any, plot: Plot, view: View) -> Part:
-    """The button *Large* of a plot."""
+    """Return the button *Large* of a plot."""
     is_large = view.state.large == plot.name
     act = partial(page.apply, lambda state: turned(state, plot.name))
     return button("Small" if is_large else "Large", act, pressed=is_large, key="escape")
 
 
 def set_letters(picture: Picture, scale: float) -> None:
-    """Make the letters of a plot so many times as large as on the page."""
+    """Scale the letters of a plot relative to the page."""
     title, tick = f"{12 * scale:g}px", f"{11 * scale:g}px"
     picture.figure.min_border_left = round(48 * scale) + 12
     for axis in picture.figure.axis:
@@ -42,21 +42,21 @@ def set_letters(picture: Picture, scale: float) -> None:
         text.text_font_size = title
 
 
-#: Width and height of a picture in points, and where its plots are: left, top, width and height.
+#: Width and height of a picture in points, and left, top, width and height of its plots.
 _SIZE, _WHOLE = (840, 624), (0, 0, 840, 600)
 _SCREEN = (1280, 720)
 _PLACES = {"springs": (0, 0, 640, 348), "pressure": (0, 348, 640, 348), "force": (640, 0, 640, 696)}
-#: With a fourth plot, which is below the force.
+#: The same with a fourth plot below the force.
 _WITH_FOURTH = _PLACES | {"force": (640, 0, 640, 348)}
 _FOURTH = (640, 348, 640, 348)
 
 
 class Cards(Service):
-    """Shows one plot large, with letters of that size; keeps legends and scene for saved pictures."""
+    """Shows one plot large, with larger letters; stores legends and scene for saved pictures."""
 
     def __init__(self, page: Any):
         super().__init__(page)
-        # The scale of the letters of each plot, where it was set; and legends, as of the last rest.
+        # The scale of the letters of each plot, once it is set; and the legends of the last rest.
         self._set: dict[str, float] = {}
         self._legends: dict[str, Any] = {}
 
@@ -78,14 +78,14 @@ class Cards(Service):
         self._legends["scene"] = summary(view.state)
         self._legends["file"] = file_name(view.state, "")
         for plot in visible(view):
-            # While a plot is searched, all that it will draw: a picture names what is seen in it.
+            # All rows while a search runs, else the drawn rows: the legend names the visible rows.
             called = drawn(view, plot) or {row.name: row.name for row in rows_of(plot)}
             rows = [unicode_subscripts(called[row.name]) for row in in_legend(plot, called)]
             self._legends[plot.name] = {"rows": rows, "title": plot.title}
 
 
 def save(label: str, name: str, places: dict[str, Any], size: tuple[int, int], view: View) -> Part:
-    """A button that saves the picture of plots, in the browser, with the scene below it."""
+    """Return a button that saves plots as a picture in the browser, with the scene as caption."""
     legends = view.computed["save"]
     looks = [legends.get(each, {"rows": [], "title": ""}) for each in places]
     plots = [{"figure": figure, "place": place} for figure, place in places.items()]
@@ -99,7 +99,7 @@ def of_plot(plot: Plot, view: View) -> Part:
 
 
 def of_all(page: Any, view: View) -> Part:
-    """The button that saves the plots that are seen as one picture."""
+    """Return the button that saves all visible plots as one picture."""
     names = [plot.name for plot in visible(view)]
     known = _PLACES if len(names) == len(_PLACES) else _WITH_FOURTH
     return save("Save plots", "plots", {name: known.get(name, _FOURTH) for name in names}, _SCREEN, view)

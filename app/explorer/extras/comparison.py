@@ -1,4 +1,4 @@
-"""Compared scenes: up to four, kept as links, on common axes with the present one, and their numbers."""
+"""Compared scenes: up to four, held as links, on common axes with the present scene; and their numbers."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -28,19 +28,19 @@ from ..search import Searching
 from ..state import MEDIUM_CHOICES, OPENING, PRESETS, State, altered, form_choices, used
 from ..widgets import Part, button
 
-#: Scenes that are held have each its own dashes.
+#: Dashes of the held scenes.
 DASHES = ("dotdash", "dashed", "dotted", "solid")
-#: And its own colour, by its role.
+#: Colours of the held scenes, by their roles.
 ROLES = ("held", "held-2", "held-3", "held-4")
-#: What is said once a scene is kept.
+#: Message after *Compare*.
 KEPT = "Kept for comparison. Now change something."
-#: Share of both axes below which a curve is a point.
+#: Share of both axes below which a curve looks like a point.
 _SEEN = 0.01
 
 
 @dataclass(frozen=True)
 class Held:
-    """A held scene: its name, course and state."""
+    """Held scene: its name, course and state."""
 
     name: str
     course: Course
@@ -51,18 +51,18 @@ class Held:
 
 
 def held_scene(query: str) -> Held:
-    """A held scene from its link; ValueError if that is invalid."""
+    """Return the held scene of a link. Raises ValueError if the link is invalid."""
     state = link.read(query)
     return Held(difference(state), follow(state), state)
 
 
 def is_scene(entry: str) -> bool:
-    """Whether an entry of a link may be a scene."""
+    """Whether an entry of a link can be a scene."""
     return "=" in entry
 
 
 def _others(state: State) -> tuple[str, ...]:
-    """Links of held scenes that are not the present one."""
+    """Return the links of held scenes other than the present scene."""
     scene = scene_of(state)
     return tuple(query for query in state["held.scenes"] if scene_of(link.read(query)) != scene)
 
@@ -72,7 +72,7 @@ def is_held(state: State) -> bool:
 
 
 def toggle_hold(state: State) -> State:
-    """Hold the present scene, or remove it; ValueError if there is no room."""
+    """Hold the present scene, or remove it. Raises ValueError if too many scenes are held."""
     others = _others(state)
     if len(others) < len(state["held.scenes"]):
         return state.replace(**{"held.scenes": others})
@@ -88,9 +88,9 @@ def _without(state: State, k: int) -> State:
 
 
 def difference(state: State, now: State | None = None) -> str:
-    """Name of a scene: what differs from the present one; of that itself, or alone, from its preset.
+    """Return the name of a scene: its differences from the present scene `now`.
 
-    A scene of another preset than the present one has the name of its preset, too.
+    For the same scene, or another preset, they are from its preset; another preset is part of the name.
     """
     preset, known = PRESETS[state.preset], altered(state)
     choices = ("shape", *MEDIUM_CHOICES, "drive", *form_choices(state))
@@ -107,12 +107,12 @@ def difference(state: State, now: State | None = None) -> str:
 
 
 def numbers(course: Course) -> dict[str, str]:
-    """Readouts of a scene at its largest depth, by symbol."""
+    """Return the readouts of a scene at its largest depth, by symbol."""
     shown = readout_line(course).items()
     return {each.symbol: text(each, values, course.peak, 3) for each, values in shown}
 
 
-# What is drawn beside the present scene.
+# Curves of the held scenes.
 
 
 def scenes(view: View) -> list[Held]:
@@ -120,7 +120,7 @@ def scenes(view: View) -> list[Held]:
 
 
 def _reach(view: View, along: AxisSpec) -> tuple[float, float]:
-    """How far compared scenes go along an axis of a plot in which they are drawn."""
+    """Return the range of the compared scenes along an axis of their plots."""
     drawn = (PLOTS[overlay.on] for overlay in OVERLAYS if overlay.on in PLOTS)
     plots = [plot for plot in drawn if along in plot.axes]
     courses = (each.course for each in scenes(view))
@@ -144,7 +144,7 @@ def _pressure(view: View, course: Course) -> dict:
 
 
 def _over_time(plot: str, row: str) -> Callable[[View, Course], dict]:
-    """A row of a plot over time, of scenes that have it."""
+    """Return a function for a row of a plot over time, empty for scenes without it."""
 
     def columns(view, course):
         other = View(view.state, course)
@@ -154,7 +154,7 @@ def _over_time(plot: str, row: str) -> Callable[[View, Course], dict]:
 
 
 def _hardness(view: View, course: Course) -> dict:
-    """Mean pressure over the contact radius, and the hardness at that radius."""
+    """Return the mean pressure over the contact radius, and the hardness at that radius."""
     states, made = course.states, course.scene.medium
     a = np.where(states.contact_radius > 0, states.contact_radius, np.nan)
     found = {"": (a, states.mean_pressure), " hardness": NOTHING}
@@ -170,7 +170,7 @@ def _rows(symbol: str, what: str = "", width: float = 1.6, axis: int = 1, legend
 
 
 def _beyond(axes: list[Axis], rows: list[tuple]) -> str:
-    """What of a scene is not seen on the axes, in brackets: they stay while something is dragged."""
+    """Return a remark in brackets on an invisible part of a scene: axes stay fixed during a drag."""
     small = True
     for k, axis in enumerate(axes):
         columns = np.concatenate([row[k] for row in rows])
@@ -183,7 +183,7 @@ def _beyond(axes: list[Axis], rows: list[tuple]) -> str:
 
 
 def _kept(view: View, i: int) -> dict:
-    """What *Compare* has done, over the curves, until the present scene is another one than the kept."""
+    """Return the message after *Compare*, until the present scene differs from the held scene."""
     same = any(each.course.scene == view.course.scene for each in scenes(view))
     left = view.axis(D).start + 0.02 * (view.end(D) - view.axis(D).start)
     return {"kept": (left, 0.84 * view.end(F), KEPT if same else "")}
@@ -222,7 +222,7 @@ def _dash(k: int) -> Markup:
 
 
 class Table:
-    """Held scenes, and their numbers beside the present ones."""
+    """Table of the held scenes, with their numbers next to the present numbers."""
 
     def __init__(self, apply: Callable[..., None]):
         self._rows, self._numbers = [], html("", "key")
@@ -240,7 +240,7 @@ class Table:
         columns = [numbers(course) for course in (view.course, *(each.course for each in held))]
         rows = [[Markup("at d<sub>max</sub>"), "now", *map(_dash, range(len(held)))]]
         found = [[name, *(each.get(name, "–") for each in columns)] for name in columns[0]]
-        # Numbers that differ; what is the same need not be read twice.
+        # Only numbers that differ.
         rows += [[symbol(name), *texts] for name, *texts in found if len({*texts}) > 1]
         cells = (
             Markup("<tr><th>{}</th><td>{}</td></tr>").format(head, Markup("</td><td>").join(row))
@@ -252,13 +252,13 @@ class Table:
 
 
 def compare(page: Any, view: View) -> Part:
-    """The button *Compare*: it keeps the present scene beside later ones."""
+    """Return the button *Compare*, which holds the present scene for comparison."""
     pressed = bool(view.state["held.scenes"]) and is_held(view.state)
     return button("Compare", lambda: page.apply(toggle_hold), pressed=pressed)
 
 
 def computed(state: State, before: View | None = None) -> list[Held]:
-    """The held scenes, named by what differs from the present one; exact courses are kept."""
+    """Return the held scenes, named by their differences from the present scene; reuse exact courses."""
     shown = {} if before is None else dict(zip(before.state["held.scenes"], scenes(before), strict=True))
     kept = {query: each for query, each in shown.items() if not each.course.pending}
     found = [kept.get(query) or held_scene(query) for query in state["held.scenes"]]

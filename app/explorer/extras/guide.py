@@ -1,4 +1,4 @@
-"""Guided scenes, steps with a state and a text; and help: keys, and what the page is."""
+"""Guided scenes, whose steps have a state and a text; and help on keys and the model."""
 
 import json
 from collections.abc import Callable
@@ -17,9 +17,9 @@ from ..plot import View
 from ..readouts import readings, text
 from ..state import State, kept_extras
 
-#: By their titles: what the steps set, as a link does, and what they say of the numbers then read.
+#: Steps of the guided scenes by title: `set` has the values of a link, `says` the text with its numbers.
 TOURS = json.loads(Path(__file__).with_suffix(".json").read_text(encoding="utf-8"))
-#: Keys, and what the page is.
+#: Help on keys and the model.
 _HELP = own_html(Path(__file__).with_suffix(".html"))
 
 _INTRO = "Guided scenes, each of a few steps. Next starts the scene; Undo undoes a step."
@@ -27,7 +27,7 @@ _LEFT = "The scene has been changed since this step. Back and Next continue."
 
 
 def tours() -> dict[str, list[dict[str, Any]]]:
-    """Guided scenes of which the page knows all that they set."""
+    """Return the guided scenes whose values the page knows."""
     return {
         title: steps
         for title, steps in TOURS.items()
@@ -36,22 +36,22 @@ def tours() -> dict[str, list[dict[str, Any]]]:
 
 
 def step_state(step: dict[str, Any], now: State) -> State:
-    """State of a step, with its plots; theme, and values of extras that no step or preset sets, stay."""
+    """Return the state of a step; keep the theme, and values of extras that no step or preset sets."""
     state = link.read(urlencode(step["set"]))
-    # Also a value that is set to its default is set.
+    # These include values set to their defaults.
     named = {name for name, _ in link.pairs(urlencode(step["set"]))}
     kept = {name: value for name, value in kept_extras(now).items() if name not in named}
     return state.replace(dark=now.dark, **(kept | state.extras))
 
 
 def step_text(step: dict[str, Any], course: Course) -> str:
-    """Text of a step, with the numbers of a course."""
+    """Return the text of a step with the numbers of a course."""
     numbers = {each.symbol: text(each, values, course.now, 3) for each, values in readings(course).items()}
     return step["says"].format_map(numbers)
 
 
 def _marked(text: str) -> Markup:
-    """HTML of a text with links, powers as W^(2/3), and *words*; no letter follows the asterisk of E*."""
+    """Return text as HTML with links, powers such as W^(2/3), and *words*; no letter follows E*."""
     return replaced(r"\*(\w+)\*", r"<i>\1</i>", replaced(r"\^\((.*?)\)", r"<sup>\1</sup>", linked(text)))
 
 
@@ -71,7 +71,7 @@ class Guide:
 
     def go(self, at: int) -> None:
         self.at, steps = at, self._tours[self.title.value]
-        # The page is shown before the text of the step is known.
+        # The page shows the scene before it has the text of the step.
         self._going = True
         self._apply(lambda state: step_state(steps[at], state))
         self._going = False

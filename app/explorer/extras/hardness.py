@@ -1,4 +1,4 @@
-"""The plot *Hardness*: the mean pressure over the contact radius, beside the hardness at that radius."""
+"""The plot *Hardness*: mean pressure and hardness over the contact radius."""
 
 from dataclasses import replace
 
@@ -16,13 +16,13 @@ from ..search import AsyncPlot, Found, IdleSearch
 
 #: Decades of logarithmic axes of radii and of pressures.
 _RADII, _PRESSURES = 2, 3
-#: A pressure above this many times that of the largest depth is beyond the axis where it has no bound
-#: towards first contact: with dashpots, or under a tip sharper than a cone.
+#: End of the axis relative to the pressure at the largest depth, if the pressure is unbounded towards first
+#: contact: with dashpots, or under a tip sharper than a cone.
 _MOST = 4
 
 
 def found(course: Course, asked: tuple[str]) -> Found:
-    """Mean pressure along the path, the hardness at each contact radius, and axes, logarithmic if asked."""
+    """Return the mean pressure along the path, the hardness at each contact radius, and the axes."""
     (scale,), states, made = asked, course.states, course.scene.medium
     # Without contact there is no pressure.
     a, p = states.contact_radius, np.where(states.contact_radius > 0, states.mean_pressure, np.nan)
@@ -57,7 +57,7 @@ def _unbounded(course: Course, p: np.ndarray) -> bool:
 
 
 def _note(course: Course, mean: float, yields: bool) -> str:
-    """Mean pressure and hardness at the largest depth."""
+    """Return a note on mean pressure and hardness at the largest depth."""
     text = f"At the largest depth p_m = {written(mean, 'pressure')}"
     if not yields:
         return html_subscripts(f"{text}; nothing yields.")

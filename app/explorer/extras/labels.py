@@ -1,4 +1,4 @@
-"""Labels on the curves and areas of the three plots, in the place of a legend; and the state in words."""
+"""Labels on the curves and areas of the three plots, instead of a legend; and the state in words."""
 
 from typing import Any
 
@@ -16,7 +16,7 @@ from ..plots import STRIP, D, F, P, R, X, Z
 
 
 def sentence(course: Course, i: int) -> str:
-    """Radii of yield and of the elastic ring, or where and at what depth yield begins."""
+    """Return the radius of yield and the width of the elastic ring, or place and depth of first yield."""
     a, c = (float(radii[i]) for radii in (course.states.contact_radius, course.states.plastic_radius))
     if a == 0:
         return f"no contact; imprint of radius c = {written(c, 'length', 3)}" if c else "no contact"
@@ -27,12 +27,12 @@ def sentence(course: Course, i: int) -> str:
 
 
 def _first(course: Course) -> str:
-    """What yields first, where, and at what depth, on a virgin surface."""
+    """Return place and depth of first yield on a virgin surface."""
     depth = onset_depth(course.scene)
     if course.onset is None:
-        return "nothing yields" if depth == np.inf else "yield begins deeper than the tip is known"
+        return "nothing yields" if depth == np.inf else "yield begins deeper than the known tip"
     where = "the whole flat face" if course.scene.profile.face_radius else "the axis"
-    # With adhesion the depth is less by what the rim is stretched.
+    # With adhesion the depth is smaller by the stretch of the rim.
     return f"{where} yields first" + f", at d = {written(depth, 'length', 3)}" * (not course.adhesive)
 
 
@@ -41,7 +41,7 @@ def words(view: View, i: int) -> dict:
 
 
 def zone(view: View, i: int) -> dict:
-    """Depths of loading beyond the onset of yield, as a ribbon below the lowest force."""
+    """Return the depths of loading beyond the onset of yield, as a ribbon below the lowest force."""
     course, force = view.course, view.axis(F)
     known = course.onset is not None and not (course.dashpots or course.initial_plastic_depth)
     if not known or course.onset.depth >= np.max(course.states.depth):
@@ -51,7 +51,7 @@ def zone(view: View, i: int) -> dict:
 
 
 def _below(force: Any) -> float:
-    """Force (N) in the middle of the strip below the lowest one."""
+    """Return the force (N) in the middle of the strip below the lowest force."""
     return force.start - 0.5 * STRIP * (force.end - force.start)
 
 
@@ -64,7 +64,7 @@ SPRINGS = (
 )
 PRESSURE = (
     word("plastic zone", "yielded-text", names=("plastic zone r < c",)),
-    # The other curve is the one that the axis names.
+    # The axis names the other curve.
     word("mean", "ink", "left", names=("mean F/(πa²)", "p(r)")),
 )
 FORCE = (
@@ -80,24 +80,24 @@ FORCE = (
 
 
 def _pixels(view: View, x: AxisSpec, y: AxisSpec) -> tuple[float, float]:
-    """Size (SI) of a pixel of the smallest plot along both axes."""
+    """Return the size (SI) of a pixel of the smallest plot along both axes."""
     across, up = view.axis(x), view.axis(y)
     return (across.end - across.start) / WIDTH, (up.end - up.start) / HEIGHT
 
 
 def _at(text: str, *points: tuple[float, float]) -> tuple[Any, Any, str]:
-    """Points at which a label may stand, the best one first, and its text."""
+    """Return possible points of a label, the best point first, and its text."""
     xs, ys = zip(*points, strict=True) if points else NOTHING
     return np.array(xs), np.array(ys), text
 
 
-def _told(places: dict[str, tuple]) -> dict[str, tuple]:
-    """Places by the names of the labels' rows."""
+def _by_row(places: dict[str, tuple]) -> dict[str, tuple]:
+    """Return places by the names of the labels' rows."""
     return {f"label {name}": place for name, place in places.items()}
 
 
 def of_springs(view: View, i: int) -> dict:
-    """In the body, that it is the indenter; at the feet of the springs, what they are."""
+    """Return labels in the indenter and its imprint, and at the feet of the springs."""
     state, half, z = view.course.states[i], view.end(X), view.axis(Z)
     px, py = _pixels(view, X, Z)
     a, c, lower = (
@@ -105,7 +105,7 @@ def of_springs(view: View, i: int) -> dict:
     )
 
     def free_height(text: str) -> float:
-        """Height (m) of the profile at the ends of a label that stands on the axis."""
+        """Return the height (m) of the profile at the ends of a label on the axis."""
         return float(reduced(state.profile, np.array([(width(text) / 2 + 4) * px]))[0])
 
     base, outer = z.start + 2 * py, max(a, c)
@@ -113,7 +113,7 @@ def of_springs(view: View, i: int) -> dict:
     hollow = lower - free_height("imprint")
     ring = a - min(a, c) > 0.12 * half
     bodies = [(0.0, share * z.end) for share in (0.35, 0.5) if body < share * z.end - LINE / 2 * py]
-    return _told({
+    return _by_row({
         "indenter": _at("indenter", *bodies),
         "imprint": _at("imprint", *[(0.0, -0.5 * hollow)] * (hollow > (LINE + 4) * py)),
         "yielded": _at("yielded", *[(0.0, base)] * (2 * c > (width("yielded") + 8) * px)),
@@ -123,22 +123,22 @@ def of_springs(view: View, i: int) -> dict:
 
 
 def of_pressure(view: View, i: int) -> dict:
-    """Within the plastic zone, and beside the line of the mean pressure."""
+    """Return labels in the plastic zone and next to the line of the mean pressure."""
     state = view.course.states[i]
     px, py = _pixels(view, R, P)
     a, c, mean = (float(v) for v in (state.contact_radius, state.plastic_radius, state.mean_pressure))
     wide = 2 * c > (width("plastic zone") + 8) * px
-    # Outside the contact, or within it above or below the line.
+    # Outside the contact, or inside it above or below the line.
     middle = -width("mean") / 2 * px
     points = [(a + 3 * px, mean), (middle, mean + 9 * py), (middle, mean - 9 * py)]
-    return _told({
+    return _by_row({
         "plastic zone": _at("plastic zone", *[(0.0, share * mean) for share in (0.3, 0.15, 0.5)] * wide),
         "mean": _at("mean", *points * (a > 0)),
     })  # fmt: skip
 
 
 def of_force(view: View, i: int) -> dict:
-    """Beside the curve of one loading, and in the areas of state i, where they are wide enough."""
+    """Return labels next to the curve of one loading, and in the areas of state i if wide enough."""
     course, states, peak = view.course, view.course.states, view.course.peak
     top = float(states.force[peak])
     if course.turns or course.chained or course.adhesive or not top > 0:
@@ -162,7 +162,7 @@ def of_force(view: View, i: int) -> dict:
     beside += [(loaded(share * top) + right, (share - 0.1) * top) for share in shares]
     found = {"loading" if yields or course.dashpots else "elastic": beside}
     if yields or course.dashpots:
-        # Left of the line there has to be room for the word.
+        # The word needs room on the left of the line.
         near = [(unloaded(share * top) - 4 * px, share * top) for share in (0.5, 0.62, 0.38)]
         room = (width("unloading") + 8) * px
         found["unloading"] = [(x, y) for x, y in near if x - room > loaded(y)]
@@ -173,11 +173,11 @@ def of_force(view: View, i: int) -> dict:
         if ahead:
             place = float(onset.depth) + 8 * px, float(onset.force) - 4 * py
         found["yield begins" if ahead else "plastic zone"] = [place]
-    return _told({name: _at(name, *points) for name, points in found.items()})
+    return _by_row({name: _at(name, *points) for name, points in found.items()})
 
 
 def _areas(view: View, i: int, loaded: Any, px: float) -> dict[str, list]:
-    """Points within what is lost and what is stored in state i."""
+    """Return points inside the areas of lost and stored energy in state i."""
     course = view.course
     depth, force = float(course.states.depth[i]), float(course.states.force[i])
     lost, found = "dissipated" if course.dashpots else "plastic work", {}

@@ -1,4 +1,4 @@
-"""Notes: in the form; and below the player assumptions, and what the numbers are."""
+"""Notes in the form; and assumptions and explanations of the numbers below the player."""
 
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache, partial
@@ -25,18 +25,18 @@ _GRAVITY = 9.80665
 
 
 def form_notes(view: View) -> dict[str, str]:
-    """Notes (HTML) by the places of the form."""
+    """Return notes (HTML) by the places of the form."""
     state, course = view.state, view.course
     shape, made = state.chosen("shape"), course.scene.medium
-    head = "Altered. " * bool(altered(state)) + "Where the preset's numbers come from, "
-    head += "and which of them are illustrative:"
+    head = "Altered. " * bool(altered(state)) + "Sources of the preset's numbers, "
+    head += "including illustrative numbers:"
     energy = written(state.mass * state.speed**2 / 2, "energy")
     height = written(state.speed**2 / (2 * _GRAVITY), "length")
     slope = getattr(course.scene.profile, "slope", None)
     angle = f"Half-angle {digits(degrees(atan(1 / slope)))}°" if slope else ""
     of_tip = state.tip_note if state.shape == "sampled" else angle
     eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
-    idle = "" if course.dashpots else "; no effect here, where pressing is quasi-static"
+    idle = "" if course.dashpots else "; no effect here, because pressing is quasi-static"
     return {
         "drive": f"Energy {energy}; equivalent drop height {height}" * (state.drive == "impact"),
         "shape": Markup("<figcaption>{}<br>{}</figcaption>{}").format(
@@ -50,7 +50,7 @@ def form_notes(view: View) -> dict[str, str]:
 
 @cache
 def _sources(preset: str) -> Markup:
-    """Numbers of a preset, and where each comes from."""
+    """Return the numbers of a preset with their sources."""
     known = PRESETS[preset]
     row = Markup("<dt>{}</dt><dd>{}</dd>")
     symbols = (html_subscripts(with_symbol(name, known.values[name])) for name in known.sources)
@@ -58,7 +58,7 @@ def _sources(preset: str) -> Markup:
 
 
 def law_of_hardness(course: Course) -> str:
-    """The hardness at the contact radius of the largest depth, and where yield begins."""
+    """Return the hardness at the contact radius of the largest depth, and the depth of first yield."""
     made, onset = course.scene.medium, onset_depth(course.scene)
     a = float(course.turning_point.contact_radius)
     if made.q_c == np.inf:
@@ -82,7 +82,7 @@ _HEAD = "Numbers, equations, assumptions"
 
 
 def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
-    """Levels ("good", "note", "beyond", "severe") and sentences of the assumptions."""
+    """Yield levels ("good", "note", "beyond", "severe") and sentences of the assumptions."""
     for sentence in (*course.notes, course.pending):
         if sentence:
             yield "note", sentence
@@ -90,7 +90,7 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
     told = {what for each in course.cautions for what in each.limits}
     speed = [] if course.hit is None else [course.hit.speed_limit(state.density)]
     for limit in sorted([*course.limits, *speed], key=lambda limit: limit.concerns != "result"):
-        # The fast limit is one without adhesion; what is still computed may have dashpots.
+        # The fast limit excludes adhesion; a pending course may have dashpots.
         without = {"fast limit": course.adhesive, "viscosity": bool(course.pending)}
         if without.get(limit.what) or limit.what in told:
             continue
@@ -98,7 +98,7 @@ def limits(course: Course, state: State) -> Iterator[tuple[str, str]]:
         yield ("note", own) if own else (limit.level, limit.sentence)
 
 
-#: What is said where E* is given without ν.
+#: Notes on limits if E* is given without ν.
 _OF_INCOMPRESSIBLE = {
     "Poisson ratio": "Dashpots parallel to the springs are exact only for ν = ½; ν is not given with E*.",
     "coupling": "Friction is computed with ν = ½; ν is not given with E*.",
@@ -106,7 +106,7 @@ _OF_INCOMPRESSIBLE = {
 
 
 def _own_words(limit: Any, state: State) -> str:
-    """What the page says of a limit in the place of the core, or nothing."""
+    """Return the page's sentence on a limit if it replaces the core's sentence, else an empty text."""
     if limit.what == "viscosity":
         remedy = " and in ".join(each.in_time for each in CHOICES["drive"].options.values() if each.in_time)
         tau = written(limit.value, "time")
@@ -119,12 +119,12 @@ _SENTENCE = Markup('<span class="{}">{}</span>')
 
 
 def below(view: View) -> Markup:
-    """Exceeded assumptions as HTML; the others fold, with what the numbers and the plots are."""
+    """Return exceeded assumptions as HTML; a fold has the others, and explains numbers and plots."""
     exceeded, others = Markup(""), Markup("")
     for level, sentence in limits(view.course, view.state):
         html = _SENTENCE.format(level, linked(sentence))
         exceeded += html * (level == "beyond")
-        # Cautions are above it, with their buttons.
+        # Cautions and their buttons are above the player.
         others += html * (level in ("good", "note"))
     others += readouts.explained(readouts.line(view.course))
     others += readouts.table(view.course)
@@ -133,14 +133,14 @@ def below(view: View) -> Markup:
 
 
 def _laws(view: View, plots: Iterable[Plot], link: Callable[[str], Markup]) -> Markup:
-    """The formula of each plot, with the numbers of its equations (HTML); `link` makes HTML of a text."""
+    """Return the formulas of plots with their equation numbers (HTML); `link` converts text to HTML."""
     laws = ((plot.title, link(plot.formula_of(view.course))) for plot in plots)
     rows = (Markup("<dt>{}</dt><dd><em>{}</em></dd>").format(*each) for each in laws)
     return Markup("<dl>{}</dl>").format(Markup("").join(rows))
 
 
 def scene_file_texts(view: View) -> list[tuple[str, str]]:
-    """All of them as HTML, without links to pages of the server."""
+    """Return all notes as HTML, without links to pages of the server."""
     sentences = limits(view.course, view.state)
     html = (_SENTENCE.format(level, html_subscripts(sentence)) for level, sentence in sentences)
     numbers = readouts.explained(readouts.line(view.course), html_subscripts)
@@ -149,7 +149,7 @@ def scene_file_texts(view: View) -> list[tuple[str, str]]:
 
 
 def notes(view: View) -> dict[str, Any]:
-    """Notes by their places."""
+    """Return notes by their places."""
     return form_notes(view) | {"below": partial(below, view)}
 
 

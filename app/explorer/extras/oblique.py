@@ -1,4 +1,4 @@
-"""The drive *oblique impact*: a free body hits with a speed along the surface, under friction."""
+"""The drive *oblique impact*: a free body hits with friction and a speed along the surface."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -30,7 +30,7 @@ _ELEMENTS, _HALVINGS = 300, 2
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ObliqueCourse(Course):
-    """A course of an impact with friction: `motion` is an `ObliqueMotion`, `hit` that along the normal."""
+    """Course of an impact with friction: `motion` is an `ObliqueMotion`, `hit` the normal impact."""
 
     more_law: ClassVar[str] = ";  |q_x| ≤ μ q  § 13"
 
@@ -46,11 +46,11 @@ class ObliqueCourse(Course):
 
     @cached_property
     def rebound(self) -> SimpleNamespace:
-        """Results (SI) of an oblique impact, of the point of contact and of the body."""
+        """Results (SI) of an oblique impact for the point of contact and for the body."""
         drive, hit, motion = self.scene.drive, self.motion.impact, self.motion
         after = float(motion.tangential_velocity[-1] if hit is None else hit.tangential_velocity)
         largest = np.max(np.abs(motion.tangential_force)) if hit is None else hit.max_tangential_force
-        # The impulse changes the speed of the body and its spin.
+        # The impulse changes the speed and the spin of the body.
         impulse = drive.tangential_mass * (after - drive.tangential_speed)
         body = drive.tangential_speed + impulse / drive.mass
         found = {"contact_velocity": after, "body_speed": body, "max_tangential_force": float(largest)}
@@ -63,7 +63,7 @@ class ObliqueCourse(Course):
 
 
 class Oblique(Impact):
-    """A free body hits with a speed along the surface."""
+    """Impact of a free body with a speed along the surface."""
 
     def make(self, state):
         speeds = map(float, mdr.at_angle(state["oblique.incoming_speed"], pi / 2 - state["oblique.attack"]))
@@ -72,15 +72,15 @@ class Oblique(Impact):
         return mdr.scene.FreeObliqueImpact(state.mass, *speeds, state["oblique.friction"], felt)
 
     def follow(self, scene, progress):
-        """States from one coarse solution of friction until the exact ones are found."""
+        """Return states from a coarse solution of friction, until the exact states are known."""
         drive, normal = scene.drive, _normal(scene)
         given = drive.tangential_speed, drive.friction, drive.tangential_mass
         motion = along_surface(motion_of(normal, INSTANTS, BEFORE_YIELD), *given, 0)
         course = _course(scene, normal, motion)
-        return replace(course, pending="Computing friction; drawn so far to three digits.")
+        return replace(course, pending="Computing friction; the plots have three digits so far.")
 
     def exact(self, scene):
-        """States from the core's solution, with elements thinned out for drawing."""
+        """Return states from the core's solution, with fewer elements for drawing."""
         hit = scene.solve()
         motion = oblique_motion(hit, motion_of(hit.normal, INSTANTS, BEFORE_YIELD), _HALVINGS)
         thinned = slice(None, None, -(-motion.x.size // _ELEMENTS))
@@ -102,12 +102,12 @@ def _course(scene, hit, motion):
 
 
 def _normal(scene):
-    """Impact along the normal, which is independent of friction."""
+    """Return the impact along the normal, which is independent of friction."""
     return mdr.impact(scene.profile, scene.medium, scene.drive.mass, scene.drive.speed)
 
 
 def leaning(course: ObliqueCourse, i: int, r):
-    """Tangential displacement (m) of elements in state i, and whether they stick."""
+    """Return the tangential displacement (m) of elements in state i, and whether they stick."""
     m, medium = course.motion, course.scene.medium
     # The first element is a flat face; most shapes have none.
     first = int(m.x[0] == 0)
@@ -118,7 +118,7 @@ def leaning(course: ObliqueCourse, i: int, r):
 
 
 def _feet(state, rows: dict, half: float, base: float) -> dict:
-    """Leaning springs, and lines below those that stick or slip."""
+    """Return leaning springs, and lines below sticking and slipping springs."""
     found, width = {}, 0.8 * half / drawn.SPRINGS
     paths = [np.reshape(part, (-1, 9)) for part in (np.hstack([rows["sticks"], rows["slips"]]))]
     yielded = drawn.reduced(state.profile, np.abs(paths[0][:, 0])) < state.live_interval.lower
@@ -136,7 +136,7 @@ FEET = (line("sticks", "stick", 4.0), line("slips", "slip", 4.0))
 
 
 def springs(view: View, i: int) -> dict:
-    """Springs that lean, with marks of stick and slip, in the place of upright ones."""
+    """Return leaning springs with marks of stick and slip, instead of upright springs."""
     course = view.course
     if not isinstance(course, ObliqueCourse):
         return {}
@@ -148,7 +148,7 @@ def springs(view: View, i: int) -> dict:
 
 
 def _forces(course):
-    """Forces (N) along both directions."""
+    """Return the range of the normal and tangential forces (N)."""
     forces = course.states.force, np.abs(course.motion.tangential_force)
     most = float(max(np.max(force) for force in forces))
     return -min(course.scene.drive.friction, 1.0) * most, most
@@ -158,7 +158,7 @@ FORCE = AxisSpec("F, Fₓ, force", "force", _forces)
 
 
 def _regime(course) -> str:
-    """Whether and when the contact sticks, in words."""
+    """Describe in words when the contact sticks."""
     motion = course.motion
     sticking = np.flatnonzero(motion.stick_radius > 0)
     if not sticking.size:

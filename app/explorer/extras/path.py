@@ -25,12 +25,12 @@ _STEPS = 24
 _TOLERANCE = 3e-3
 
 
-#: What is said of a path in time of a medium without dashpots.
+#: Note on a path in time in a medium without dashpots.
 _IDLE = "Without viscosity nothing changes while the depth or force is held."
 
 
 def _vertices(drive):
-    """Prescribed values of a drive from first contact on, and times, or changes so far."""
+    """Return the prescribed values of a drive since first contact, and times or accumulated changes."""
     if drive.time is not None:
         return np.array(drive.force if _by_force(drive) else drive.depth), np.array(drive.time)
     depth = np.append(0.0, drive.depth)
@@ -46,7 +46,7 @@ def _by_force(drive):
 
 
 def _refined(scene, chain):
-    """Prescribed values and their places along the path, at the vertices and between them."""
+    """Return prescribed values and their places along the path, at the vertices and between them."""
     values, along = _vertices(scene.drive)
     by_force, largest = _by_force(scene.drive), onset_depth(scene)
     places = [along]
@@ -62,7 +62,7 @@ def _refined(scene, chain):
 
 
 def _shares(steps, chain, held):
-    """Places along a piece, dense where radii start as a root of the depth, and just before its end."""
+    """Return places along a piece, dense at both ends: radii start as a root of the depth."""
     share = np.linspace(0, 1, steps + 1)
     if chain:
         # Dashpot forces change fastest at the start of a piece.
@@ -97,7 +97,7 @@ def _slowly(scene, values):
 
 
 def _motion(states, time):
-    """Motion along a path in time, with its energies."""
+    """Return the motion along a path in time, with its energies."""
     none, live = np.zeros_like(time), states.live_interval
     rate = np.append(0.0, np.diff(states.depth) / np.diff(time))
     viscous = none if isinstance(states, mdr.Indentation) else states.viscous_work
@@ -108,13 +108,13 @@ def _motion(states, time):
     )  # fmt: skip
 
 
-#: Places at which the elements are followed, besides the radii a and c of all states.
+#: Number of elements, in addition to the elements at the radii a and c of all states.
 _PLACES = 300
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PathStates(mdr.TimedIndentation):
-    """States along a path in time, whose elements are evaluated once for all states.
+    """States along a path in time, with elements evaluated once for all states.
 
     `x`: places (m) of the elements; `load`, `compression`: their line loads (N/m) and elastic
     compressions (m) in every state.
@@ -153,14 +153,14 @@ class PathStates(mdr.TimedIndentation):
         return LiveInterval(lower, upper, length)
 
     def surface(self, r):
-        """Elastic displacement (m), including that of released elements."""
+        """Return the elastic displacement (m), including released elements."""
         return abel.surface_displacement(self.x, self.compression, r)
 
     def imprint(self, r):
         return mdr.Indentation(self.profile, self.medium, self.depth, self.live_interval).imprint(r)
 
     def pressure(self, r):
-        """Contact pressure (Pa) at radii r (m); infinite at the rim while dashpots carry load there."""
+        """Return the contact pressure (Pa) at radii r (m); infinite at the rim while dashpots act there."""
         inside = self.x < self.contact_radius
         if not inside.any():
             return np.zeros(np.shape(r))[()]
@@ -170,7 +170,7 @@ class PathStates(mdr.TimedIndentation):
 
 
 class Path(Drive):
-    """Pressed along a path."""
+    """Pressing along a path."""
 
     def make(self, state):
         made = medium(state)
@@ -180,8 +180,8 @@ class Path(Drive):
             if state["path.pattern"] == "creep":
                 if made.eta > 0 and made.f_c > 0:
                     raise ValueError(
-                        "creep with viscosity is not computed for a hardness ∝ 1/a², because the force may "
-                        "decrease with depth: choose another hardness or ramp and hold first"
+                        "creep with viscosity is not available for a hardness ∝ 1/a², as the force may "
+                        "decrease with depth: first choose another hardness, or ramp and hold"
                     )
                 return mdr.scene.ForcePath((0.0, state.max_force, state.max_force), times)
             return mdr.scene.DepthPath((0.0, state.max_depth, state.max_depth), times)
@@ -192,11 +192,11 @@ class Path(Drive):
         return mdr.scene.DepthPath([depth for pair in zip(peaks, unloaded, strict=True) for depth in pair])
 
     def follow(self, scene, progress):
-        """States along the path."""
+        """Return the states along the path."""
         return _solved(scene, scene.drive.time is not None and scene.medium.eta > 0)
 
     def equivalent(self, state, turning_point):
-        """Pattern of the present depth, and a ramp of one relaxation time unless there is one already."""
+        """Return the present depth and force, and a ramp of one relaxation time if none is set."""
         numbers = {"max_depth": float(turning_point.depth), "max_force": limited_force(turning_point)}
         time = float(f"{turning_point.medium.relaxation_time or 1.0:.2g}")
         return numbers if _in_time(state) else numbers | {"path.ramp_time": time}

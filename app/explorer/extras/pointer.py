@@ -1,4 +1,4 @@
-"""The pointer drags the indenter, or the mark on the curve; a spring that it points at says what it is."""
+"""Drags of the indenter and of the mark on the curve; and tooltips of the springs."""
 
 import json
 from pathlib import Path
@@ -26,26 +26,26 @@ from ..plot import Overlay, View
 from ..plots import DRAGGED, Z, drag_path, let_drag
 from ..state import State, checked, medium
 
-#: Script of the tooltip of a spring: it is given the `figure`, and as `pointed` what is beside the drawing.
+#: Script of the tooltip of a spring; its arguments are the `figure` and the `SpringModel` `pointed`.
 _SPRING = Path(__file__).with_name("pointer_spring.js").read_text(encoding="utf-8")
 
 
 class DragModel(DataModel):
-    """Depth and force of each state, and the depth that the indenter is dragged to (unit of the plot)."""
+    """Depth and force of each state, and the wanted depth of a drag, in the units of the plot."""
 
-    #: As text: Bokeh would look at each number.
+    #: Text is faster: Bokeh would check each number.
     path = String(default="{}")
     depth = AnyValue(default=None)
 
 
 class SpringModel(DataModel):
-    """What a browser needs beside what is drawn, in the units of the plot."""
+    """Data for the tooltips of springs, in the units of the plot."""
 
     springs = Dict(String, AnyValue, default={})
 
 
 class Pointer(Service):
-    """Lets a person drag in the plots of a page, and tells the browser what springs are like."""
+    """Service for drags in the plots, and for the spring data in the browser."""
 
     def __init__(self, page: Any):
         super().__init__(page)
@@ -85,7 +85,7 @@ def press_to(state: State, depth: float) -> State:
 
 
 def handle(view: View, i: int) -> dict:
-    """A handle at the rim of the contact, or without contact at the tip."""
+    """Return a handle at the rim of the contact, or at the tip without contact."""
     state = view.course.states[i]
     a = float(state.contact_radius)
     height = float(state.live_interval.upper) if a > 0 else 0.0
@@ -93,7 +93,7 @@ def handle(view: View, i: int) -> dict:
 
 
 def caps(course: Course) -> np.ndarray:
-    """Largest elastic compression (m) of springs in each state, or one for all; none if nothing yields."""
+    """Return the largest elastic compression (m) of springs in each state, or one for all, or none."""
     scene, imprint = course.scene, course.initial_plastic_depth
     if scene.medium.q_c == np.inf:
         return np.empty(0)
@@ -101,12 +101,12 @@ def caps(course: Course) -> np.ndarray:
         return np.array([scene.medium.critical_depth], float)
     rule, onset = yield_rule(scene.profile, scene.medium), onset_depth(scene, imprint)
     largest = np.maximum(np.maximum.accumulate(np.asarray(course.states.depth, float)), 0.0)
-    # In an imprint a spring yields again with the compression at which it was unloaded.
+    # In an imprint a spring yields again at the compression before unloading.
     return np.where((imprint > 0) & (largest <= onset), onset - imprint, rule.cap(largest))
 
 
 def spring_data(view: View) -> dict[str, Any]:
-    """Units, limits and stiffness of the springs of a view."""
+    """Return units, limits and stiffness of the springs of a view."""
     course, axis, limits = view.course, view.axis(Z), caps(view.course)
     modulus = course.scene.medium.E_star
     unit = fitting(modulus * float(np.max(limits, initial=0.0) or axis.end), "yield constant")
@@ -114,7 +114,7 @@ def spring_data(view: View) -> dict[str, Any]:
         "unit": axis.unit,
         "caps": [float(f"{value:.6g}") for value in limits / axis.factor],
         "cap": "<i>d</i><sub>c</sub>" if course.scene.medium.inverse_to_radius else "<i>u</i><sub>c</sub>",
-        # The load of the dashpots is not drawn.
+        # The plot omits the load of the dashpots.
         "named": "<i>E* u</i>" if course.dashpots else "<i>q</i>",
         "load": modulus * axis.factor / unit.factor,
         "load_unit": unit.name,
@@ -124,6 +124,6 @@ def spring_data(view: View) -> dict[str, Any]:
 EXTRA = Extra(
     "pointer",
     overlays=(Overlay("springs", (mark("handle", legend=False),), handle),),
-    notes=lambda view: {"first": "Or drag the indenter by ●."},
+    notes=lambda view: {"first": "You can also drag the indenter by ●."},
     service=Pointer,
 )

@@ -1,4 +1,4 @@
-// A spring that is pointed at says where it stands, its compression and its load, each beside its limit.
+// Tooltip of a spring: its place, its compression and its load, each with its limit.
 const told = Object.assign(document.createElement("div"), { className: "told", hidden: true })
 told.setAttribute("role", "status")
 document.body.append(told)
@@ -10,7 +10,7 @@ const row = (name) => {
   }
   return [[], []]
 }
-// Where a spring that carries nothing would end: at the imprint, else at the surface.
+// End of a spring without load: at the imprint, else at the surface.
 const rest = (x) => {
   const [xs, ys] = row("residual imprint"), k = Array.from(xs).findIndex((each) => each >= x)
   return k > 0 ? ys[k - 1] + (ys[k] - ys[k - 1]) * (x - xs[k - 1]) / (xs[k] - xs[k - 1]) || 0 : 0
@@ -31,7 +31,7 @@ const sentence = ({ state, x, top }) => {
   const { unit, load, load_unit, caps, cap, named } = pointed.springs
   const u = state === "free" ? 0 : rest(x) - top, limit = caps.length ? caps[Math.min(player.value, caps.length - 1)] : null
   const beside = (value) => limit === null ? "" : ` of at most ${digits(value)}`
-  // What a spring has yielded by stays when it is let go.
+  // The plastic part stays after unloading.
   const imprint = -rest(x), plastic = imprint > 0 ? `<br>plastic part ${digits(imprint)} ${unit}` : ""
   return `<b>${state} spring</b> at <i>x</i> = ${digits(x)} ${unit}<br>elastic part <i>u</i> = ${digits(u)}${beside(limit)} ${unit}${limit === null ? "" : ` = ${cap}`}${plastic}
     <br>${named} = ${digits(u * load)}${beside(limit * load)} ${load_unit}`
@@ -40,7 +40,7 @@ el?.addEventListener("pointermove", (event) => {
   const { clientX: x, clientY: y } = event, frame = toolkit.frame(figure)
   const inside = frame && x > frame.left && x < frame.right && y > frame.top && y < frame.bottom
   const found = inside && !event.buttons && nearest(frame.x.invert(x))
-  // Above the springs is the indenter, which is dragged.
+  // No tooltip on the indenter above the springs, which the user drags.
   told.hidden = !found || frame.y.invert(y) > Math.max(found.top, 0)
   if (told.hidden) return
   told.innerHTML = sentence(found)

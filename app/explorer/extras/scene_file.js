@@ -1,4 +1,4 @@
-// A saved scene: the page's own scripts move and drag it.
+// Saved scene: the scripts of the page play and drag it.
 const [numbers, theme] = ["readout", "dark"].map((id) => document.getElementById(id))
 const { el, show } = make_player({ messages, figures, ask: () => {} })
 show(look)

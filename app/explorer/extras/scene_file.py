@@ -1,4 +1,4 @@
-"""A scene as a file: one HTML that plays in a browser without a server and without a network."""
+"""A scene as one HTML file, which plays in a browser without a server and a network."""
 
 import json
 from base64 import b64encode
@@ -33,14 +33,14 @@ from ..state import MEDIUM_CHOICES, PRESETS, State, altered, as_shown, used, yie
 _HERE = Path(__file__)
 _TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")
 _PLAYER = (HERE / "static" / "player.js").read_text(encoding="utf-8").replace("export ", "")
-#: The page's script of the player as a function, and what calls it.
+#: The page's script of the player as a function, and the script that calls it.
 _CODE = f"""{_PLAYER}
 {_HERE.with_suffix(".js").read_text(encoding="utf-8")}"""
 _PAPER = "V. L. Popov, Facta Universitatis, Series: Mechanical Engineering 13(1), 2015, 39–46"
 
 
 def address(state: State) -> str:
-    """Link to a scene on this server; empty without a server, or if the scene has none."""
+    """Return the link to a scene on this server; empty without a server, or if the scene has no link."""
     if pn.state.location is None:
         return ""
     try:
@@ -51,9 +51,9 @@ def address(state: State) -> str:
 
 
 def scene_file(view: View, bokeh: str = "") -> str:
-    """A view as one HTML: the three plots, a slider along the path, readouts, and notes.
+    """Return a view as one HTML file: the three plots, a slider along the path, readouts, and notes.
 
-    `bokeh` is the address of Bokeh's script, which is in the file by default.
+    `bokeh` is the address of Bokeh's script; by default the file contains the script.
     """
     state, course = view.state, view.course
     title = PRESETS[state.preset].label + ", altered" * bool(altered(state))
@@ -68,7 +68,7 @@ def scene_file(view: View, bokeh: str = "") -> str:
     words = {
         "style": CSS,
         "private": JS["private"] + JS["page"],
-        # Of Bokeh alone what draws; file_html adds a script of Panel's server.
+        # Only the script that draws; file_html would add a script of Panel's server.
         "bokeh": "" if bokeh else Resources(mode="inline", components=["bokeh"]).js_raw[0],
         "bokeh_at": bokeh,
         "dark": str(state.dark).lower(),
@@ -85,13 +85,13 @@ def scene_file(view: View, bokeh: str = "") -> str:
 
 
 def _card(view: View, plot: Plot) -> tuple[str, ...]:
-    """Name of a plot, and title, what stands beside it, and legend as HTML."""
+    """Return name and title of a plot, the text next to the title, and the legend as HTML."""
     key = legend(plot, drawn(view, plot))
     return plot.name, plot.title, html_subscripts(plot.aside(view)), key
 
 
 def _connect(document: Document, view: View, pictures: list[Picture], messages: Messages) -> None:
-    """Let the browser play, drag, and turn dark."""
+    """Let the browser play and drag the scene, and change the theme."""
     sources, *sent = frames(view, pictures)
     course, looks = view.course, []
     for dark in (False, True):
@@ -106,7 +106,7 @@ def _connect(document: Document, view: View, pictures: list[Picture], messages: 
         "looks": looks,
         "dragging": {"path": json.dumps(drag_path(view) | {"pressing": False})},
         "look": look(view.course),
-        # A tenth of its size.
+        # Compressed to a tenth of its size.
         "packed": b64encode(compress(json.dumps(sent).encode(), 9)).decode(),
     }
     document.js_on_event(DocumentReady, CustomJS(args=told, code=_CODE))
@@ -116,7 +116,7 @@ def _connect(document: Document, view: View, pictures: list[Picture], messages: 
 
 
 def _folded(view: View) -> Iterator[tuple[str, str]]:
-    """Titles and texts (HTML) below the plots."""
+    """Yield titles and texts (HTML) below the plots."""
     yield from (each for extra in EXTRAS.values() for each in extra.scene_file_texts(view) if each[1])
     row = Markup("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>")
     rows = Markup("").join(row.format(*cells) for cells in _inputs(view.state))
@@ -124,7 +124,7 @@ def _folded(view: View) -> Iterator[tuple[str, str]]:
 
 
 def _inputs(state: State) -> Iterator[tuple[str, str, str, str]]:
-    """Symbol, name, value and source of all inputs, as texts or HTML."""
+    """Yield symbol, name, value and source of all inputs, as texts or HTML."""
     preset, shape = PRESETS[state.preset], state.chosen("shape")
     note = state.tip_note if state.shape == "sampled" else f"{shape.height},  {shape.reduced}"
     yield "", "indenter", shape.label, html_subscripts(note)

@@ -15,7 +15,7 @@ from ..search import AsyncPlot, Found, IdleSearch
 
 #: Pixels down and along the radius.
 _PIXELS = (72, 96)
-#: What can be drawn: its title, and how it comes from a `Stress`.
+#: Stresses that can be drawn: title, and function of a `Stress`.
 _DRAWN = {
     "max_shear": ("τmax, largest shear stress", lambda stress: stress.max_shear),
     "von_mises": ("σvM, von Mises stress", lambda stress: stress.von_mises),
@@ -24,14 +24,14 @@ _DRAWN = {
 
 
 def section(course: Course, asked):
-    """Map of a stress over r and z, with a, c and the place of the maximum."""
+    """Return the map of a stress over r and z, with a, c and the place of the maximum."""
     (quantity,), state, reach = asked, course.state, 1.6 * float(course.turning_point.contact_radius)
     r = axis("r, radius", "length", reach)
     z = replace(axis("z, upward", "length", reach, -reach), end=0.0)
     title, of_stress = _DRAWN[quantity]
     reason = "No contact, and so no stress." if state.contact_radius == 0 else ""
     if course.chained:
-        reason = "Stresses below the surface are not computed along a viscous path."
+        reason = "Stresses below the surface are not available along a viscous path."
     if reason:
         return Found({}, [r, z, axis(title, "pressure", 1.0)], reason)
     down, along = ((np.arange(count) + 0.5) / count for count in _PIXELS)
@@ -43,7 +43,7 @@ def section(course: Course, asked):
         peak = state.stress_peak(quantity)
         place = np.array([peak.r]), np.array([-peak.z])
         most = float(peak.value) if np.isfinite(peak.value) else most
-        # A place is known to about 10⁻⁴ of the radius.
+        # The place is accurate to about 10⁻⁴ of the radius.
         at = (written(float(x) if x > 1e-4 * reach else 0.0, "length", 3) for x in (peak.r, peak.z))
         bound = written(float(peak.value), "pressure", 3) if np.isfinite(peak.value) else "infinite"
         note = "{} is largest at r = {}, {} below the surface: {}.".format(title.split(",")[0], *at, bound)

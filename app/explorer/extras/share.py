@@ -17,7 +17,7 @@ from ..readouts import readings
 
 
 def csv(view: View) -> str:
-    """All states along the path: every readout that changes."""
+    """Return all states along the path as CSV, with every readout that changes."""
     columns = {
         f"{each.long_name} {each.symbol} ({each.unit or '1'})": values
         for each, values in readings(view.course).items()
@@ -27,7 +27,7 @@ def csv(view: View) -> str:
 
 
 def pressure_csv(view: View, points: int = 401) -> str:
-    """Pressure, line load and reduced profile of the present state."""
+    """Return pressure, line load and reduced profile of the present state as CSV."""
     now, profile = view.course.state, view.course.scene.profile
     largest = 1.25 * float(view.course.turning_point.contact_radius)
     r = np.linspace(0, min(largest, profile.known_radius), points)
@@ -42,7 +42,7 @@ def pressure_csv(view: View, points: int = 401) -> str:
 
 
 def _table(view: View, title: str, columns: dict[str, Any]) -> str:
-    """Columns in SI, with the scene in a header."""
+    """Return columns in SI as CSV, with the scene in a header."""
     head = f"mdr_core {mdr.__version__}: {title}\n{summary(view.state)}\n{view.course.scene.to_python()}"
     rows = zip(*(np.asarray(column, float).tolist() for column in columns.values()), strict=True)
     return csv_text(head.splitlines(), [columns, *rows])
@@ -56,7 +56,7 @@ class Share:
         self.link = field(pn.widgets.TextInput, label="Link to this page")
         self.python = field(pn.widgets.TextAreaInput, label="This scene in Python", rows=12)
         self._note = html()
-        #: Buttons by what is in their files.
+        #: Download buttons by the names of their files.
         self._files = {
             name: download(label, lambda write=write: StringIO(write(page.view)), filename=name)
             for extra in EXTRAS.values()
@@ -68,7 +68,7 @@ class Share:
         self.view = pn.Column(*parts, css_classes=["share"], **WIDE)
 
     def address(self) -> tuple[str, str]:
-        """Link to the page, or why it has none."""
+        """Return the link to the page, or an empty link and the reason."""
         query, note = self._page.query()
         base = pn.state.location.href.split("?")[0] if pn.state.location else ""
         return "" if note else base + f"?{query}" * bool(query), note

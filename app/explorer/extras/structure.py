@@ -27,16 +27,16 @@ from ..plots import PLOTS
 from ..state import State, medium, numbers_of, preset_values, profile
 from ..widgets import Part, button
 
-#: What is said of a body that never leaves.
+#: Notes on a body that never leaves.
 _STAYS = "The body never leaves the plate: waves take all of the energy that yield leaves, e = 0."
 _CAPTURED = "The body stays on the plate for more than 100 periods of both together, e = 0."
-#: Modes of a plate with edges: of what is read; and of what is drawn meanwhile or swept at least, with
-#: those that swing less than twice in the contact time of a rigid body, which leave 0.002 of e.
+#: Number of modes of a plate with edges in results; smallest number in previews and sweeps. These take
+#: all modes that swing less than twice in the contact time on a rigid body: the error of e is 0.002.
 MODES, FEW, _SWINGS = 100, 12, 2.0
-_PENDING = f"Computing {MODES} modes; drawn so far by fewer."
+_PENDING = f"Computing {MODES} modes; the plots have fewer modes so far."
 
 
-#: Value of a limit over its bound above which readouts are no results, and these readouts.
+#: Ratio of a limit to its bound above which readouts are no results, and these readouts by limit.
 _FAR = 3.0
 _OF_BODY = ("force", "restitution", "contact_time", "structure_work", "support_energy")
 _DOUBTFUL = {
@@ -49,7 +49,7 @@ _DOUBTFUL = {
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class StructureCourse(Course):
-    """A course of an impact on a plate or a support."""
+    """Course of an impact on a plate or a support."""
 
     @property
     def in_place(self):
@@ -59,7 +59,7 @@ class StructureCourse(Course):
     @cached_property
     def cautions(self):
         found = [_caution(limit) for limit in self.limits if _far_beyond(limit)]
-        # Where another structure is to be taken, other limits of this one tell nothing.
+        # If the advice is another structure, other limits of this structure do not matter.
         other = next((each for each in found if each.option), None)
         return tuple(found) if other is None else (replace(other, limits=(*other.limits, *_DOUBTFUL)),)
 
@@ -72,7 +72,7 @@ class StructureCourse(Course):
 
     @property
     def behind(self) -> SimpleNamespace:
-        """Results (SI) of the structure, and of the body that moves with it."""
+        """Results (SI) for the structure, and for the body that moves with it."""
         motion, found = self.motion, {"max_deflection": self.hit.max_deflection}
         found |= {"deflection": motion.deflection, "body_velocity": motion.body_velocity}
         if self.structure.is_plate:
@@ -83,7 +83,7 @@ class StructureCourse(Course):
     def largest_terms(self):
         own = {"deflection": self.hit.max_deflection, "body_velocity": self.hit.speed}
         if _has_edges(self.structure):
-            # The depth is the way of the body less the deflection.
+            # The depth is the displacement of the body minus the deflection.
             own["depth"] = self.hit.max_deflection
         return super().largest_terms | own
 
@@ -95,7 +95,7 @@ def _far_beyond(limit: Any) -> bool:
 
 
 def _caution(limit: Any) -> Caution:
-    """What to do where a limit of a structure is exceeded, and why."""
+    """Return the caution for an exceeded limit of a structure: advice and its reason."""
     readouts, times = _DOUBTFUL[limit.what], f"{digits(limit.value / 2, 3)} times the thickness"
     if limit.what == "deflection":
         text = f"Take a thicker plate or a slower body: the deflection, {times}, stretches the plate"
@@ -103,9 +103,9 @@ def _caution(limit: Any) -> Caution:
     if limit.what == "dent":
         text = f"Take a thicker plate or a larger indenter: the dent reaches {times} of the plate"
         return Caution((limit.what,), f"{text}.", readouts)
-    text = "Take a plate with edges: this one swings back and hits the body again"
+    text = "Take a plate with edges: this structure swings back and hits the body again"
     if limit.what == "edges":
-        text = "Take a plate with edges: no wave comes back to lift the body from this one"
+        text = "Take a plate with edges: in this plate no wave returns to lift the body"
         if limit.value < inf:
             text = f"Take a plate with edges: the contact lasts {digits(limit.value, 3)} times as long as"
             text += " waves take to the edge and back"
@@ -113,7 +113,7 @@ def _caution(limit: Any) -> Caution:
 
 
 class OnStructure(Impact):
-    """The drive *impact* of the page, on a structure too."""
+    """The drive *impact*, also on a structure."""
 
     def given(self, state):
         structure = structure_of(state)
@@ -127,7 +127,7 @@ class OnStructure(Impact):
         return given
 
     def limiting_cases(self, state):
-        """Without edges, and without mass: both sides of a plate with edges."""
+        """Return the limiting cases of a plate with edges: without edges, and without mass."""
         numbers = numbers_of(state, "structure.behind")
         if state["structure.behind"] != "edges" or any(np.ndim(state[name]) for name in numbers):
             return {}
@@ -152,7 +152,7 @@ class OnStructure(Impact):
         return StructureCourse(**own | {"notes": notes})
 
     def exact(self, scene):
-        """States of an impact by modes, in all contacts."""
+        """Return the states of an impact by modes, in all contacts."""
         hit = scene.solve()
         motion = motion_at(hit, contact_instants(hit, INSTANTS))
         return StructureCourse(
@@ -161,11 +161,11 @@ class OnStructure(Impact):
         )  # fmt: skip
 
     def converted(self, state, choice, wanted):
-        """Numbers of a structure that nobody has set, so that it matters beside the present impact."""
+        """Return unset numbers of a structure, such that it affects the present impact."""
         if choice != "structure.behind" or wanted == "block" or _losses(state):
             return {}
         hit = follow(state).hit
-        # Under the present force a spring would store half of the energy, and waves of half a sine take it.
+        # Under the present force a spring stores the energy, and waves of a half-sine take half of it.
         stiffness = float(hit.max_force**2 / (hit.mass * hit.speed**2))
         if wanted == "support":
             found = {"stiffness": float(f"{stiffness:.2g}")}
@@ -175,7 +175,7 @@ class OnStructure(Impact):
             thickness = (2 * stiffness * float(hit.contact_time) / of_one_metre) ** 0.5
             found["thickness"] = float(f"{thickness:.2g}")
         if wanted == "edges":
-            # Waves are back from the edges when the contact ends.
+            # Waves return from the edges when the contact ends.
             spread = mdr.Structure.plate(**found).wave_spread
             side = (BACK * spread * float(hit.contact_time)) ** 0.5
             found |= dict.fromkeys(("width", "length"), float(f"{side:.2g}"))
@@ -184,7 +184,7 @@ class OnStructure(Impact):
         return {name: QUANTITIES[name].bounded(each) for name, each in found.items() if name not in known}
 
     def equivalent(self, state, turning_point):
-        """On a structure the speed is larger than that of the work alone."""
+        """Return numbers for equal depth; on a structure the speed is larger than from the work alone."""
         numbers = super().equivalent(state, turning_point)
         given = self.given_quickly(state) | numbers
         if "structure" not in given or hasattr(DRIVES[state.drive].make(state), "speed"):
@@ -201,7 +201,7 @@ class OnStructure(Impact):
 
 
 def _material(state: State) -> dict[str, float]:
-    """Modulus, Poisson ratio and density of a plate of the medium, where they are those of a body."""
+    """Return modulus, Poisson ratio and density of a plate, from the medium if it has a Young's modulus."""
     if state.elasticity == "bodies":
         nu = QUANTITIES["structure.nu"].bounded(state.nu_1)
         return {"E": state.E_1, "nu": nu, "density": state.density}
@@ -209,12 +209,12 @@ def _material(state: State) -> dict[str, float]:
 
 
 def _losses(state: State) -> str:
-    """What of the medium is not computed together with a structure, in words, or nothing."""
+    """Return the property of the medium that excludes a structure, in words, or an empty text."""
     return "adhesion" if state.adhesion != "none" else "viscosity" if state.damping != "none" else ""
 
 
 def structure_of(state: State) -> mdr.Structure | None:
-    """The structure of a state, None for a thick block. Raises ValueError."""
+    """Return the structure of a state, None for a thick block. Raises ValueError."""
     behind = state["structure.behind"]
     if behind == "block":
         return None
@@ -229,13 +229,13 @@ def structure_of(state: State) -> mdr.Structure | None:
         return mdr.Structure(**own)
     by_thickness = state["structure.plate"] == "moduli"
     if state["structure.plate"] == "bending":
-        # An isotropic plate by its bending stiffness: its Poisson ratio, here 0, does not matter.
+        # An isotropic plate by its bending stiffness; the Poisson ratio, here 0, does not matter.
         D = own.pop("D")
         own |= {"D11": D, "D12": 0.0, "D22": D, "D66": D / 2}
     if behind == "edges":
         make = mdr.Structure.supported_isotropic_plate if by_thickness else mdr.Structure.supported_plate
         return make(**own, modes=MODES)
-    # 0 is an edge that is not known.
+    # 0 means an unknown edge.
     edge = own.pop("edge") or None
     return (mdr.Structure.plate if by_thickness else mdr.Structure.laminate)(**own, edge=edge)
 
@@ -245,7 +245,7 @@ def _has_edges(structure: mdr.Structure | None) -> bool:
 
 
 def few_modes(structure: mdr.Structure, rigid: mdr.Impact) -> mdr.Structure:
-    """A plate by the lowest modes that an impact needs; its static stiffness holds the others."""
+    """Return a plate with the lowest modes, enough for an impact; its stiffness includes the others."""
     modes = structure.modes
     count = max(int(np.searchsorted(modes.frequency, _SWINGS / float(rigid.contact_time))), FEW)
     lowest = (each[:count] for each in (modes.frequency, modes.mass, modes.damping))
@@ -253,7 +253,7 @@ def few_modes(structure: mdr.Structure, rigid: mdr.Impact) -> mdr.Structure:
 
 
 def notes(view: View) -> dict[str, str]:
-    """What the numbers of a plate make, and how far its edges must be."""
+    """Return notes on the derived numbers of a plate, and on the necessary distance of its edges."""
     course = view.course
     if not isinstance(course, StructureCourse):
         return {}
@@ -277,20 +277,20 @@ def notes(view: View) -> dict[str, str]:
     ]
     lines = [html_subscripts(", ".join(parts))]
     if (far := _far(course)) < inf:
-        lines.append(html_subscripts(f"Edges farther than {written(far, 'length', 2)} are not felt"))
+        lines.append(html_subscripts(f"Edges farther than {written(far, 'length', 2)} have no effect"))
     return {"form": Markup("<br>").join(lines)}
 
 
 def _far(course: StructureCourse) -> float:
-    """Distance (m) beyond which edges are not felt; infinite where the body never leaves."""
+    """Return the distance (m) beyond which edges have no effect; infinite if the body never leaves."""
     told = replace(course.hit, structure=replace(course.structure, edge=1.0))
     (limit,) = (each for each in told.limits if each.what == "edges")
-    # The time that waves take is as the square of the distance.
+    # The travel time of waves grows with the square of the distance.
     return float(np.sqrt(limit.value / limit.bound))
 
 
 def e_over(page: Any, plot: Plot, view: View) -> list[Part]:
-    """The button above the force that shows the restitution over the mass, or over the thickness."""
+    """Return the button above the force that plots the restitution over the mass or the thickness."""
     thickness, drawn = "structure.thickness", plot.name == "force" and "sweep" in PLOTS
     if drawn and _has_edges(view.course.structure):
         label, swept = "e over m", "mass"

@@ -17,7 +17,7 @@ def _around(course: Course) -> tuple[float, float]:
 
 R = AxisSpec("r, radius", "length", _around)
 Z = AxisSpec("z, upward", "length", lambda course: (-1.2 * deepest(course), deepest(course)))
-#: Where points lie between edges, at which the surface is steep.
+#: Places of points between two edges, dense at the edges because the surface is steep there.
 _DENSE = (1 - np.cos(np.linspace(0, np.pi, 20))) / 2
 
 
@@ -30,13 +30,13 @@ def surface(view: View, i: int) -> dict:
     edges = np.array(sorted(edge for edge in edges if edge <= half))
     r = np.unique(np.append(edges[:-1, None] + np.diff(edges)[:, None] * _DENSE, edges))
     known = r[r <= profile.known_radius]
-    # As far up as the axis reaches, also at the wall of a punch.
+    # Up to the end of the axis, also at the wall of a punch.
     tip = np.minimum(profile.height(known) - state.depth, far)
     imprint = 0.0 - state.imprint(r)
     beside, height = r > a, imprint.copy()
     height[beside] -= state.surface(r[beside])
     if a > 0:
-        # Under the contact the surface is the tip.
+        # In the contact the surface is the tip.
         height[~beside] = tip[: np.count_nonzero(~beside)]
     ends, bottom = np.array([-half, half]), np.full(2, z.start)
     surface = both(r, -1), both(height)

@@ -1,4 +1,4 @@
-"""The plot *Sweep*: results over one number, with other classes and the limit of fast impacts."""
+"""The plot *Sweep*: results over one number, with other classes of hardness and limiting cases."""
 
 import sys
 from collections.abc import Iterator
@@ -31,10 +31,10 @@ from ..widgets import Part, button, slider_range
 
 #: Functions of the core by drives.
 SOLVERS = {"depth": "indent", "force": "indent_to_force", "impact": "impact"}
-#: Points along the range; of impacts in time, which take a millisecond each; of impacts by modes, which
-#: take 0.1 s; and of these as many again between others where the result changes most.
+#: Numbers of points along the range: in general; for impacts in time (1 ms each); for impacts by modes
+#: (0.1 s each); and of further points by modes, where the result changes most.
 POINTS, IN_TIME, BY_MODES, FINER = (81, 31, 13, 0) if sys.platform == "emscripten" else (81, 31, 25, 12)
-#: Names of the fast limit, which is that of class (b), and of the three classes: options and constants.
+#: Names of the fast limit of class (b), of limiting structures, and of the classes (option, constant).
 FAST = "fast limit (23) (24), class (b)"
 LIMITING = "plate without edges", "support without mass"
 CLASSES = {
@@ -42,7 +42,7 @@ CLASSES = {
     "(b) hardness ∝ 1/a": ("q_c", "q_c"),
     "(c) hardness ∝ 1/a²": ("line", "f_c"),
 }
-#: Where the result of a fast limit is in that of an impact.
+#: Attributes of an impact with results of its fast limit.
 _LIMITS = {
     "damaged_area": "fast_limit.contact_area",
     "max_depth": "fast_limit.max_depth",
@@ -52,7 +52,7 @@ _LIMITS = {
 
 @dataclass(frozen=True)
 class Sweep:
-    """A sweep: the scene, the swept number with its range, and the result."""
+    """Sweep: the scene, the swept number with its range, and the result."""
 
     state: State
     swept: str
@@ -66,17 +66,17 @@ class Sweep:
 
     @property
     def in_time(self):
-        """Whether it is of impacts with dashpots or on a structure."""
+        """Whether the sweep solves impacts with dashpots or on a structure."""
         return self.solver == "impact" and (self.state.damping != "none" or self.structure is not None)
 
     @cached_property
     def structure(self):
-        """The structure of the present scene, None without one."""
+        """Structure of the present scene, or None."""
         return DRIVES[self.state.drive].given_quickly(self.state).get("structure")
 
     @property
     def by_modes(self):
-        """Whether it is of impacts on a structure by its modes."""
+        """Whether the sweep solves impacts on a structure with modes."""
         return self.structure is not None and self.structure.modes is not None
 
     @property
@@ -86,19 +86,19 @@ class Sweep:
         return space(self.low, self.high, count)
 
     def at(self, numbers):
-        """The scene with values of the swept number."""
+        """Return the state with values of the swept number."""
         if self.swept == "energy":
             return self.state.replace(speed=(2 * numbers / self.state.mass) ** 0.5)
         return self.state.replace(**{self.swept: numbers})
 
     def solve(self, numbers):
-        """Results of the core for values of the swept number."""
+        """Solve the scene for values of the swept number."""
         state = self.at(numbers)
         given = DRIVES[state.drive].given_quickly(state)
         return getattr(mdr, self.solver)(profile(state), medium(state), **given)
 
     def column(self, numbers, quantity):
-        """A result at values of the swept number; NaN where the core refuses."""
+        """Return a result at values of the swept number; NaN if the core raises an error."""
         try:
             result = self.solve(numbers[:, None] if len(numbers) > 1 else float(numbers[0]))
             return np.broadcast_to(attrgetter(quantity)(result), (len(numbers), 1))[:, 0]
@@ -108,7 +108,7 @@ class Sweep:
             return np.hstack([self.column(half, quantity) for half in np.array_split(numbers, 2)])
 
     def one_by_one(self, numbers, quantity):
-        """Numbers with more of them between, and results at these; after a step for each of them."""
+        """Return the numbers, with further numbers between them, and the results; one step for each."""
         values = []
         for number in numbers:
             values.append(self.column(number[None], quantity)[0])
@@ -123,7 +123,7 @@ class Sweep:
         return numbers, np.array(values)
 
     def limiting(self, numbers):
-        """Results of the limiting cases of the drive, by their names."""
+        """Return results of the limiting cases of the drive, by their names."""
         state, found = self.at(numbers[:, None]), {}
         for name, given in DRIVES[state.drive].limiting_cases(state).items():
             result = getattr(mdr, self.solver)(profile(state), medium(state), **given)
@@ -141,7 +141,7 @@ class Sweep:
         return not self.in_time and self.state.adhesion == "none"
 
     def fast(self, numbers):
-        """The fast limit, of dry impacts on a virgin medium of class (b), and nothing elsewhere."""
+        """Return the fast limit of dry impacts on a virgin medium of class (b), otherwise nothing."""
         virgin = self.solver == "impact" and self.dry and not self.state.plastic_depth
         if virgin and self.against in _LIMITS and self.state.plasticity in ("q_c", "hardness"):
             return {FAST: self.column(numbers, _LIMITS[self.against])}
@@ -152,7 +152,7 @@ class Sweep:
         own = yield_constant(self.state)
         others = {row: pair for row, pair in CLASSES.items() if pair[1] not in own}
         constant = self.swept in numbers_of(self.state, "plasticity")
-        # Under a given force each constant is a search of its own.
+        # Under a given force each constant would need a separate search.
         if constant or not self.dry or not self.yields or self.solver == "indent_to_force":
             return
         for row, pair in others.items():
@@ -160,10 +160,10 @@ class Sweep:
                 yield row, each
 
     def _through(self, option, constant):
-        """The sweep of another class, with the constant that gives the present result; None without one.
+        """Return the sweep of another class with the constant that gives the present result, or None.
 
-        The constant is looked for about that of the same hardness at the largest contact radius, and has
-        five digits, as in a field.
+        The search is around the constant of the same hardness at the largest contact radius. The constant
+        has five digits, as in a field.
         """
         at = np.array([self.present])
         wanted, a = (float(self.column(at, quantity)[0]) for quantity in (self.against, "contact_radius"))
@@ -177,24 +177,24 @@ class Sweep:
 
 _DATA = read_data(Path(__file__).with_suffix(".json"))
 _RESULTS = _DATA["results"]
-#: The energy of an impact, which is swept by the speed.
+#: The energy of an impact; the speed varies with it.
 _ENERGY = quantity(**_DATA["energy"])
 
-#: Dashes of the lines beside that of the scene.
+#: Dashes of the lines other than the line of the scene.
 _DASHES = "dashed", "dotted", "dashed", "dotdash", "dashed", "dotted"
 LINES = dict(zip((FAST, *CLASSES, *LIMITING), _DASHES, strict=True))
 #: Words on the lines.
 _WORDS = dict(
     zip(LINES, ("fast limit", "class (a)", "class (b)", "class (c)", "no edges", "support"), strict=True)
 )
-#: Of a ratio, as the restitution, what is nothing beside its largest value.
+#: Share of the largest value below which a ratio, such as the restitution, is nearly 0.
 _NOTHING = 1e-3
 #: Shapes with closed forms.
 _SHAPES = ("cone", "paraboloid", "power_law")
 
 
 def known(name: str):
-    """A quantity that can be swept."""
+    """Return a quantity that can be swept."""
     return _ENERGY if name == "energy" else QUANTITIES[name]
 
 
@@ -204,7 +204,7 @@ for _name in ("energy", *QUANTITIES):
 
 
 def swept(state: State) -> list[str]:
-    """What can be swept, the first one if nothing is chosen."""
+    """Return the names of the quantities that can be swept, with the default first."""
     if state.drive not in SOLVERS:
         names = CHOICES["sweep.swept"].options
         return [each for each in names if each == "energy" or state[each] is not None]
@@ -215,7 +215,7 @@ def swept(state: State) -> list[str]:
 
 
 def against(state: State) -> list[str]:
-    """Results that can be drawn."""
+    """Return the names of the results that can be plotted."""
     return _RESULTS.get(state.drive) or list(CHOICES["sweep.against"].options)
 
 
@@ -224,7 +224,7 @@ def _value(state: State, name: str) -> float:
 
 
 def asked(state: State) -> Sweep:
-    """The sweep of a state, over the range of a slider about the value of the preset."""
+    """Return the sweep of a state over the range of a slider around the value of the preset."""
     name = option(state, "sweep.swept")
     value, middle = (_value(each, name) for each in (state, state.replace(**PRESETS[state.preset].values)))
     low, _, high = slider_range(known(name), middle, value)
@@ -233,13 +233,13 @@ def asked(state: State) -> Sweep:
 
 
 def quick(sweep: Sweep) -> bool:
-    """Whether the sweep is fast enough for every move: shapes with closed forms."""
+    """Whether the sweep is fast enough for every move: the shape has a closed form."""
     one_by_one = sweep.solver == "indent_to_force" and sweep.swept != "max_force"
     return not (one_by_one or sweep.in_time) and sweep.state.shape in _SHAPES
 
 
 def found(course, sweep: Sweep) -> Iterator[Found | None]:
-    """Curve of the sweep with the present value and limits, after a step for each of its lines."""
+    """Yield the curve of the sweep, the present value and limiting cases, after a step for each line."""
     if not sweep.solver:
         yield Found({}, [], "This drive has no sweep: press to a depth or a force, or let a body hit.")
         return
@@ -267,10 +267,10 @@ def found(course, sweep: Sweep) -> Iterator[Found | None]:
 
 
 def _axes(sweep, values, present):
-    """Both logarithmic, to show powers, or linear; a ratio that is nearly 0 somewhere has a linear one."""
+    """Return both axes: logarithmic to show powers, or linear; also linear for a ratio that nears 0."""
     quantity, result = known(sweep.swept), RESULTS[sweep.against]
     log = sweep.logarithmic and sweep.low > 0
-    # Over decades in the unit of the present value: J for 2.75 J, not kJ for the end of the range.
+    # A logarithmic axis has the unit of the present value: J for 2.75 J, not kJ as at its end.
     fits = min(sweep.present, sweep.high) if log else sweep.high
     x = axis(unicode_subscripts(f"{quantity.symbol}, {quantity.label}"), quantity.kind, fits)
     x = replace(x, start=sweep.low if log else min(sweep.low, 0.0), end=sweep.high, log=log)
@@ -287,7 +287,7 @@ def _axes(sweep, values, present):
 
 
 def _power(sweep):
-    """The power law at the present value, by its log–log slope; empty where the result is 0."""
+    """Return the power law at the present value from the log–log slope; empty if the result is 0."""
     pair = sweep.present * np.array([0.999, 1.001])
     ends = sweep.column(pair, sweep.against)
     if not (ends > 0).all():
@@ -296,15 +296,15 @@ def _power(sweep):
     return Markup("{}<sup>{}</sup>").format(html_subscripts(known(sweep.swept).symbol), digits(slope, 3))
 
 
-def _told(row, sweep):
-    """Class, constant and law of a sweep of another class."""
+def _class_note(row, sweep):
+    """Describe a sweep of another class by class, constant and power law."""
     constant = QUANTITIES[CLASSES[row][1]]
     value = in_full(sweep.state[constant.name], constant.kind)
-    told = [
+    parts = [
         html_subscripts(f"{row.split()[0]} {constant.symbol} = {value}"),
         sweep.low > 0 and _power(sweep),
     ]
-    return Markup(", ").join(part for part in told if part)
+    return Markup(", ").join(part for part in parts if part)
 
 
 def _notes(sweep, numbers, values, classes, inside):
@@ -317,8 +317,8 @@ def _notes(sweep, numbers, values, classes, inside):
         result = html_subscripts(RESULTS[sweep.against].symbol)
         yield Markup("At the present value {} ∝ {}.").format(result, power)
     if classes:
-        told = [_told(row, each) for row, each in classes.items()]
-        yield Markup("Through the same point: {}.").format(Markup("; ").join(told))
+        parts = [_class_note(row, each) for row, each in classes.items()]
+        yield Markup("Through the same point: {}.").format(Markup("; ").join(parts))
     elif inside and not sweep.yields:
         yield "Nothing yields at the present value."
     refused = numbers[np.isnan(values)]
@@ -331,7 +331,7 @@ def _notes(sweep, numbers, values, classes, inside):
 
 @dataclass(frozen=True, eq=False)
 class SweepPlot(AsyncPlot):
-    """The plot, whose choices offer what applies to the drive."""
+    """The plot *Sweep*; its options depend on the drive."""
 
     def options_of(self, state, control):
         offered = {"sweep.swept": swept, "sweep.against": against}
@@ -353,7 +353,7 @@ SWEEP = SweepPlot(
 
 
 def e_over_v(page: Any, plot: Plot, view: View) -> list[Part]:
-    """The button above the force of an impact that shows the restitution over the speed."""
+    """Return the button above the force of an impact that plots the restitution over the speed."""
     if plot.name != "force" or view.state.drive != "impact":
         return []
     chosen = {"sweep.swept": "speed", "sweep.against": "restitution"}

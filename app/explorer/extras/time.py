@@ -1,4 +1,4 @@
-"""The plots over time: *In time*, depth and force, and *Energy*, where the energy is."""
+"""The plots over time: *In time* with depth and force, and *Energy* with the balance of energy."""
 
 import numpy as np
 
@@ -44,7 +44,7 @@ MOTION = Plot(
 
 
 def energies(course: Course) -> dict:
-    """Losses (J) so far, stored and kinetic energy, by the names of their areas."""
+    """Return losses so far, stored and kinetic energy (J), by the names of their areas."""
     m = course.ledger
     more = {"friction": m.friction_work} if hasattr(m, "friction_work") else {}
     if course.structure:
@@ -65,7 +65,7 @@ E = AxisSpec("E, energy", "energy", _total)
 
 
 def energy_places(view: View, i: int) -> dict:
-    """What is stored, kinetic and lost on top of each other, and the present time."""
+    """Return stored, kinetic and lost energies on top of each other, and the present time."""
     time, rows = view.course.motion.time, {"time": line_at_time(view, i, E)}
     lower = np.zeros_like(time)
     for name, energy in energies(view.course).items():
