@@ -28,7 +28,7 @@ _HEAVY, _WEIGHT, _GRAVITY = 0.05, 0.05, 9.81
 _LEAST = 0.01
 #: Smallest share of the momentum in the impulse of a contact that counts.
 _COUNTS = 0.01
-_BY_MODES = "take the modes of the structure, for example with Structure.supported_plate"
+_BY_MODES = "take the modes of the structure, such as those of a supported plate"
 
 
 def structure_limits(hit):
@@ -105,7 +105,7 @@ def _support_limit(structure, hit, support):
     if not support.any():
         return
     if structure.mass is None:
-        text = "The mass of the support is neglected. Structure(stiffness=K, mass=…) estimates its effect."
+        text = "The mass of the support is neglected; with a mass of the structure its effect is estimated."
         yield Limit("support", 0.0, _HEAVY, False, text)
         return
     own = np.broadcast_to(structure.mass, support.shape)
