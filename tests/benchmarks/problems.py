@@ -39,7 +39,7 @@ def problems(quick=False):
 
 
 def _force(title, medium):
-    """One force of a cone, beside a plain formula: the difference of two elastic curves."""
+    """One force of a cone. The plain formula is the difference of two elastic curves."""
     E_star, slope, q_c = medium.E_star, CONE.slope, medium.q_c
 
     def plain():
@@ -133,7 +133,7 @@ def _impacts(title, medium, ends, quick):
 
 
 def _field(quick):
-    """The pressure of an elastic cone on square grids, beside boundary elements."""
+    """The pressure of an elastic cone on square grids, also by boundary elements."""
     methods, slope = [], ELASTIC.E_star * CONE.slope / 2
 
     def error(pressure):
@@ -157,7 +157,7 @@ def _field(quick):
 
 
 def _pressure(quick):
-    """Radii in the plastic zone, from the axis on, where elastic pressures hardly differ."""
+    """Pressures in the plastic zone and near the axis, a small difference of elastic pressures."""
     medium = YIELDING["10⁸"]
     c, a = (float(CONE.contact_radius(d)) for d in (DEPTH - medium.critical_depth, DEPTH))
     r = c * np.geomspace(1e-9, 0.99, 1000)
