@@ -85,6 +85,7 @@ def mathml(writer, node):
 PAGES = {
     "assets/theory.md": "theory",
     "assets/accuracy.md": "accuracy",
+    "assets/benchmarks.md": "speed",
     "examples/first_hour.py": "gallery/first_hour",
     "CONTRIBUTING.md": "contributing",
     "CHANGELOG.md": "changelog",

@@ -183,6 +183,9 @@ def main():
     lines = [
         "# Accuracy",
         "",
+        "Relative errors are near rounding for forces and energies, and 10⁻⁶ for viscous forces. Errors of "
+        "stresses below the surface are 10⁻⁸ of the largest stress.",
+        "",
         f"States: worst relative error against 40-digit references, over {len(EXTREMES)} indenters "
         "and three media (E* = 1 MPa, 1 GPa, 1 TPa), with its indenter. The indenters are "
         f"{kinds}, with exponents from 0.1 to 50. Errors of the pressure are per unit of its condition "

@@ -9,11 +9,11 @@ from xml.sax.saxutils import escape
 _PANELS = (
     ("elastic cone, field on a grid", "pressure"),
     ("cone, 10⁸ critical depths deep", "pressure"),
-    ("cone, 10⁶ critical depths deep", "contact time"),
-    ("viscous medium, 100 critical depths deep", "restitution"),
+    ("cone, 10⁴ critical depths deep", "restitution and contact time"),
+    ("viscous medium, 100 critical depths deep", "restitution and contact time"),
 )
 _COLUMNS, _WIDTH, _HEIGHT, _PLOT, _LEFT, _TOP = 2, 330, 352, (268, 196), 48, 42
-_OWN = ("#2f81f7", "#1f9e89", "#6e7bf2", "#4f9fb8")
+_OWN = "#2f81f7"
 _OTHERS = ("#e5534b", "#bf8700", "#d6409f", "#c9510c", "#9a6cd8", "#8a929b", "#7d9b2f")
 _INK = "#7a828c"
 _LEAST = 1e-17
@@ -60,12 +60,9 @@ def _panel(title, question, records):
         f'<text x="{_LEFT}" y="32">{escape(title)}</text>',
         *_axes(low, high),
     ]
-    own = others = 0
+    others = iter(_OTHERS)
     for index, (family, members) in enumerate(families.items()):
-        if family.startswith("mdr_core"):
-            colour, own = _OWN[own % len(_OWN)], own + 1
-        else:
-            colour, others = _OTHERS[others % len(_OTHERS)], others + 1
+        colour = _OWN if family == "mdr_core" else next(others)
         points = sorted(map(place, members))
         parts += [*_series(points, colour, family), *_legend(index, family, colour)]
     return "".join(parts)
@@ -101,9 +98,8 @@ def _seconds(decade):
 def _series(points, colour, family):
     line = "M" + "L".join(f"{x} {y}" for x, y in points)
     yield f'<path class="l" d="{line}" stroke="{colour}"/>'
-    own = family.startswith("mdr_core")
     for x, y in points:
-        if own:
+        if family == "mdr_core":
             yield f'<circle cx="{x}" cy="{y}" r="4.5" fill="{colour}"/>'
         else:
             yield f'<rect x="{x - 3:.1f}" y="{y - 3:.1f}" width="6" height="6" fill="{colour}"/>'
@@ -112,5 +108,5 @@ def _series(points, colour, family):
 def _legend(index, family, colour):
     x = 8 + index % 2 * 162
     y = _TOP + _PLOT[1] + 46 + index // 2 * 14
-    mark = "●" if family.startswith("mdr_core") else "■"
+    mark = "●" if family == "mdr_core" else "■"
     yield f'<text class="k" x="{x}" y="{y}" style="fill:{colour}">{mark} {escape(family)}</text>'

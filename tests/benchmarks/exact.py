@@ -83,6 +83,13 @@ class Power:
 
 
 @_precise
+def force(profile, medium, depths):
+    """Forces of a first loading."""
+    power = Power(profile, medium)
+    return Exact([power.force(depth) - power.force(power.before(depth)) for depth in map(mpf, depths)])
+
+
+@_precise
 def pressure(profile, medium, depth, radii):
     """Pressure of a cone under first loading; 0 outside the contact."""
     power = Power(profile, medium)

@@ -263,34 +263,30 @@ def of_measured():
             yield kinds(result), right | ({"tip", "creep"} if name == "steel" else set())
 
 
-def table(seeds=6):
-    """The table as Markdown: of each kind how often it is made, and how often it is right."""
-    counts, right, curves = defaultdict(Counter), defaultdict(Counter), Counter()
+def cases(seeds):
+    """Yields "made" or "measured", the kinds of remarks on each case, and those that are right."""
     for made, true in of_families(seeds):
-        counts["made"].update(made)
-        right["made"].update(true)
-        curves["made"] += 1
+        yield "made", made, true
     for medium in families.KINDS.values():
         for seed in range(seeds):
             for fit, true in of_a_kind(medium, seed):
-                made = kinds(fit)
                 covered = "E_star" in fit.standard_errors and families.covered(medium, fit)
-                counts["made"].update(made)
-                right["made"].update(made & true if covered else made)
-                curves["made"] += 1
-        for seed in range(seeds):
+                yield "made", kinds(fit), true if covered else kinds(fit)
             for result, true in of_unloadings(medium, seed):
-                counts["made"].update(kinds(result))
-                right["made"].update(kinds(result) & true)
-                curves["made"] += 1
+                yield "made", kinds(result), true
     for result, true in beside_fits():
-        counts["made"].update(kinds(result))
-        right["made"].update(kinds(result) & true)
-        curves["made"] += 1
+        yield "made", kinds(result), true
     for made, true in of_measured():
-        counts["measured"].update(made)
-        right["measured"].update(made & true)
-        curves["measured"] += 1
+        yield "measured", made, true
+
+
+def table(seeds=6):
+    """The table as Markdown: of each kind how often it is made, and how often it is right."""
+    counts, right, curves = defaultdict(Counter), defaultdict(Counter), Counter()
+    for source, made, true in cases(seeds):
+        counts[source].update(made)
+        right[source].update(made & true)
+        curves[source] += 1
     rows = [
         f"| remark | {curves['made']} simulated cases | {curves['measured']} of measured curves |",
         "| --- | --- | --- |",

@@ -28,7 +28,7 @@ from .yielding import YieldRule
 #: There the tip is a cone, and for a cone with a constant hardness A/y is the same at every depth.
 _TIP = 1e-6
 #: Nodes of ∫ d df between two times while nothing yields. The work of the dashpots then has errors of at
-#: most 4·10⁻¹², with 8 nodes 4·10⁻⁹ (`python -m tests.benchmarks.constants`).
+#: most 4·10⁻¹², with 8 nodes 4·10⁻⁹.
 _NODES = 12
 
 

@@ -34,10 +34,10 @@ from .live_interval import LiveInterval
 #: Depths between pieces, where a(s) changes from one power of the depth to another, in units of the
 #: transition depth. Contact times of five shapes over seven decades of speed then have errors of at most
 #: 5·10⁻¹¹. Without these depths the errors are 3·10⁻⁶, with halved depths 7·10⁻¹⁰, and with doubled depths
-#: 5·10⁻¹² (`python -m tests.benchmarks.constants`).
+#: 5·10⁻¹².
 TRANSITIONS = np.array([1.0, 6.0])
 #: Gauss nodes of the plastic work in each piece. The work of five shapes over seven decades of speed then
-#: has errors of at most 4·10⁻¹⁵, with 16 nodes 7·10⁻¹³ (`python -m tests.benchmarks.constants`).
+#: has errors of at most 4·10⁻¹⁵, with 16 nodes 7·10⁻¹³.
 _NODES = 24
 
 
@@ -56,8 +56,7 @@ class YieldRule(check.Parameters, ABC):
     #: singularity at s = −y₀. Pieces whose ends have the same ratio are equally far from it, relative to
     #: their length. The ratio 25 is 2.9 in the cube root of s, in which nodes are even. Contact times then
     #: have errors of at most 5·10⁻¹¹, ten million critical depths deep; without these distances 10⁻⁸, with
-    #: the first alone 5·10⁻¹⁰. The distances of `RadiusCap` give 4·10⁻¹³ instead of 6·10⁻⁹
-    #: (`python -m tests.benchmarks.constants`).
+    #: the first alone 5·10⁻¹⁰. The distances of `RadiusCap` give 4·10⁻¹³ instead of 6·10⁻⁹.
     scales = 5 * 25.0 ** np.arange(6)
     #: A profile of the family, if the contact time over d_max/v₀ is the same function of d_p/ℓ for all of
     #: them, with the live depth ℓ at the turning point of an impact on a virgin medium.

@@ -25,8 +25,7 @@ from .equation_of_motion import ON_MEDIUM, Loading, MotionState, Unloading
 _MOST_STEPS = 500
 
 # Shares of lengths. They determine the number of steps, not their accuracy: a step with a large error is
-# shortened. Within the given ranges, impacts with the τ above take at most 5 % more steps
-# (`python -m tests.benchmarks.constants`).
+# shortened. Within the given ranges, impacts with the τ above take at most 5 % more steps.
 
 #: First step in depth, over the largest penetration of the same impact without viscosity: 0.5 to 0.7.
 _FIRST = 0.65
