@@ -1,33 +1,13 @@
-"""The pages without a mouse and without sight: landmarks, names, the focus and its ring, keys, axe."""
+"""The pages without sight: landmarks, names, the ring of the focus, axe."""
 
 import importlib.resources
 from functools import cache
-from pathlib import Path
 
 import pytest
 
-from .conftest import DROP, Explorer
+from .conftest import DROP, FOCUSED, READY, Explorer
 
-pytest.importorskip("axe_playwright_python")
-AXE = importlib.resources.files("axe_playwright_python").joinpath("axe.min.js").read_text(encoding="utf-8")
-FOCUSED = Path(__file__).with_name("focused.js").read_text(encoding="utf-8")
-READY = "window.Bokeh?.documents.length && Bokeh.documents.every((each) => each.is_idle)"
-MAIN = "main, [role=main]"
-#: Pages beside the explorer, and when they are there.
-OTHERS = {"?fit": READY, "?theory": "document.querySelector('math')"}
-#: What axe finds of these impacts keeps somebody from using the page.
-GRAVE = ("serious", "critical")
 DESK, PHONE = (1280, 720), (390, 844)
-
-
-@cache
-def findings(page):
-    """What axe finds on a page when it is first asked: its impact, its rule, and the elements."""
-    page.evaluate(AXE)
-    # Sheets are fetched anew for one rule alone, of the orientation of a phone.
-    options = "{ resultTypes: ['violations'], preload: false }"
-    found = page.evaluate(f"axe.run(document, {options})")["violations"]
-    return [(each["impact"], each["id"], [node["target"] for node in each["nodes"]]) for each in found]
 
 
 def more(explorer):
@@ -73,6 +53,13 @@ STATES = {
 }
 
 
+#: Pages beside the explorer, and when they are there.
+OTHERS = {"?fit": READY, "?theory": "document.querySelector('math')"}
+
+
+MAIN = "main, [role=main]"
+
+
 @pytest.fixture(scope="module", params=STATES)
 def state(request, server, context):
     """A page that several tests look at, and none of them changes."""
@@ -89,6 +76,23 @@ def state(request, server, context):
     # The theme, which all pages would have.
     explorer.page.evaluate("localStorage.clear()")
     explorer.page.close()
+
+
+AXE = importlib.resources.files("axe_playwright_python").joinpath("axe.min.js").read_text(encoding="utf-8")
+
+
+@cache
+def findings(page):
+    """What axe finds on a page when it is first asked: its impact, its rule, and the elements."""
+    page.evaluate(AXE)
+    # Sheets are fetched anew for one rule alone, of the orientation of a phone.
+    options = "{ resultTypes: ['violations'], preload: false }"
+    found = page.evaluate(f"axe.run(document, {options})")["violations"]
+    return [(each["impact"], each["id"], [node["target"] for node in each["nodes"]]) for each in found]
+
+
+#: What axe finds of these impacts keeps somebody from using the page.
+GRAVE = ("serious", "critical")
 
 
 def test_axe_finds_nothing_grave(state):
@@ -134,18 +138,6 @@ def test_each_tab_stop_has_a_name_and_a_ring_that_is_seen_whole(state):
     assert [each for each in stops if "bk-" in each["name"]] == []
 
 
-def test_the_first_tab_stop_leads_to_the_plots(explorer):
-    page = explorer.page
-    page.keyboard.press("Tab")
-    link = page.get_by_role("link", name="Skip to the plots")
-    assert link.bounding_box()["y"] >= 0
-    page.keyboard.press("Enter")
-    # The next one is the first button of a plot, in a page and not in the header.
-    page.keyboard.press("Tab")
-    assert page.evaluate(FOCUSED)["name"].endswith("Large")
-    assert link.bounding_box()["y"] < 0
-
-
 def test_what_is_drawn_has_a_name(explorer):
     """A fourth plot, too."""
     explorer.open("Hardness", "hardness", "hardness")
@@ -165,51 +157,3 @@ def test_both_ends_of_the_range_have_names(server, context):
     assert explorer.page.get_by_role("slider", name="Last sample of the fit").count() == 1
     assert explorer.problems == []
     explorer.page.close()
-
-
-def test_undo_and_redo_have_their_keys(explorer):
-    page, now = explorer.page, explorer.page.keyboard.press
-    depth = "explorer.row('force', 'now')[0][0]"
-    explorer.change(explorer.type, "d_max", "5 nm")
-    explorer.change(explorer.type, "d_max", "7 nm")
-    explorer.slider("d_max").focus()
-    for keys, expected in (
-        ("Control+z", 5), ("Control+z", 8.978), ("Control+Shift+z", 5), ("Control+y", 7), ("z", 5),
-    ):  # fmt: skip
-        explorer.change(now, keys)
-        # As it is shown, to three decimals.
-        assert abs(page.evaluate(depth) - expected) < 1e-3, keys
-    # In a field they are its own: it has again what stood there, and the scene stays.
-    field = explorer.field("q_c")
-    field.press_sequentially("6")
-    field.press("Control+z")
-    assert field.input_value() == "100 N/m"
-    assert page.evaluate(depth) == 5
-
-
-HAS_FOCUS = "(name) => explorer.all().some((each) => each.name === name && each.matches(':focus'))"
-
-
-def test_a_button_that_changes_the_page_leaves_the_focus_where_it_was(explorer):
-    """A plot that becomes large is laid out anew, and the button to undo is gone after the last step."""
-    page = explorer.page
-    page.locator(".card.force .act[name=Large]").press("Enter")
-    for label in ("Small", "Large"):
-        explorer.wait(HAS_FOCUS, label)
-        page.keyboard.press("Escape")
-    explorer.change(explorer.slider("q_c").press, "PageUp")
-    page.locator(".act[name=Undo]").press("Enter")
-    explorer.wait(HAS_FOCUS, "Redo")
-
-
-def test_escape_in_the_link_closes_what_it_is_in(explorer):
-    """Before a large plot that lies below."""
-    page = explorer.page
-    page.locator(".card.force .act[name=Large]").click()
-    explorer.press("Share")
-    page.get_by_label("Link to this page").click()
-    page.keyboard.press("Escape")
-    page.get_by_label("Link to this page").wait_for(state="hidden")
-    assert page.locator(".card.force .act[name=Small]").is_visible()
-    page.keyboard.press("Escape")
-    page.locator(".card.force .act[name=Large]").wait_for()

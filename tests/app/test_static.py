@@ -1,7 +1,4 @@
-"""The explorer as a folder: what is in it, that its sources suffice, what is shown first, and the page.
-
-The last, in a browser by Pyodide, needs a whole Pyodide, the folder `MDR_PYODIDE`; .ci/static gets one.
-"""
+"""The explorer as a folder of files: its contents, its sources, the first picture, and Pyodide."""
 
 import base64
 import hashlib
@@ -32,52 +29,7 @@ from app.explorer.state import PRESETS, preset_state
 from mdr_explorer import static
 
 from .conftest import DROP, ELASTIC, GOLD, PUNCH, ROOT, Explorer
-from .test_page import assert_draws
-
-HERE = Path(__file__).parent
-#: Presets that are compared with the library, of drives and shapes that differ, with their labels.
-SCENES = {name: PRESETS[name].label for name in (ELASTIC, PUNCH, DROP, "microsphere-pdms", "ball-steel")}
-
-
-def wheel(path, name, version, licence="Do what you like."):
-    with zipfile.ZipFile(path, "w") as file:
-        info = f"{name}-{version}.dist-info"
-        text = f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\nLicense: MIT\n"
-        file.writestr(f"{info}/METADATA", text)
-        if licence:
-            file.writestr(f"{info}/LICENSE.txt", licence)
-
-
-@pytest.fixture
-def pyodide(tmp_path):
-    """A folder that looks like Pyodide, of the tested version, with more than is needed."""
-    folder = tmp_path / "pyodide"
-    folder.mkdir()
-    for name in static.RUNTIME:
-        (folder / name).write_text(name)
-    wheel(folder / "numpy.whl", "numpy", "2.0.2")
-    wheel(folder / "scipy.whl", "scipy", "1.14.1", "Only on Sundays.")
-    wheel(folder / "pandas.whl", "pandas", "2.2.3")
-    (folder / "openblas.zip").write_bytes(b"compiled")
-    files = {"numpy": "numpy.whl", "scipy": "scipy.whl", "openblas": "openblas.zip", "pandas": "pandas.whl"}
-    packages = {
-        name: {
-            "file_name": file,
-            "version": {"numpy": "2.0.2", "scipy": "1.14.1", "openblas": "0.3.26"}.get(name, "2.2.3"),
-            "depends": ["numpy", "openblas"] if name == "scipy" else [],
-            "sha256": hashlib.sha256((folder / file).read_bytes()).hexdigest(),
-        }
-        for name, file in files.items()
-    }
-    info = {"version": static.PYODIDE, "python": "3.12.7", "platform": "emscripten_3_1_58"}
-    (folder / "pyodide-lock.json").write_text(json.dumps({"info": info, "packages": packages}))
-    return folder
-
-
-@pytest.fixture
-def without_drawings(monkeypatch):
-    """Drawings of presets take most of the time in which a folder is written, and are not looked at."""
-    monkeypatch.setattr("app.explorer.extras.scene_file.scene_file", lambda view, bokeh: "")
+from .states import assert_draws
 
 
 @pytest.fixture(scope="module")
@@ -88,6 +40,19 @@ def written(tmp_path_factory):
     run = [sys.executable, "-c", code, "--static", folder]
     done = subprocess.run(run, cwd=ROOT, capture_output=True, text=True, check=True)
     return folder, done.stdout
+
+
+def settings(folder):
+    """What the start of the page is told."""
+    (text,) = re.findall(r"const settings = (.*)", (folder / "index.html").read_text(encoding="utf-8"))
+    return json.loads(text)
+
+
+def integrity(folder):
+    """Digests of scripts from elsewhere, by which a browser refuses others."""
+    index = (folder / "index.html").read_text(encoding="utf-8")
+    (text,) = re.findall(r'<script type="importmap">(.*)</script>', index)
+    return json.loads(text)["integrity"]
 
 
 class Links(HTMLParser):
@@ -102,19 +67,6 @@ class Links(HTMLParser):
         # Where a person may go is no part of the page.
         if not (tag == "a" and dict(attributes).get("href", "").startswith("http")):
             self.found |= {value for name, value in attributes if name in ("src", "href")}
-
-
-def settings(folder):
-    """What the start of the page is told."""
-    (text,) = re.findall(r"const settings = (.*)", (folder / "index.html").read_text(encoding="utf-8"))
-    return json.loads(text)
-
-
-def integrity(folder):
-    """Digests of scripts from elsewhere, by which a browser refuses others."""
-    index = (folder / "index.html").read_text(encoding="utf-8")
-    (text,) = re.findall(r'<script type="importmap">(.*)</script>', index)
-    return json.loads(text)["integrity"]
 
 
 def test_the_folder_has_all_that_its_pages_ask_for_and_names_one_other_address(written):
@@ -163,6 +115,9 @@ def test_the_theory_is_the_served_one_with_a_place_for_each_equation(written):
     assert 'id="section-4"' in text
 
 
+HERE = Path(__file__).parent
+
+
 def test_the_sources_suffice_for_the_page_beside_what_is_compiled(written, tmp_path):
     """The page of a link starts with NumPy and SciPy alone, and every root of it has a place."""
     sources, compiled = tmp_path / "sources", tmp_path / "compiled"
@@ -197,6 +152,47 @@ def test_the_sources_suffice_for_the_page_beside_what_is_compiled(written, tmp_p
     assert here
     assert [path for path in here if not (written[0] / path).is_file()] == []
     assert [url for url in asked if urlsplit(url).hostname != "here"] == []
+
+
+def wheel(path, name, version, licence="Do what you like."):
+    with zipfile.ZipFile(path, "w") as file:
+        info = f"{name}-{version}.dist-info"
+        text = f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\nLicense: MIT\n"
+        file.writestr(f"{info}/METADATA", text)
+        if licence:
+            file.writestr(f"{info}/LICENSE.txt", licence)
+
+
+@pytest.fixture
+def pyodide(tmp_path):
+    """A folder that looks like Pyodide, of the tested version, with more than is needed."""
+    folder = tmp_path / "pyodide"
+    folder.mkdir()
+    for name in static.RUNTIME:
+        (folder / name).write_text(name)
+    wheel(folder / "numpy.whl", "numpy", "2.0.2")
+    wheel(folder / "scipy.whl", "scipy", "1.14.1", "Only on Sundays.")
+    wheel(folder / "pandas.whl", "pandas", "2.2.3")
+    (folder / "openblas.zip").write_bytes(b"compiled")
+    files = {"numpy": "numpy.whl", "scipy": "scipy.whl", "openblas": "openblas.zip", "pandas": "pandas.whl"}
+    packages = {
+        name: {
+            "file_name": file,
+            "version": {"numpy": "2.0.2", "scipy": "1.14.1", "openblas": "0.3.26"}.get(name, "2.2.3"),
+            "depends": ["numpy", "openblas"] if name == "scipy" else [],
+            "sha256": hashlib.sha256((folder / file).read_bytes()).hexdigest(),
+        }
+        for name, file in files.items()
+    }
+    info = {"version": static.PYODIDE, "python": "3.12.7", "platform": "emscripten_3_1_58"}
+    (folder / "pyodide-lock.json").write_text(json.dumps({"info": info, "packages": packages}))
+    return folder
+
+
+@pytest.fixture
+def without_drawings(monkeypatch):
+    """Drawings of presets take most of the time in which a folder is written, and are not looked at."""
+    monkeypatch.setattr("app.explorer.extras.scene_file.scene_file", lambda view, bokeh: "")
 
 
 def test_what_is_loaded_of_pyodide_is_copied_as_its_lock_names_it(pyodide, tmp_path, without_drawings):
@@ -268,6 +264,23 @@ def test_licences_of_all_that_is_in_the_folder_are_in_it(pyodide, tmp_path, with
         static.write(folder, str(pyodide))
 
 
+@contextmanager
+def host(folder):
+    """The address of a folder from a host of files."""
+
+    class Files(SimpleHTTPRequestHandler):
+        def log_message(self, *arguments):
+            pass
+
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Files, directory=folder))
+    thread = threading.Thread(target=server.serve_forever, daemon=True)
+    thread.start()
+    yield f"http://127.0.0.1:{server.server_port}/"
+    server.shutdown()
+    server.server_close()
+    thread.join()
+
+
 class Slow(Sliced):
     """A browser whose turns are taken by hand."""
 
@@ -323,23 +336,6 @@ def test_a_sweep_is_found_in_slices_and_a_press_makes_the_one_before_void(monkey
             numpy.testing.assert_allclose(mine, theirs, rtol=1e-12)
 
 
-@contextmanager
-def host(folder):
-    """The address of a folder from a host of files."""
-
-    class Files(SimpleHTTPRequestHandler):
-        def log_message(self, *arguments):
-            pass
-
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Files, directory=folder))
-    thread = threading.Thread(target=server.serve_forever, daemon=True)
-    thread.start()
-    yield f"http://127.0.0.1:{server.server_port}/"
-    server.shutdown()
-    server.server_close()
-    thread.join()
-
-
 @pytest.fixture(scope="module")
 def started(browser, written):
     """Opens a link to the page, without Python: the drawings that it asks for, and the page itself."""
@@ -366,11 +362,6 @@ AS_IT_IS = {
     "": GOLD, f"?preset={PUNCH}": PUNCH, f"?preset={DROP}&dark=1": DROP,
     f"?utm_source=course&preset={ELASTIC}&fbclid=I": ELASTIC,
 }  # fmt: skip
-#: Links to other scenes, and some that the page will refuse.
-OTHERS = (
-    f"?preset={PUNCH}&max_depth=5e-5", "?tiles=hardness", "?preset=none", "?preset=../theory",
-    f"?preset={PUNCH}&preset={DROP}", "?preset=",
-)  # fmt: skip
 
 
 @pytest.mark.parametrize("query", AS_IT_IS)
@@ -393,6 +384,13 @@ def test_a_preset_is_drawn_at_once_and_plays(query, started):
     dark = "document.documentElement.classList.contains('dark')"
     assert page.evaluate(dark) == page.frames[1].evaluate(dark) == ("dark=1" in query)
     page.close()
+
+
+#: Links to other scenes, and some that the page will refuse.
+OTHERS = (
+    f"?preset={PUNCH}&max_depth=5e-5", "?tiles=hardness", "?preset=none", "?preset=../theory",
+    f"?preset={PUNCH}&preset={DROP}", "?preset=",
+)  # fmt: skip
 
 
 @pytest.mark.parametrize("query", OTHERS)
@@ -462,6 +460,10 @@ class Static(Explorer):
 
     def wait(self, condition, arg=None):
         self.page.wait_for_function(condition, arg=arg)
+
+
+#: Presets that are compared with the library, of drives and shapes that differ, with their labels.
+SCENES = {name: PRESETS[name].label for name in (ELASTIC, PUNCH, DROP, "microsphere-pdms", "ball-steel")}
 
 
 def test_the_page_in_a_browser_by_pyodide(hosted, browser, tmp_path):

@@ -1,11 +1,9 @@
-"""Numbers that are typed into a field, and values as text for one."""
+"""Numbers that are typed into a field, and values as text for a field."""
 
 from math import pi, radians, tan
 
 import pytest
 
-import mdr_core as mdr
-from app.common.errors import error_text
 from app.common.units import entry, read
 from mdr_core.show.units import UNITS, fitting
 
@@ -31,16 +29,6 @@ def test_a_comma_that_may_separate_thousands_is_refused_with_both_readings(text)
     whole, part = (text.replace(",", instead).replace("−", "-") for instead in ("", "."))
     with pytest.raises(ValueError, match=f"“{text}” can be {whole} or {part}: type one of these"):
         read(text, "length", fitting(9e-9, "length"))
-
-
-def test_a_message_of_the_core_has_each_number_in_the_unit_that_fits_it():
-    """Its value and its bound, which the core gives in SI."""
-    with pytest.raises(ValueError, match=r"4\.39823e-05 N") as caught:
-        mdr.indent_to_force(mdr.FlatPunch(1e-6), mdr.Medium(E_star=1e9, q_c=14.0), 45.14e-6)
-    said = error_text(caught.value)
-    assert "= 45.14 µN" in said
-    assert "less than the 43.98 µN" in said
-    assert "e-0" not in said
 
 
 def test_a_zero_has_the_unit_of_its_column():

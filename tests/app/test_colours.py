@@ -1,0 +1,161 @@
+"""Contrast of text and graphics in both themes (WCAG 2.2, 1.4.3 and 1.4.11), and the style sheets."""
+
+import re
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+import app
+from mdr_core.show.figures import ROLES
+
+from ..approx import approx
+from .colours import CSS, DARK, LIGHT, contrast, hexadecimal, luminance
+
+themes = pytest.mark.parametrize("colours", [LIGHT, DARK], ids=["light", "dark"])
+
+
+@themes
+def test_text_stands_out(colours):
+    """Every colour that the sheet writes in, on both grounds, and what is written on a pressed button."""
+    written = set(re.findall(r"(?<![-\w])color: var\(--(\w+)\)", CSS)) - {"paper"}
+    # The colours of swatches in legends and of what is disabled are not those of text.
+    written -= set(re.findall(r"\bi \{ color: var\(--(\w+)\)", CSS)) - {"ink", "elastic"}
+    written -= set(re.findall(r"\[disabled\] \{ color: var\(--(\w+)\)", CSS))
+    written -= set(re.findall(r'content: "[^"]+"; color: var\(--(\w+)\)', CSS))
+    assert {"ink", "soft", "elastic", "warn"} <= written
+    for name in written:
+        for ground in ("paper", "ground"):
+            assert contrast(colours[name], colours[ground]) >= 4.5, (name, ground)
+    assert contrast(colours["paper"], colours["elastic"]) >= 4.5
+
+
+@themes
+def test_graphics_stand_out(colours):
+    """Curves, marks, axes, edges of fields and signs; a body is seen by its edge, which is ink."""
+    for name in ("free", "elastic", "yielded", "held", "speed", "loss", "ink", "tick", "edge", "good"):
+        assert contrast(colours[name], colours["paper"]) >= 3, name
+    for name in ("good", "yielded", "edge"):
+        assert contrast(colours[name], colours["ground"]) >= 3, name
+
+
+def test_plots_have_the_colours_of_the_sheet():
+    for role in ROLES.keys() & LIGHT:
+        sheet = luminance(LIGHT[role]), luminance(DARK[role])
+        assert tuple(map(luminance, ROLES[role])) == approx(sheet), role
+
+
+# Every text that is seen, with its colour and that of its ground.
+TEXTS = """() => {
+  const ground = (on) => {
+    for (; on; on = on.parentElement ?? on.getRootNode().host) {
+      const { backgroundColor } = getComputedStyle(on)
+      if (!/, 0\\)$|transparent/.test(backgroundColor)) return backgroundColor
+    }
+    return "rgb(255, 255, 255)"
+  }
+  const own = (on) => [...on.childNodes].map((n) => n.nodeType === 3 && n.data.trim()).find(Boolean)
+  const texts = explorer.all().filter((on) => on.matches(":not(style, script, option, [disabled])"))
+  return texts.filter((on) => own(on) && on.checkVisibility())
+    .map((on) => [own(on), getComputedStyle(on).color, ground(on)])
+}"""
+
+
+def test_every_text_of_the_page_is_read_in_the_dark(explorer):
+    """In each part of the side, within a theme that is changed by its key.
+
+    Areas end in an edge that stands out: where what is stored ends below the present state. The ribbon of
+    the plastic zone has its name on it.
+    """
+    page = explorer.page
+    explorer.press("Dark")
+    explorer.wait("document.documentElement.classList.contains('dark')")
+
+    def pixels(clip):
+        with Image.open(BytesIO(page.screenshot(clip=clip))) as seen:
+            return {hexadecimal(str(pixel)) for _, pixel in seen.convert("RGB").getcolors()}
+
+    x, y = explorer.place("force", "now", 0)
+    below = pixels({"x": x - 3, "y": y + 100, "width": 6, "height": 1})
+    assert max(contrast(pixel, DARK["paper"]) for pixel in below) >= 3, below
+    x, y = explorer.place("force", "plastic zone, on loading", 0)
+    (ribbon,) = pixels({"x": x + 6, "y": y, "width": 2, "height": 2})
+    assert ribbon != DARK["paper"]
+    assert contrast(ROLES["yielded-text"][1], ribbon) >= 4.5
+    for part in ("Guide", "Share"):
+        explorer.press(part)
+        for text, *pair in page.evaluate(TEXTS):
+            colours = list(map(hexadecimal, pair))
+            assert contrast(*colours) >= 4.5, (part, text, colours)
+
+
+def test_play_is_loud_and_buttons_of_the_header_are_of_one_kind(explorer):
+    """One filled button; the others have neither ground nor frame."""
+    look = """(on) => {
+      const { fontWeight, color, backgroundColor, borderColor } = getComputedStyle(on)
+      return [fontWeight, color, backgroundColor, borderColor]
+    }"""
+    explorer.change(explorer.type, "d_max", "5 nm")
+    names = ("▶ Play", "Guide", "Share", "Undo")
+    play, guide, share, undo = (
+        explorer.page.get_by_role("button", name=name, exact=True).evaluate(look) for name in names
+    )
+    accent, nothing = "rgb(0, 114, 178)", "rgba(0, 0, 0, 0)"
+    assert play[:3] == ["600", "rgb(255, 255, 255)", accent]
+    assert guide == share == undo == ["400", "rgb(34, 39, 46)", nothing, nothing]
+
+
+APP = Path(app.__file__).parent
+
+
+SHEETS = sorted(APP.rglob("*.css"))
+
+
+def selectors(css):
+    """Selectors of the rules outside of media rules, each of a list of them."""
+    css = re.sub(r"/\*.*?\*/", "", css, flags=re.DOTALL)
+    depth, start, found, within = 0, 0, [], False
+    for k, letter in enumerate(css):
+        if letter == "{":
+            head = css[start:k].strip()
+            within = within or (depth == 0 and head.startswith("@"))
+            if depth == 0 and not within:
+                found += [each.strip() for each in re.split(r",(?![^(]*\))", head)]
+            depth += 1
+        elif letter == "}":
+            depth -= 1
+            within = within and depth > 0
+        if letter in "{};":
+            start = k + 1
+    return found
+
+
+@pytest.mark.parametrize("path", SHEETS, ids=lambda path: path.name)
+def test_a_selector_is_defined_once_outside_media_rules(path):
+    found = selectors(path.read_text(encoding="utf-8"))
+    assert found
+    assert sorted({each for each in found if found.count(each) > 1}) == []
+
+
+@pytest.mark.parametrize("path", SHEETS, ids=lambda path: path.name)
+def test_lines_are_short_and_places_are_said(path):
+    css = path.read_text(encoding="utf-8")
+    assert [line for line in css.splitlines() if len(line) > 132] == []
+    # What stands before all else says so in the document, not by a number below zero.
+    assert re.findall(r"order: -\d", css) == []
+
+
+def test_dark_is_the_same_design():
+    """The same tokens, of which the dark theme has other colours and shadows."""
+    css = (APP / "static" / "style.css").read_text(encoding="utf-8")
+    blocks = {
+        name: re.search(rf"^{re.escape(name)} \{{(.*?)^\}}", css, re.DOTALL | re.MULTILINE)[1]
+        for name in (":root", ":root.dark")
+    }
+    light, dark = (dict(re.findall(r"--([\w-]+): ([^;]+);", block)) for block in blocks.values())
+    assert dark.keys() <= light.keys()
+    assert [name for name, value in light.items() if value.startswith("#") and name not in dark] == []
+    # No rule outside of them names a colour of its own.
+    rest = css.replace(blocks[":root"], "").replace(blocks[":root.dark"], "")
+    assert re.findall(r"#[0-9a-f]{3,6}\b", rest) == []
