@@ -186,3 +186,8 @@ def assert_draws(explorer, state: State) -> None:
         k = data["row"].index(name)
         places = np.array([data["xs"][k], data["ys"][k]], float)
         np.testing.assert_allclose(explorer.row(figure, name), places, rtol=1e-6, atol=1e-9)
+
+
+def polygon(x, y) -> float:
+    """Area of a polygon."""
+    return abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2

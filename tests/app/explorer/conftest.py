@@ -15,6 +15,14 @@ def page():
     return page
 
 
+@pytest.fixture
+def notices(monkeypatch):
+    """Notices of all pages."""
+    notices = []
+    monkeypatch.setattr(Page, "notify", lambda page, text: notices.append(text))
+    return notices
+
+
 @pytest.fixture(scope="module")
 def projector(server, context):
     """The page on a projector; tests leave it as it was opened."""

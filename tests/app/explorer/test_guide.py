@@ -15,17 +15,18 @@ from app.explorer.page import Page
 from app.explorer.state import medium, preset_state
 
 from ...approx import approx
-from ..conftest import Explorer
 from ..states import press, side, stepped
 
 
 def test_guided_scenes_say_what_is_so():
+    """At d/d_c = 5 the mean pressure of a cone is 0.90 of q_c/a, q_c = 100 N/m."""
     elastic, begun, deep, lifted = stepped("First yield")
     assert elastic.state.plastic_radius == 0
     assert elastic.state.pressure(0.0) == float("inf")
     assert begun.state.plastic_radius > 0
     assert begun.state.pressure(0.0) < float("inf")
     # (21): the ring a − c stays as wide as it is.
+    assert float(deep.state.mean_pressure * deep.state.contact_radius) == approx(0.90 * 100, rel=0.01)
     rings = [float(course.state.contact_radius - course.state.plastic_radius) for course in (begun, deep)]
     assert rings[0] == approx(rings[1], rel=1e-9)
     assert lifted.states.force[lifted.now] == 0
@@ -65,14 +66,14 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     side(page, "guide").words.param.watch(lambda event: told.append(event.new), "object")
     side(page, "guide").title.value = "A fast impact, and what it destroys"
     # Its text is the only one: it is not taken for a scene that was changed by hand.
-    assert [text for text in told if "has been changed" in text] == []
     assert len(told) == 1
     assert "e = 1.00" in re.sub("<[^>]+>", "", side(page, "guide").words.object)
     # A scene has its own plots.
     assert page.state.tiles == ()
     # What it says is gone while the page shows something else.
     page.apply(lambda state: changes.put(state, "speed", 2 * state.speed))
-    assert "1 of 6. The scene has been changed" in side(page, "guide").words.object
+    assert "1 of 6" in side(page, "guide").words.object
+    assert "e = 1.00" not in re.sub("<[^>]+>", "", side(page, "guide").words.object)
     page.undo()
     assert "e = 1.00" in re.sub("<[^>]+>", "", side(page, "guide").words.object)
     # Each step that sets something is one change.
@@ -81,14 +82,6 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     while page.history.at:
         page.undo()
     assert page.state.scene_values == opening
-
-
-def test_the_guide_names_the_shape_of_a_power():
-    steps = TOURS["A fast impact, and what it destroys"]
-    assert len(steps) == 6
-    assert "under a cone the area is proportional to the energy" in steps[4]["says"]
-    assert step_state(steps[5], preset_state()).tiles == ("sweep",)
-    assert "ball of 5.5 kg" not in str(TOURS)
 
 
 KINDS = TOURS["Which kind of medium is it?"]
@@ -119,15 +112,13 @@ def test_a_cone_tells_the_classes_by_volume_area_and_depth():
     course = follow(step_state(c, preset_state()))
     most = np.pi * 300
     assert 0.999 * most < float(course.hit.max_force) < most
-    assert "π f_c = 942 N" in c["says"]
-    assert round(most) == 942
+    assert f"{most:.0f} N" in c["says"]
 
 
-@pytest.mark.parametrize("step", KINDS)
-def test_scenes_on_the_classes_are_within_the_assumptions(step):
-    state = step_state(step, preset_state())
-    assert state.density == 1900
-    assert [sentence for level, sentence in limits(follow(state), state) if level == "beyond"] == []
+def test_scenes_on_the_classes_are_within_the_assumptions():
+    for step in KINDS:
+        state = step_state(step, preset_state())
+        assert [text for level, text in limits(follow(state), state) if level == "beyond"] == []
 
 
 def test_a_step_sets_what_is_the_default_too():
@@ -176,21 +167,6 @@ def test_the_mean_pressure_over_the_radius_is_drawn_as_the_text_says(step, power
         course.state.mean_pressure / medium(state).hardness_at(course.state.contact_radius), rel=1e-3
     )
     assert f"p_m = {float(course.state.mean_pressure) / 1e6:#.3g} MPa" in said
-
-
-def test_the_guide_scrolls_into_view_when_it_is_opened(server, handheld):
-    """It is above the form, which is below the plots of a phone."""
-    explorer = Explorer(handheld.new_page(), server.url)
-    page = explorer.page
-    explorer.press("Guide")
-    title = page.get_by_label("Guided scene")
-    title.wait_for()
-    explorer.wait("""() => {
-      const { top } = explorer.all().find((on) => on.classList.contains("guide")).getBoundingClientRect()
-      return top >= 0 && top < innerHeight
-    }""")
-    assert 0 <= title.bounding_box()["y"] < page.viewport_size["height"]
-    page.close()
 
 
 def test_a_newcomer_takes_the_scene_home(explorer, opened, tmp_path):

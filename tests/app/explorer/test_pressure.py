@@ -1,6 +1,5 @@
 """The plots of the pressure, of the surface and of the stress in a section."""
 
-import re
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +15,7 @@ from mdr_core.show.figures import radii
 
 from ...approx import approx
 from ..conftest import DROP, ELASTIC, PUNCH
-from ..states import SHAPED, state_with, view_of
+from ..states import SHAPED, amounts, state_with, view_of
 
 
 def test_a_peak_that_the_axis_does_not_reach_is_named():
@@ -27,16 +26,15 @@ def test_a_peak_that_the_axis_does_not_reach_is_named():
     cut = [i for i, p in tops.items() if np.max(p) > view.end(P)]
     assert [i for i in tops if said[i]] == cut
     first = next(i for i in cut if np.isfinite(tops[i]).all())
-    value, unit = re.search(r"= ([\d.]+) (\wPa)", said[first]).groups()
-    assert float(value) * {"GPa": 1e9, "TPa": 1e12}[unit] == approx(np.max(tops[first]), rel=0.01)
+    assert max(amounts(said[first])) == approx(np.max(tops[first]), rel=0.01)
     assert "∞ at the rim" in pressure(view_of(preset_state(PUNCH)), 50)["exceeds"][2]
 
 
 def test_a_plot_without_contact_says_so():
     """Before first contact and after its loss, where the pressure is zero everywhere."""
-    course = view_of(preset_state()).course
-    said = [pressure(view_of(preset_state()), i)["exceeds"][2] == "no contact" for i in range(len(course))]
-    assert said == (course.states.contact_radius == 0).tolist()
+    view = view_of(preset_state())
+    said = [pressure(view, i)["exceeds"][2] == "no contact" for i in range(len(view.course))]
+    assert said == (view.course.states.contact_radius == 0).tolist()
     assert said[0]
     assert said[-1]
 

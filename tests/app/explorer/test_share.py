@@ -15,7 +15,7 @@ from app.explorer.state import medium, preset_state, profile
 from mdr_core.show.csv_text import csv_text
 
 from ...approx import approx
-from ..conftest import DROP, GOLD, Explorer
+from ..conftest import DROP, GOLD
 from ..states import FORMULAS, part, side, state_with, table, view_of
 
 
@@ -89,10 +89,7 @@ def test_files_of_two_scenes_have_two_names():
 
 
 def test_what_is_shared_comes_back(explorer, tmp_path):
-    """A picture with title and legend; link and Python; a measured tip."""
-    png = explorer.save("pressure")
-    width, height = (int.from_bytes(png[k : k + 4], "big") for k in (16, 20))
-    assert min(width / 840, height / 600) >= 1
+    """Link and Python; a measured tip."""
     page = explorer.page
     explorer.press("Share")
     code = page.get_by_label("This scene in Python")
@@ -105,27 +102,3 @@ def test_what_is_shared_comes_back(explorer, tmp_path):
     explorer.change(page.get_by_label("CSV file of a measured tip: r, z").set_input_files, path)
     assert explorer.chosen("Shape") == "Measured tip"
     assert page.get_by_text("40 samples, as in the file").count() == 1
-
-
-def test_words_of_all_buttons_in_share_are_in_their_middle(server, handheld):
-    """Files are links in buttons, which are 44 pixels high for a finger."""
-    explorer = Explorer(handheld.new_page(), server.url)
-    page = explorer.page
-    explorer.press("Share")
-    page.get_by_text("Curves (CSV)").wait_for()
-    middles = """() => explorer.all().filter((on) => on.matches("a, .bk-btn") && on.checkVisibility())
-      .filter((on) => on.getRootNode().host?.classList.contains("button"))
-      .filter((on) => on.matches("a, .bk-btn:not(:has(a))"))
-      .map((on) => {
-        const range = document.createRange()
-        range.selectNodeContents(on)
-        const [text, box] = [range.getBoundingClientRect(), on.getBoundingClientRect()]
-        return [on.textContent.trim(), text.y + text.height / 2 - box.y - box.height / 2, box.height]
-      })"""
-    found = page.evaluate(middles)
-    assert len(found) >= 4
-    for name, away, high in found:
-        assert abs(away) < 3, name
-        assert high >= 44, name
-    assert explorer.problems == []
-    explorer.page.close()

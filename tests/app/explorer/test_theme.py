@@ -1,59 +1,44 @@
 """The dark theme: of the system, of the browser, and of a link."""
 
-import pytest
-
 from app.explorer.page import Page
 
 from ..conftest import Explorer
 
+#: Themes of a page since before its document is parsed.
+THEMES = """
+  window.themes = []
+  new MutationObserver(() => {
+    if (document.body) themes.push(document.documentElement.classList.contains("dark"))
+  }).observe(document, { childList: true, subtree: true })
+"""
+DARK = "document.documentElement.classList.contains('dark')"
 
-@pytest.mark.parametrize("system", ["light", "dark"])
-def test_the_theme_is_of_the_browser_and_in_a_link_if_it_was_asked_for(server, browser, system):
-    """As the system is, until another one is chosen, which this browser keeps; links do not have it."""
-    other = {"light": "dark", "dark": "light"}[system]
-    with browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme=system) as context:
-        explorer = Explorer(context.new_page(), server.url)
-        page, is_dark = explorer.page, "document.documentElement.classList.contains('dark')"
-        seen = {"dark": is_dark, "light": f"!{is_dark}"}
-        explorer.wait(seen[system])
-        explorer.change(explorer.type, "q_c", "90")
-        assert explorer.link("q_c") == {"q_c": "90.0"}
+
+def test_the_theme_is_that_of_the_system_until_another_one_is_chosen_or_asked_for(server, browser):
+    """The browser keeps what is chosen; a link has it only if it was opened with it."""
+    window = {"width": 1280, "height": 720}
+    with browser.new_context(viewport=window, color_scheme="dark") as context:
+        page = context.new_page()
+        page.add_init_script(THEMES)
+        explorer = Explorer(page, server.url)
+        explorer.wait(DARK)
+        # Of a second visit the server draws the data so, too, and the page is dark from the beginning.
+        explorer.goto(server.url)
+        assert set(page.evaluate("themes")) == {True}
+        cookies = "; ".join(f"{each['name']}={each['value']}" for each in context.cookies())
+        assert "#e4e7eb" in page.request.get(server.url, headers={"cookie": cookies}).text()
         explorer.press("Dark")
-        explorer.wait(seen[other])
+        explorer.wait(f"!{DARK}")
         explorer.change(explorer.type, "q_c", "80")
         assert explorer.link("q_c=80") == {"q_c": "80.0"}
-        page.reload()
-        explorer.wait(f"window.explorer?.idle() && {seen[other]}")
         # A link that asks for it is followed, and stays as it is; the browser keeps its own.
-        asked = {"dark": "1", "light": "0"}[system]
-        explorer.goto(f"{server.url}?dark={asked}")
-        explorer.wait(seen[system])
+        explorer.goto(f"{server.url}?dark=1")
+        explorer.wait(DARK)
         explorer.change(explorer.type, "q_c", "70")
-        assert explorer.link("q_c=70") == {"q_c": "70.0", "dark": asked}
+        assert explorer.link("q_c=70") == {"q_c": "70.0", "dark": "1"}
         explorer.goto(server.url)
-        explorer.wait(seen[other])
+        explorer.wait(f"!{DARK}")
         assert explorer.problems == []
-
-
-def test_a_dark_browser_is_served_a_dark_page(server, browser):
-    """From the first script on the page is dark; of a second visit the server draws the data so, too."""
-    with browser.new_context(color_scheme="dark", viewport={"width": 1280, "height": 720}) as context:
-        first = Explorer(context.new_page(), server.url)
-        first.wait("document.documentElement.classList.contains('dark')")
-        page = context.new_page()
-        # Before the document is parsed; what Bokeh draws first is what the server has sent.
-        page.add_init_script("""
-          window.themes = []
-          new MutationObserver(() => {
-            if (document.body) themes.push(document.documentElement.classList.contains("dark"))
-          }).observe(document, { childList: true, subtree: true })
-          window.first = () => Bokeh.documents[0]?.get_model_by_name("messages")?.dark
-        """)
-        explorer = Explorer(page, server.url)
-        assert set(page.evaluate("themes")) == {True}
-        drawn = server.url, {"cookie": "; ".join(f"{c['name']}={c['value']}" for c in context.cookies())}
-        assert "#e4e7eb" in page.request.get(drawn[0], headers=drawn[1]).text()
-        assert explorer.problems == first.problems == []
 
 
 def test_a_page_opens_in_the_theme_that_the_browser_has_told():

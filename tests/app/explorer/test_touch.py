@@ -2,7 +2,7 @@
 
 from itertools import pairwise
 
-from ..conftest import Explorer, heights
+from ..conftest import heights
 
 # All elements, also within components; targets smaller than so many pixels but links within a text, and
 # of a radio button its label; what can be scrolled sideways.
@@ -38,7 +38,11 @@ def test_small_screens(phone):
     assert all(box["width"] > 0 for box in [each.bounding_box() for each in numbers.all()])
     assert boxes[1]["y"] < 500
     assert boxes[3]["y"] + boxes[3]["height"] < 844
-    page.get_by_text("drag the indenter by ●").wait_for()
+    page.get_by_text("●").first.wait_for()
+    assert min(heights(phone, "springs", "force")) > 100
+    tops = page.locator(".header button:visible, .header select:visible")
+    middles = {round(box["y"] + box["height"] / 2) for box in (each.bounding_box() for each in tops.all())}
+    assert len(middles) == 1
     for one, other in pairwise(boxes):
         assert one["y"] + one["height"] <= other["y"]
     page.set_viewport_size({"width": 720, "height": 450})
@@ -156,14 +160,74 @@ def test_plots_and_the_path_are_told_in_words(phone):
     phone.change(phone.press, "Undo")
 
 
-def test_one_screen_of_a_phone_has_springs_force_and_slider(server, handheld):
-    explorer = Explorer(handheld.new_page(), server.url)
-    boxes = [explorer.page.locator(f".card.{name}").bounding_box() for name in ("springs", "force")]
-    boxes.append(explorer.slider("d_max").bounding_box())
-    assert all(box["y"] >= 0 and box["y"] + box["height"] <= 844 for box in boxes)
-    assert min(heights(explorer, "springs", "force")) > 100
-    tops = explorer.page.locator(".header button:visible, .header select:visible")
-    boxes = [each.bounding_box() for each in tops.all()]
-    assert len({round(box["y"] + box["height"] / 2) for box in boxes}) == 1
-    assert explorer.problems == []
-    explorer.page.close()
+def test_words_of_all_buttons_in_share_are_in_their_middle(phone):
+    """Files are links in buttons, which are 44 pixels high for a finger."""
+    page = phone.page
+    phone.press("Share")
+    page.get_by_text("Curves (CSV)").wait_for()
+    middles = """() => explorer.all().filter((on) => on.matches("a, .bk-btn") && on.checkVisibility())
+      .filter((on) => on.getRootNode().host?.classList.contains("button"))
+      .filter((on) => on.matches("a, .bk-btn:not(:has(a))"))
+      .map((on) => {
+        const range = document.createRange()
+        range.selectNodeContents(on)
+        const [text, box] = [range.getBoundingClientRect(), on.getBoundingClientRect()]
+        return [on.textContent.trim(), text.y + text.height / 2 - box.y - box.height / 2, box.height]
+      })"""
+    found = page.evaluate(middles)
+    assert len(found) >= 4
+    for name, away, high in found:
+        assert abs(away) < 3, name
+        assert high >= 44, name
+    phone.press("Share")
+
+
+def test_the_guide_scrolls_into_view_when_it_is_opened(phone):
+    """It is above the form, which is below the plots of a phone."""
+    page = phone.page
+    phone.press("Guide")
+    title = page.get_by_label("Guided scene")
+    title.wait_for()
+    phone.wait("""() => {
+      const { top } = explorer.all().find((on) => on.classList.contains("guide")).getBoundingClientRect()
+      return top >= 0 && top < innerHeight
+    }""")
+    assert 0 <= title.bounding_box()["y"] < page.viewport_size["height"]
+    phone.press("Guide")
+    page.evaluate("scrollTo(0, 0)")
+
+
+def test_a_zoomed_window_begins_with_a_plot(phone):
+    """Of 1280 × 720 pixels at 200 % the whole plot of the springs is on the first screen."""
+    page = phone.page
+    page.set_viewport_size({"width": 640, "height": 360})
+    phone.wait("explorer.model('springs').inner_width > 400")
+    page.evaluate("scrollTo(0, 0)")
+    box = page.locator(".card.springs").bounding_box()
+    assert box["y"] > 0
+    assert box["y"] + box["height"] <= 360
+    page.set_viewport_size({"width": 390, "height": 844})
+    phone.wait("explorer.model('springs').inner_width < 400")
+
+
+def test_a_finger_zooms(phone, handheld):
+    """A touched plot shows its tools, of 44 pixels; a finger draws the box."""
+    page, before = phone.page, phone.axis("force")
+    box = page.locator(".card.force .bk-OnOffButton")
+    page.evaluate("scrollTo(0, 0)")
+    place = page.locator(".card.force canvas").first.bounding_box()
+    x, y = place["x"] + 0.3 * place["width"], place["y"] + 0.5 * place["height"]
+    page.touchscreen.tap(x, y)
+    box.wait_for()
+    size = box.bounding_box()
+    assert min(size["width"], size["height"]) >= 44
+    box.tap()
+    client = handheld.new_cdp_session(page)
+    moves = ("touchStart", 0.0), ("touchMove", 0.1), ("touchMove", 0.25), ("touchEnd", None)
+    for kind, share in moves:
+        end = share is None
+        at = [] if end else [{"x": x + share * place["width"], "y": y + share * place["height"]}]
+        client.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": at})
+    narrow = "([a, b]) => { const { x } = explorer.axis('force'); return x[1] - x[0] < (b - a) / 2 }"
+    phone.wait(narrow, before["x"])
+    assert page.evaluate("scrollY") == 0

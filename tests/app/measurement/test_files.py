@@ -4,12 +4,10 @@ import re
 import zipfile
 
 import numpy as np
-import pytest
 
 import mdr_core as mdr
 
-from ..conftest import READY
-from ..measuring import TIP, afm_curve, curve_at, drop, focused, shown_number
+from ..measuring import TIP, curve_at, drop, shown_number
 from ..states import table
 
 
@@ -35,27 +33,36 @@ def test_a_file_is_dropped_and_a_handle_takes_fewer_samples(measurement, tmp_pat
     page.get_by_placeholder("40 GPa").wait_for()
 
 
-def test_no_file_ends_the_session(measurement, tmp_path):
-    """20 MB of zeros, NUL, words, a zip; then the next curve is read, in the same session."""
+def test_the_field_for_a_file_is_as_high_as_others_unless_a_file_is_over_it(measurement, tmp_path):
+    """Or a file that is too large is named there, with the reason. No file ends the session."""
     page = measurement.page
-    large = tmp_path / "large.csv"
-    large.write_bytes(bytes(20_000_000))
-    packed = tmp_path / "packed.zip"
-    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("large.jpk", bytes(10_000_000))
-    words = tmp_path / "words.csv"
-    words.write_text("force after\ndepth\n")
-    for path in (large, packed, words):
-        drop(measurement, path)
-        refusal = page.locator("p.refused", has_text=re.compile(re.escape(path.name)))
-        refusal.first.wait_for(timeout=60_000)
+    field, tip = page.locator(".filepond--root").first, page.get_by_label("Tip", exact=True)
+    drawn = "explorer.all().find((each) => each.matches('.filepond--root')).offsetHeight"
+    # The sheet of a component comes after it.
+    measurement.wait(f"{drawn} < 40")
+    usual = page.evaluate(drawn)
+    assert abs(usual - tip.bounding_box()["height"]) <= 4
+    field.evaluate("(each) => { each.dataset.hopperState = 'drag-over' }")
+    assert page.evaluate(drawn) > 2 * usual
+    field.evaluate("(each) => { delete each.dataset.hopperState }")
+    drop(measurement, curve_at(tmp_path / "run.csv"))
+    page.get_by_text("run.csv: 400 samples").wait_for()
+    # The file is named below the field, once it has come.
+    measurement.wait(f"(usual) => Math.abs({drawn} - usual) <= 1", usual)
     # More than the limit is refused before it is sent, in words.
-    huge = tmp_path / "huge.csv"
-    with huge.open("wb") as file:
-        file.truncate(60_000_000)
-    drop(measurement, huge)
+    (tmp_path / "huge.csv").write_bytes(bytes(51_000_000))
+    drop(measurement, tmp_path / "huge.csv")
     page.get_by_text(re.compile("too large", re.IGNORECASE)).first.wait_for()
     page.get_by_text(re.compile("50 ?MB")).first.wait_for()
+    measurement.wait(f"(usual) => {drawn} > 1.5 * usual", usual)
+    # Zeros, a zip of zeros, and words.
+    (tmp_path / "large.csv").write_bytes(bytes(20_000_000))
+    with zipfile.ZipFile(tmp_path / "packed.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("large.jpk", bytes(10_000_000))
+    (tmp_path / "words.csv").write_text("force after\ndepth\n")
+    for name in ("large.csv", "packed.zip", "words.csv"):
+        drop(measurement, tmp_path / name)
+        page.locator("p.refused", has_text=name).first.wait_for(timeout=60_000)
     measurement.press("Sample: gel by AFM")
     assert shown_number(measurement, "kPa").startswith("19.7")
 
@@ -82,48 +89,3 @@ def test_a_question_is_answered_by_one_click(measurement, tmp_path):
     page.get_by_text("eine_datei.csv: 400 samples").wait_for()
     drop(measurement, tmp_path / "noch_eine.csv")
     page.get_by_text("noch_eine.csv: 400 samples").wait_for()
-
-
-def test_an_afm_file_without_a_stiffness_is_asked_for_it_above_the_fold(measurement, tmp_path):
-    pytest.importorskip("afmformats")
-    pytest.importorskip("h5py")
-    page = measurement.page
-    page.set_viewport_size({"width": 1280, "height": 720})
-    page.goto(f"{page.url}&tip=paraboloid&radius=5e-6&medium=gel")
-    measurement.wait(READY)
-    afm_curve().export_data(tmp_path / "gel_1.h5", fmt="hdf5")
-    drop(measurement, tmp_path / "gel_1.h5")
-    page.get_by_text("Give the spring constant k").wait_for()
-    button = page.get_by_role("button", name="Give the spring constant of the cantilever")
-    assert button.bounding_box()["y"] < 720
-    button.click()
-    focused(page, "k spring constant")
-    page.keyboard.type("0.05")
-    page.keyboard.press("Enter")
-    assert shown_number(measurement, "kPa").startswith("20")
-
-
-def test_the_field_for_a_file_is_as_high_as_others_unless_a_file_is_over_it(measurement, tmp_path):
-    page = measurement.page
-    field, tip = page.locator(".filepond--root").first, page.get_by_label("Tip", exact=True)
-    drawn = "explorer.all().find((each) => each.matches('.filepond--root')).offsetHeight"
-    # The sheet of a component comes after it.
-    measurement.wait(f"{drawn} < 40")
-
-    def height():
-        return field.bounding_box()["height"]
-
-    usual = height()
-    assert abs(usual - tip.bounding_box()["height"]) <= 4
-    field.evaluate("(each) => { each.dataset.hopperState = 'drag-over' }")
-    assert height() > 2 * usual
-    field.evaluate("(each) => { delete each.dataset.hopperState }")
-    drop(measurement, curve_at(tmp_path / "run.csv", mdr.Medium(80e9, hardness=14e9)))
-    page.get_by_text("run.csv: 400 samples").wait_for()
-    # The file is named below the field, once it has come.
-    measurement.wait(f"(usual) => Math.abs({drawn} - usual) <= 1", usual)
-    # A file that is too large is named there, with the reason.
-    (tmp_path / "large.csv").write_bytes(bytes(51_000_000))
-    drop(measurement, tmp_path / "large.csv")
-    page.get_by_text("File is too large", exact=True).wait_for()
-    measurement.wait(f"(usual) => {drawn} > 1.5 * usual", usual)
