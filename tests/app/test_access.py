@@ -42,10 +42,9 @@ def few_formulas(explorer):
 #: Pages in their states: the query, what is done there, and how large the window is.
 STATES = {
     "medium": ("", more, DESK),
-    "impact": (f"?preset={DROP}&tiles=energy", None, DESK),
+    "impact, dark": (f"?preset={DROP}&tiles=energy&dark=1", None, DESK),
     "guide": ("", guide, DESK),
     "share": ("", share, DESK),
-    "dark": ("?dark=1", None, DESK),
     "phone": ("", None, PHONE),
     "fit": ("?fit", None, DESK),
     "silica": ("?fit", silica, DESK),

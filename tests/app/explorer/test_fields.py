@@ -181,24 +181,23 @@ def test_an_angstrom_is_shown_as_such_in_any_field(shown):
     assert read("3 um", "length", shown)[1].name == "µm"
 
 
-@pytest.mark.parametrize(
-    "message",
-    [
-        None, 3, "5 nm", ["5 nm"], {}, {"text": None}, {"text": 5e-9}, {"text": ["5 nm"]}, {"value": "NaN"},
-        {"value": float("nan"), "dragged": True}, {"value": 1e999, "dragged": True}, {"text": "9" * 9999},
-        {"value": 10**400}, {"value": None}, {"value": 1e9, "dragged": True}, {"text": "1e999"},
-    ],
-)  # fmt: skip
-def test_whatever_a_field_is_sent_is_refused_or_ignored(message):
+def test_whatever_a_field_is_sent_is_refused_or_ignored():
     page = Page()
     field = part(page, "max_depth")
-    field.act(message)
+    shown = field.look["text"]
     # What no field and no slider can send is ignored.
-    refused = message in ({"text": "9" * 9999}, {"text": "1e999"}, {"value": 1e9, "dragged": True})
-    assert (seen(page, "max_depth")[1] != "") == refused
-    assert part(page, "max_depth").look["text"] == field.look["text"]
-    assert page.state == preset_state()
-    assert page.history.at == 0
+    for message in (
+        None, 3, "5 nm", ["5 nm"], {}, {"text": None}, {"text": 5e-9}, {"text": ["5 nm"]}, {"value": "NaN"},
+        {"value": float("nan"), "dragged": True}, {"value": 1e999, "dragged": True}, {"value": 10**400},
+        {"value": None},
+    ):  # fmt: skip
+        field.act(message)
+        assert seen(page, "max_depth") == (shown, ""), message
+    for message in ({"text": "9" * 9999}, {"text": "1e999"}, {"value": 1e9, "dragged": True}):
+        field.act(message)
+        assert seen(page, "max_depth")[1] != "", message
+        assert page.state == preset_state()
+        assert page.history.at == 0
 
 
 def test_a_number_that_others_change_is_in_the_unit_that_reads_best():

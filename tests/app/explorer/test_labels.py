@@ -124,6 +124,7 @@ def grounds(view, plot, places, x, y, dark):
 
 
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+@pytest.mark.few(4)
 @pytest.mark.parametrize("key", [GOLD, DROP, ELASTIC, PUNCH])
 def test_labels_stand_out_from_what_they_stand_on(key, dark):
     """4.5 : 1 (WCAG 2.2, 1.4.3), of the colours as they are drawn; a canvas is not seen by other checks."""
@@ -147,9 +148,7 @@ def test_labels_stand_out_from_what_they_stand_on(key, dark):
     assert tested > 300
 
 
-@pytest.mark.parametrize(
-    "query", ["", f"?preset={DROP}", f"?preset={ELASTIC}", f"?preset={PUNCH}&drive=depth&dark=1"]
-)
+@pytest.mark.parametrize("query", ["", f"?preset={DROP}"])
 def test_boxes_are_those_that_a_browser_paints(server, context, query):
     """Widths of the letters, and the size of the plots of a phone, on which the places are found."""
     page = context.new_page()

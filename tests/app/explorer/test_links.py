@@ -186,6 +186,10 @@ def test_a_link_is_opened_as_far_as_it_is_known_or_refused_in_words(explorer):
     (notice,) = told.all_inner_texts()
     assert notice.endswith(": foo")
     assert explorer.link("max_depth=5e-09") == {"max_depth": "5e-09"}
+    for query in ("preset=<img src=x>", "fit_note=<img src=x>"):
+        opened(query)
+        told.first.wait_for()
+        assert page.locator("img[src=x]").count() == 0
     query = f"q_c={5000 * '1'}"
     assert opened(query) == "8.978 nm"
     told.filter(has_text="q_c").wait_for()

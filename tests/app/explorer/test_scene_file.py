@@ -37,14 +37,6 @@ def test_it_says_what_the_page_says():
     assert all(PLOTS[name].title in said for name in NAMED)
 
 
-def test_text_of_others_is_never_markup_in_a_file():
-    r = np.linspace(0, 1e-6, 20)
-    state = changes.take_tip(preset_state(), (r, r**2 / 1e-5), "20 rows of <img src=x>")
-    html = scene_file(view_of(state))
-    assert "<img src=x" not in html
-    assert "20 rows of <img src=x>" in plain(html)
-
-
 def test_it_can_be_sent_by_mail():
     """The scene with most frames is below 3 MB."""
     assert len(scene_file(view_of(state_with(DROP, "oblique"))).encode()) < 3e6

@@ -65,6 +65,7 @@ def test_a_steel_ball_is_one():
     assert state.mass == approx(4 / 3 * np.pi * 0.008**3 * 7850, rel=3e-3)
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("key", PRESETS)
 def test_every_drive_can_be_chosen_and_its_python_makes_the_scene_and_solves_it(key):
     state = preset_state(key)

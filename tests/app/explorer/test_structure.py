@@ -130,7 +130,7 @@ def test_the_sweep_over_the_mass_goes_from_the_plate_without_edges_to_the_suppor
     assert support == approx(np.ones(mass.size), abs=1e-9)
     # Resonances stay below it.
     assert 0.85 < restitution[-1] < 1
-    for k in range(0, mass.size, 9):
+    for k in range(0, mass.size, 20):
         hit = mdr.impact(profile(state), medium(state), mass[k], state.speed, structure=made)
         assert restitution[k] == approx(float(hit.restitution), abs=5e-3)
     # Not where the plate itself is swept.
@@ -178,7 +178,7 @@ def test_a_limit_is_a_caution_above_three_times_its_bound(what, reached):
         hit = follow(state.replace(speed=float(np.exp(log_speed)))).hit
         return float(getattr(hit, reached)) / far - 1
 
-    speed = float(np.exp(brentq(beyond, np.log(state.speed), np.log(60 * state.speed), xtol=1e-3)))
+    speed = float(np.exp(brentq(beyond, np.log(state.speed), np.log(60 * state.speed), xtol=0.02)))
     for factor in (0.9, 1.1):
         course = follow(state.replace(speed=factor * speed))
         assert any(what in each.limits for each in course.cautions) == (factor > 1)
@@ -264,8 +264,10 @@ def test_links_undo_and_files_carry_it():
     assert structure(page.state).thickness == approx(2e-3)
 
 
-@pytest.mark.parametrize("loss", [("damping", "eta"), ("adhesion", "work")])
-@pytest.mark.parametrize("behind", ["plate", "edges", "support"])
+@pytest.mark.parametrize(
+    ("behind", "loss"),
+    [("plate", ("damping", "eta")), ("edges", ("adhesion", "work")), ("support", ("damping", "eta"))],
+)
 def test_it_is_refused_in_words_with_dashpots_or_adhesion(behind, loss):
     word = {"damping": "viscosity", "adhesion": "adhesion"}[loss[0]]
     label = {"edges": "plate with edges"}.get(behind, behind)

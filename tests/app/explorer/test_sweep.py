@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from app.common.host import last
+from app.common.host import Sliced, last
 from app.common.units import in_full
 from app.explorer import changes
 from app.explorer.drives import follow, scene_of
 from app.explorer.extras import sweep
 from app.explorer.extras.guide import TOURS, step_state
+from app.explorer.page import Page
 from app.explorer.search import FAULT
 from app.explorer.state import OPENING, PRESETS, medium, preset_state, profile
 
@@ -218,3 +219,58 @@ def test_an_impact_is_swept_shown_in_time_and_repeated_on_the_same_spot(explorer
     explorer.change(explorer.press, "Hit again")
     again = mdr.impact(hit.profile, hit.medium, hit.mass, hit.speed, plastic_depth=hit.plastic_depth)
     assert explorer.readout("restitution") == f"{float(again.restitution):.4f}"
+
+
+class Slow(Sliced):
+    """A browser whose turns are taken by hand."""
+
+    def __init__(self):
+        self.turns = []
+
+    def shows(self):
+        return False
+
+    def next_tick(self, act):
+        self.turns.append(act)
+
+    def search(self, steps, wanted, done):
+        self.next_tick(lambda: self.make(steps, wanted, done))
+
+    def turn(self):
+        self.turns.pop(0)()
+
+
+def test_a_sweep_is_found_in_slices_and_a_press_makes_the_one_before_void(monkeypatch):
+    """The page is pressed while a sweep is being found: that one is never shown, the next one is."""
+    # Each step is a slice.
+    monkeypatch.setattr("app.common.host._SLICE", 0.0)
+    host = Slow()
+    # A ball: its sweep is not found at every move, and has lines of other classes of hardness.
+    page = Page("preset=ball-glass_epoxy&tiles=sweep", host=host)
+
+    def note():
+        return page.view.computed["sweep"].note
+
+    page._input_rests()
+    assert note() == "computing …"
+    host.turn()
+    host.turn()
+    assert note() == "computing …"
+    assert host.turns
+    page.apply(lambda state: state.replace(max_depth=0.9 * state.max_depth))
+    page._input_rests()
+    # What goes on of the first one ends with the next turn, and nothing is shown of it.
+    turns = 0
+    while host.turns:
+        host.turn()
+        turns += 1
+    assert turns > 4
+    at_once = Page("preset=ball-glass_epoxy&tiles=sweep")
+    at_once.apply(lambda state: state.replace(max_depth=0.9 * state.max_depth))
+    at_once._input_rests()
+    expected = at_once.view.computed["sweep"]
+    assert page.view.computed["sweep"].note == expected.note
+    for name, columns in expected.rows.items():
+        # Places, without the text of a label.
+        for mine, theirs in zip(page.view.computed["sweep"].rows[name][:2], columns[:2], strict=True):
+            np.testing.assert_allclose(mine, theirs, rtol=1e-12)

@@ -43,11 +43,11 @@ def test_fused_silica_is_one_click_and_its_number_is_that_of_the_unloading():
         ]
     )
     assert hardness == approx(9.1, abs=0.1)
-    assert "The curve is of class (a), constant hardness." in text(page.results.aside)
-    # The model's own E* is another one, which is said once.
-    assert "own E*, 84.53 ± 0.42 GPa, and H, 14.901 ± 0.053 GPa, are not to be quoted" in (
-        page.results.why.object
-    )
+    assert "of class (a)" in text(page.results.aside)
+    # The model's own E* and H are others, which are not to be quoted.
+    for own in ("84.53", "14.901"):
+        assert own in page.results.why.object
+        assert own not in headline(page)
     assert not page.results.take.visible
 
 
@@ -104,12 +104,12 @@ def test_what_is_held_stays_and_what_is_freed_is_found():
     field.value = "4.5 furlongs"
     # The error stands below the field, until a number is typed.
     below = page.form.model[list(page.form.model).index(field) + 1]
-    assert "is not a number with one of the units" in text(below)
+    assert "furlongs" in text(below)
     assert page.found.fit.contact_point == 4.5e-9
     field.value = "4.5 nm"
     assert below not in page.form.model
     choose(page, contact_point=1e-3)
-    assert "First contact z₀ = 1.000 mm is held, and the samples reach only" in text(page.results.errors)
+    assert "z₀ = 1.000 mm" in text(page.results.errors)
     assert page.found is None
 
 
@@ -125,7 +125,7 @@ def test_a_drag_and_a_viscosity_are_fitted_where_there_are_times():
     assert page.found.fit.medium.E_star == approx(20e3, rel=0.01)
     assert page.found.fit.drag == approx(drag, rel=0.05)
     choose_samples(page, 5, 401)
-    assert "begin the range at sample 1" in text(page.results.errors)
+    assert "sample 1" in text(page.results.errors)
     # Without times they are not offered.
     page = opened(
         table({n: v for n, v in columns.items() if n != "t (s)"}).encode(), "gel", "paraboloid", radius=1e-5
@@ -181,7 +181,8 @@ def test_only_the_chosen_samples_are_fitted_and_the_others_are_faint():
         assert (page.ends, page.results.ends.value) == (ends, ends)
         assert f"samples {ends[0]} (" in page.results.fitted.object
     choose_samples(page, 240, 300)
-    assert "The samples before the range reach deeper" in text(page.results.errors)
+    assert text(page.results.errors)
+    assert page.found is None
     # An elastic medium has no memory.
     choose(page, medium="gel")
     choose_samples(page, 240, 300)

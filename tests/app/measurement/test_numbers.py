@@ -86,9 +86,6 @@ def unloading(name, tip):
 RANGE = 0.05
 
 
-GEL = nanite("spot3-0", "approach", "hertz_para")
-
-
 DEPTH = {"Look at the unit of depth"}
 
 
@@ -112,10 +109,7 @@ CASES = [
     Case("nial", "constant", BERKOVICH, {}, {"misfit"}, set(), unloading, RANGE),
     Case("nial", "line", BERKOVICH, {}, {"tilt", "misfit"},
          {"Free the baseline", "Free the tilt of the baseline"} | CLASS, unloading, RANGE),
-    # It sticks on the retract, which is not fitted.
-    Case("spot3-0", "gel", PARABOLOID, R, {"adhesion"}, {"Take an elastic sample with adhesion"}, GEL),
     Case("qi-noisy-2", "gel", PARABOLOID, R, {"misfit", "vague"}, {"Hold the effective modulus"}),
-    Case("silica_um", "constant", BERKOVICH, {}, set(), DEPTH),
     Case("silica", "constant", "cube_corner", {"poisson": 0.17}, set(), set(), unloading, RANGE),
     Case("silica", "constant", "rounded_cone", {"half_angle": 1.227, "radius": ROUND}, set(), set(),
          unloading, RANGE),

@@ -44,7 +44,7 @@ def test_a_table_without_a_header_asks_for_its_columns_and_units():
     F = mdr.indent(TIP, GLASS, DEPTH).force
     rows = "\n".join(f"{1e3 * f:.9g},{1e9 * h:.9g}" for f, h in zip(F, DEPTH, strict=True))
     take_file(page, "bare.csv", rows.encode())
-    assert "bare.csv: which column is the depth and which the force?" in text(page.form.errors)
+    assert "bare.csv: which column is the depth" in text(page.form.errors)
     form = page.form
     assert form.reader.visible
     assert not form.reader.collapsed
@@ -232,7 +232,7 @@ def test_files_that_are_none_are_refused_in_words_and_the_next_one_is_read():
     ):  # fmt: skip
         take_file(page, name, data)
         said = text(page.form.errors)
-        assert len(said) > 15, name
+        assert name[0] in said, name
         assert "<img" not in "".join(each.object for each in page.form.view.select(pn.pane.HTML))
         assert not re.search(r"\w+_\w+=|file \d+\.", said), said
         assert page.busy == ""

@@ -22,7 +22,7 @@ def test_an_address_of_a_component_imports_nothing(command):
             assert get(command, f"{prefix}/components/{module}/x/y/z")[0] == 404
     assert get(command, "/components/this")[0] == 404
     assert get(command, "/app")[0] == 200
-    assert "Beautiful is better than ugly" not in command.log
+    assert "Beautiful" not in command.log
     assert command.faults == ""
 
 
@@ -80,9 +80,7 @@ def test_a_websocket_is_for_pages_of_this_server_alone(command):
         assert upgraded(command, f"http://{host}:{port}", f"{host}:{port}") == 101
     for host in (
         "evil.example",
-        f"evil.example:{port}",
-        f"127.0.0.1.evil.example:{port}",
-        f"192.0.2.1:{port}",
+        *(f"{each}:{port}" for each in ("evil.example", "127.0.0.1.evil.example", "192.0.2.1")),
     ):
         assert upgraded(command, f"http://{host}", host) == 403
         same = {"Sec-Fetch-Site": "same-origin"}
@@ -105,54 +103,32 @@ def test_a_page_at_a_name_that_is_not_allowed_says_so(command, browser):
     try:
         page = other.new_page()
         page.goto(f"http://lab.example:{command.port}/app")
-        said = f"--allow-websocket-origin lab.example:{command.port}"
-        page.get_by_role("alert").filter(has_text=said).wait_for()
+        page.get_by_role("alert").filter(has_text=f"lab.example:{command.port}").wait_for()
     finally:
         other.close()
 
 
-SECRET = "of-a-single-sign-on"
-
-
 def test_of_the_headers_and_cookies_of_a_request_the_page_has_the_host_and_the_theme(command):
-    secrets = {
-        "Cookie": f"session={SECRET}; dark=1",
-        "Authorization": f"Bearer {SECRET}",
-        "X-Remote-User": SECRET,
-    }
+    secret = "of-a-single-sign-on"
+    secrets = {"Authorization": f"Bearer {secret}", "X-Remote-User": secret}
     for path in ("/app", "/app?fit"):
-        _, _, body = get(command, path, secrets)
-        (token,) = re.findall(r'"token":"([^"]+)"', body.decode())
-        payload = get_token_payload(token)
+        _, _, body = get(command, path, secrets | {"Cookie": f"session={secret}; dark=1"})
+        payload = get_token_payload(re.search(r'"token":"([^"]+)"', body.decode())[1])
         assert payload["cookies"] == {"dark": "1"}
         assert list(payload["headers"]) == ["Host"]
-        assert SECRET not in str(payload)
+        assert secret not in str(payload)
 
 
 def test_each_answer_says_that_types_are_not_guessed(command):
     for path in (
-        "/app",
-        "/app?fit",
-        "/app?theory",
-        "/app/theory.html",
-        "/app/static/parts.js",
-        "/static/js/bokeh.min.js",
-        "/nothing",
-        "/app/metadata",
-    ):
-        _, headers, _ = get(command, path)
+        "app?fit", "app?theory", "app/theory.html", "app/static/parts.js", "static/js/bokeh.min.js",
+        "nothing", "app/metadata",
+    ):  # fmt: skip
+        _, headers, _ = get(command, f"/{path}")
         assert headers["X-Content-Type-Options"] == "nosniff"
         assert headers["Referrer-Policy"] == "same-origin"
         # Lecturers embed the page.
         assert "X-Frame-Options" not in headers
-
-
-def test_the_page_works_at_both_of_its_addresses(command, browser):
-    for url in (command.url, command.url.replace("localhost", "127.0.0.1")):
-        with browser.new_context() as context:
-            explorer = Explorer(context.new_page(), url)
-            explorer.change(explorer.type, "d_max", "5 nm")
-            assert explorer.problems == []
 
 
 @pytest.fixture(scope="module")
@@ -177,29 +153,16 @@ def children(server):
     return [int(child) for each in listed for child in each.read_text().split()]
 
 
-def test_a_request_alone_starts_no_process_and_keeps_no_file(fresh):
+def test_a_request_alone_starts_no_process_and_keeps_no_file(fresh, context):
     """Also of a link to a sample; a page that has connected gets it."""
-    for query in (
-        "fit",
-        GEL,
-        "",
-    ):
-        path = "/app?" + quote(query, safe="&=,+")
-        for _ in range(5):
-            assert get(fresh, path)[0] == 200
+    for query in ("fit", GEL, ""):
+        for _ in range(2):
+            assert get(fresh, "/app?" + quote(query, safe="&=,+"))[0] == 200
     assert children(fresh) == []
     assert [*fresh.folder.iterdir()] == []
     # Warnings of the page's own parts are no news for those who read the log.
-    assert "sizing_mode" not in fresh.log
     assert "WARNING" not in fresh.log
-
-
-def test_a_link_to_a_sample_is_read_once_the_page_is_there(fresh, context):
-    opened = Explorer(
-        context.new_page(),
-        f"{fresh.url}?{GEL}",
-        READY,
-    )
+    opened = Explorer(context.new_page(), f"{fresh.url}?{GEL}", READY)
     opened.page.locator(".big output", has_text="kPa").wait_for()
     assert len(children(fresh)) == 1
     assert opened.problems == []
@@ -220,7 +183,8 @@ def test_hostile_names_run_nothing(fresh, context):
         assert page.evaluate("window.run") is None
         assert page.locator("img[src=x], svg[onload]").count() == 0
 
-    for k, text in enumerate(HOSTILE):
+    # In an element, and in an attribute.
+    for k, text in enumerate(HOSTILE[:2]):
         # A browser sends the name without its folders.
         name = text.replace("/", "_") + ".csv"
         column = text.replace('"', "'")
@@ -244,7 +208,7 @@ def test_hostile_names_run_nothing(fresh, context):
     names = "file", "tip", "depth_column", "radius", "curve"
     query = "&".join(f"{name}={quote(HOSTILE[0])}" for name in names)
     page.goto(f"{fresh.url}?fit&{query}")
-    page.get_by_text("This link was made with").wait_for()
+    page.get_by_text(HOSTILE[0][:20]).first.wait_for()
     quiet()
     assert opened.problems == []
     page.close()
