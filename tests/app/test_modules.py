@@ -1,7 +1,6 @@
-"""The app as a package: imports, sizes of files, and scripts in files of their own."""
+"""The app as a package: imports point down, and files can be read at once."""
 
 import ast
-import re
 import subprocess
 import sys
 from functools import cache
@@ -88,25 +87,6 @@ def test_files_can_be_read_at_once():
     assert max(lines(MEASUREMENT)) <= 400
 
 
-SCRIPTS = list(APP.rglob("*.js"))
-
-
-#: What no documentation of Bokeh, Panel or HoloViews has.
-PRIVATE = re.compile(
-    r"\b(_actual_paint|is_forcing_paint|map_data|mark_finished|canvas_view|plot_view|renderer_views|repainted"
-    r"|_send_msg|_handle_msg|_models|_debounce|get_serialized_svg|embed_items|events_el|v_compute|pixel_ratio"
-    r"|source_range|silent)\b"
-)
-
-
-def test_nothing_private_of_the_toolkit_is_used():
-    for path in [*APP.rglob("*.py"), *SCRIPTS]:
-        text = path.read_text(encoding="utf-8")
-        assert PRIVATE.findall(text) == [], path.name
-        if path.suffix == ".js":
-            assert re.findall(r"\.(_\w+)", text) == [], path.name
-
-
 @cache
 def imports(path):
     """Modules of the app that one of them imports, those for annotations included."""
@@ -142,9 +122,3 @@ def test_imports_point_down():
     # What both pages use knows neither of them.
     for path in (APP / "common").glob("*.py"):
         assert all(each.parent == path.parent for each in imports(path))
-
-
-def test_scripts_stand_in_files_of_their_own():
-    for path in APP.rglob("*.py"):
-        text = path.read_text(encoding="utf-8")
-        assert not re.search(r'code="[^"]*[;=(]', text), path.name

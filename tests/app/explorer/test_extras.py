@@ -7,14 +7,13 @@ import shutil
 import sys
 from functools import cache
 from html import unescape
-from pathlib import Path
 
 import numpy as np
 import pytest
 from bokeh.core.has_props import HasProps, _default_resolver
 
 from app.common.quantities import CHOICES, QUANTITIES
-from app.explorer import changes, extra, state
+from app.explorer import changes
 from app.explorer.extra import EXTRAS
 from app.explorer.page import Page
 from app.explorer.plot import rows_of
@@ -296,36 +295,3 @@ def test_a_number_above_a_plot_is_set_there_and_in_the_link(folder):
     field.act({"text": "0.25"})
     assert page.state["wrong.share"] == 0.25
     assert "wrong.share=0.25" in page.query()[0]
-
-
-APP = Path(extra.__file__).parent
-
-
-PAGE = [path for path in APP.glob("*.py") if path.stem not in ("main", "server_lifecycle")]
-
-
-def test_the_page_knows_no_extra_by_name_and_reads_nothing_that_one_of_them_computes():
-    values = [name for name in state.OF_EXTRAS if "." in name]
-    assert "held.scenes" in values
-    for path in PAGE:
-        text = path.read_text(encoding="utf-8")
-        assert not re.search(r"computed(\[|\.get\()[\"']", text), path.name
-        assert not [name for name in values if name in text], path.name
-
-
-#: Names of what an extra may bring; `name` and `order` are its own.
-HOOKS = [name for name in extra.Extra.__dataclass_fields__ if name not in ("name", "order")]
-
-
-def brings(each, hook):
-    default = extra.Extra("none")
-    return getattr(each, hook) not in (getattr(default, hook), {}, ())
-
-
-def test_a_hook_has_more_than_one_user():
-    users = {hook: [n for n, each in extra.EXTRAS.items() if brings(each, hook)] for hook in HOOKS}
-    # Compared scenes alone are a list in links, and have a part that is offered only if there are some.
-    single = {"offered", "values"}
-    alone = {hook: names for hook, names in users.items() if len(names) < 2 and hook not in single}
-    assert alone == {}
-    assert len(HOOKS) <= 14

@@ -232,9 +232,11 @@ def test_files_that_are_none_are_refused_in_words_and_the_next_one_is_read():
     ):  # fmt: skip
         take_file(page, name, data)
         said = text(page.form.errors)
-        assert name[0] in said, name
+        # By its name, and not by that of a folder of the server.
+        assert " ".join(name.split())[-20:] in said or len(name) > 60 or "\0" in name, name
+        assert not re.search(r"mdr-explorer-|/tmp|file \d", said), said
         assert "<img" not in "".join(each.object for each in page.form.view.select(pn.pane.HTML))
-        assert not re.search(r"\w+_\w+=|file \d+\.", said), said
+        assert not re.search(r"\w+_\w+=", said), said
         assert page.busy == ""
     take_file(page, "run.csv", curve_file())
     choose(page, tip="berkovich")
@@ -258,22 +260,6 @@ def test_a_full_disk_is_said_on_the_page(monkeypatch):
         assert "its disk is full" in plain(page.form.tip_about.object)
     take_file(page, "other.csv", curve_file())
     assert page.found is not None
-
-
-def test_a_refusal_names_the_file_and_no_folder_of_the_server():
-    page = page_of()
-    for name in (
-        "damaged.jpk-force",
-        "damaged.xlsx",
-        "damaged.ibw",
-        "damaged.h5",
-        "damaged.zip",
-        "damaged.csv",
-    ):
-        take_file(page, name, b"PK\x03\x04 \0\xff" * 20)
-        error = text(page.form.errors)
-        assert "damaged" in error
-        assert not re.search(r"mdr-explorer-|/tmp|file \d", error), error
 
 
 def test_what_comes_back_of_a_table_is_what_is_shown_of_it():
