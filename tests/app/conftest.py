@@ -180,10 +180,6 @@ class Explorer:
     def axis(self, figure):
         return self.page.evaluate("(name) => explorer.axis(name)", figure)
 
-    def label(self, figure, name):
-        """Text of a label that is drawn in a plot."""
-        return self.page.evaluate("(a) => explorer.text(...a)", [figure, name])
-
     def goto(self, url):
         """Open another address, and wait until all is painted."""
         self.page.goto(url)

@@ -217,7 +217,7 @@ def test_a_refused_number_stays_until_it_is_another_or_all_is_set_anew(page):
     part(page, "q_c").act({"text": "abc"})
     refused = part(page, "q_c").look["refused"]
     assert "“abc”" in refused
-    assert all(unit.name in refused for unit in UNITS["line load"])
+    assert all(unit.name in refused for unit in UNITS["yield constant"])
     page.undo()
     assert part(page, "q_c").look["refused"] == refused
     page.choose("preset", DROP)

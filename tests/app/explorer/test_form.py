@@ -1,5 +1,6 @@
 """The form: choices, groups that open and close, and the order of requests."""
 
+import re
 from html import unescape
 
 import pytest
@@ -128,7 +129,8 @@ def test_of_choices_in_quick_succession_the_last_one_counts_and_all_are_drawn(ex
         explorer.pick(text)
         state = changes.choose(state, *choice)
         assert_draws(explorer, state)
-    assert explorer.page.get_by_text("Altered").count() == 1
+    # The sources of the preset are told to be those of another scene.
+    assert explorer.page.get_by_text(re.compile("^Altered")).first.is_visible()
     # Elements of the page after many changes of drive are as many as before.
     counts = []
     for _ in range(2):

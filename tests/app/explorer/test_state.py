@@ -59,7 +59,9 @@ def test_depths_of_presets_are_so_many_times_the_depth_of_yield():
 
 def test_a_steel_ball_is_one():
     """16 mm of steel, 7850 kg/m³, hits with its mass, to three digits in grams."""
-    (key,) = (key for key, preset in PRESETS.items() if preset.label.startswith("Steel ball 16 mm"))
+    (key,) = (
+        key for key, preset in PRESETS.items() if preset.label.startswith("Steel ball 16 mm on glass")
+    )
     state = changes.choose(preset_state(key), "drive", "impact")
     assert (state.shape, state.sphere_radius) == ("sphere", 8e-3)
     assert state.mass == approx(4 / 3 * np.pi * 0.008**3 * 7850, rel=3e-3)

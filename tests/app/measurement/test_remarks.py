@@ -165,8 +165,8 @@ def test_what_every_berkovich_has_stands_once_in_the_help():
     page = page_of()
     take_sample(page, "silica")
     assert "slopes" not in said(page)
-    assert "elastic contact" not in said(page)
-    for words in ("13 %", "elastic contact", "200 nm", "77.1 GPa"):
+    assert "contact radius of an elastic contact" not in said(page)
+    for words in ("13 %", "contact radius", "200 nm", "77.1 GPa"):
         assert words in plain(HELP)
     # The slope of a sphere depends on its depth.
     d = 1e-6 * np.linspace(-0.02, 0.6, 200)
