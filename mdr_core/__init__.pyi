@@ -9,6 +9,7 @@ from .base.remark import Remark as Remark
 from .base.remark import Remedy as Remedy
 from .base.results import Limit as Limit
 from .measurements.common.curve_table import CurveTable as CurveTable
+from .measurements.examples import example as example
 from .measurements.fit.hardness import HardnessFit as HardnessFit
 from .measurements.fit.hardness import fit_hardness as fit_hardness
 from .measurements.fit.indentation import fit_indentation as fit_indentation

@@ -39,7 +39,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         Options of `panel serve`, such as ``--show`` (opens the browser) or ``--port 5007``; by default
         the options of the command line. They replace those in `OPTIONS`. ``--static FOLDER`` writes the
         explorer for a host of files instead; ``--pyodide`` is the folder of a whole Pyodide, or the
-        address from which browsers load it.
+        address from which browsers load it. ``--scene LINK FILE`` writes the scene of a link as one HTML
+        file that plays without a server.
 
     Raises
     ------
@@ -58,6 +59,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
         return
     if given.pyodide:
         sys.exit("mdr-explorer: --pyodide goes with --static FOLDER")
+    if given.scene is not None:
+        _write_scene(*given.scene)
+        return
     if not any(each.startswith(("--address", "--unix-socket")) for each in others):
         _check_free(given.port)
     shown = ["--show"] if given.show else []
@@ -85,6 +89,9 @@ def _parser() -> ArgumentParser:
     parser.add_argument("--port", type=int, default=5006, help="port of the server, by default 5006")
     parser.add_argument("--show", action="store_true", help="open the explorer in the browser")
     parser.add_argument("--static", metavar="FOLDER", type=Path, help="write it there, do not serve it")
+    parser.add_argument(
+        "--scene", metavar=("LINK", "FILE"), nargs=2, help="write the scene of a link as one HTML file"
+    )
     told = "with --static: the folder of a whole Pyodide, or the address from which browsers load it"
     parser.add_argument("--pyodide", metavar="URL-or-folder", default="", help=told)
     parser.add_argument("--version", action="version", version=f"mdr-core {__version__}")
@@ -101,6 +108,16 @@ def _check_free(port: int) -> None:
             if error.errno != errno.EADDRINUSE:
                 raise
             sys.exit(f"mdr-explorer: port {port} is in use: choose another, such as --port {port + 1}")
+
+
+def _write_scene(link: str, file: str) -> None:
+    """Write the scene of a link as one HTML file."""
+    from . import pages
+
+    try:
+        pages.write_scene(link, Path(file))
+    except (ValueError, OSError) as error:
+        sys.exit(f"mdr-explorer: {error}")
 
 
 def _write(given: Namespace) -> None:

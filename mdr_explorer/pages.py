@@ -33,9 +33,7 @@ def write(folder: Path, pyodide: str, integrity: dict[str, str]) -> list[license
 
     `pyodide` is the address of Pyodide, `integrity` has digests of its scripts by their addresses.
     """
-    if str(APP.parent) not in sys.path:
-        # Like a server.
-        sys.path.insert(0, str(APP.parent))
+    _find_app()
     import bokeh
     import panel
 
@@ -82,6 +80,30 @@ def write(folder: Path, pyodide: str, integrity: dict[str, str]) -> list[license
     parts = [licenses.of_script(name, match[1] if match else "") for name, match in versions.items()]
     font = (dist / "bundled/font-awesome/LICENSE.txt").read_text(encoding="utf-8")
     return [*parts, licenses.Licensed("Font Awesome Free", "5.15.4", "CC-BY-4.0, OFL-1.1, MIT", font)]
+
+
+def write_scene(link: str, file: Path) -> None:
+    """Write the scene of a link, or of the query of a link, as one HTML file that plays without a server.
+
+    Raise ValueError if the link has a wrong value or an unknown name.
+    """
+    _find_app()
+    from app.explorer import link as links
+    from app.explorer.extras.scene_file import scene_file
+    from app.explorer.page import Page
+
+    query = link.rpartition("?")[2]
+    if unknown := links.unknown(query):
+        raise ValueError(f"the link has unknown names: {', '.join(unknown)}")
+    page = Page()
+    page.draw(links.read(query))
+    _write(file, scene_file(page.view))
+
+
+def _find_app() -> None:
+    """Let Python import the folder of the explorer as `app`, as a server does."""
+    if str(APP.parent) not in sys.path:
+        sys.path.insert(0, str(APP.parent))
 
 
 def _copy(path: Path, to: Path) -> None:

@@ -90,8 +90,8 @@ WITHOUT = {
     "ChainImpact", "CurveTable", "Foundation", "HardnessClass", "HardnessFit", "Impact", "Indentation",
     "IndentationFit", "Limit", "MDRError", "MeasuredCurve", "MeasuredCurves", "Motion", "ObliqueImpact",
     "OliverPharr", "Profile", "Quoted", "Remark", "Remedy", "ScalingLaw", "Scene", "Smooth",
-    "TimedIndentation", "UnknownColumns", "abel", "chain_impact", "read_curve", "read_curves", "scene",
-    "sweep",
+    "TimedIndentation", "UnknownColumns", "abel", "chain_impact", "example", "read_curve", "read_curves",
+    "scene", "sweep",
 }  # fmt: skip
 
 

@@ -8,7 +8,6 @@ import io
 import os
 import pkgutil
 import re
-import shutil
 import subprocess
 import sys
 import tokenize
@@ -155,8 +154,7 @@ def places(number):
 
 @pytest.mark.parametrize(("block", "printed"), BLOCKS)
 def test_blocks_of_code(block, printed, tmp_path, monkeypatch, capsys):
-    """In a folder with the measured curve that pages give to download; numbers in comments count, too."""
-    shutil.copy(ROOT / "assets" / "silica.csv", tmp_path)
+    """In an empty folder, as a reader pastes them; numbers in comments count, too."""
     monkeypatch.chdir(tmp_path)
     comments = Comments(block)
     comments.check(run(block, print=comments.print))
@@ -208,15 +206,15 @@ def test_the_curve_of_the_readme_is_plotted_and_saved(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_example_of_the_gallery(path, monkeypatch):
-    """It is short, it runs without a warning, and it draws one figure or more."""
+def test_example_of_the_gallery(path, tmp_path, monkeypatch):
+    """It is short, it runs in an empty folder without a warning, and it draws one figure or more."""
     plt = pytest.importorskip("matplotlib.pyplot")
     plt.switch_backend("Agg")
     code = path.read_text(encoding="utf-8")
     assert len(code.splitlines()) <= 60
     # A window would wait, and Agg would warn that it has none.
     monkeypatch.setattr(plt, "show", lambda: None)
-    monkeypatch.chdir(path.parent)
+    monkeypatch.chdir(tmp_path)
     run(code, path.name)
     assert plt.get_fignums()
     plt.close("all")

@@ -24,7 +24,8 @@ KERNEL = "base", "solver"
 ORDER = (
     "base", "solver.numerics", "solver.profiles", "solver.medium", "solver.applicability",
     "solver.foundation", "solver.contact", "solver.impacts", "solver.own", "solver.oblique", "abel", "show",
-    "measurements.measured_curve", "measurements.files", "measurements.reading", "measurements.common",
+    "measurements.examples", "measurements.measured_curve",
+    "measurements.files", "measurements.reading", "measurements.common",
     "measurements.unloading", "measurements.fit", "sweep", "scenes", "scene", "__init__",
 )  # fmt: skip
 # What the chain bears witness of: all modules of these folders, and two more.

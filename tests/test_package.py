@@ -63,14 +63,13 @@ def test_the_wheel_has_the_library_and_the_explorer_and_nothing_else(unpacked):
 
 
 def test_the_wheel_has_each_asset_that_the_explorer_reads(unpacked):
-    """Files of assets/ that are named in its code or drawn in its theory, and the licences of curves."""
+    """Files of assets/ that are named in its code or drawn in its theory."""
     code = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "app").rglob("*.py"))
     named = {path.name for path in (ROOT / "assets").iterdir() if f'"{path.name}"' in code}
     theory = (ROOT / "assets" / "theory.md").read_text(encoding="utf-8")
     named |= set(re.findall(r"!\[.*?\]\((\w+\.svg)\)", theory))
-    assert {"quantities.json", "presets.json", "theory.md", "silica.csv", "gel.csv"} <= named
-    licences = {path.name for path in (ROOT / "assets").glob("*.license") if path.stem in named}
-    assert files(unpacked / "mdr_explorer" / "assets") == named | licences
+    assert {"quantities.json", "presets.json", "theory.md"} <= named
+    assert files(unpacked / "mdr_explorer" / "assets") == named
 
 
 @pytest.mark.slow
@@ -185,3 +184,24 @@ def test_versions_agree():
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     assert re.search(r"^version: (.*)$", citation, re.MULTILINE)[1] == PROJECT["version"]
     assert mdr_core.__version__ == PROJECT["version"]
+
+
+def test_the_command_writes_the_scene_of_a_link(tmp_path):
+    """The file has the numbers of the link; a link that the page would not open as given is rejected."""
+    pytest.importorskip("panel")
+    file = tmp_path / "scene.html"
+    for link in (
+        "preset=berkovich-pdms&max_depth=5e-7",
+        "https://host/app?preset=berkovich-pdms&max_depth=5e-7",
+    ):
+        mdr_explorer.main(["--scene", link, str(file)])
+        text = file.read_text(encoding="utf-8")
+        assert "PDMS" in text
+        assert "500.0 nm" in text
+        file.unlink()
+    for link, named in {"preste=x": "preste", "max_depth=1e9": "10.00 m", "preset=nix": "nix"}.items():
+        with pytest.raises(SystemExit, match=named):
+            mdr_explorer.main(["--scene", link, str(file)])
+    with pytest.raises(SystemExit, match="nowhere"):
+        mdr_explorer.main(["--scene", "", str(tmp_path / "nowhere" / "scene.html")])
+    assert not file.exists()

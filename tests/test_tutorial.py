@@ -15,13 +15,13 @@ SCRIPT = Path(mdr.__file__).parents[1] / "assets" / "docs" / "examples" / "first
 
 
 @pytest.mark.slow
-def test_the_first_hour_shows_what_it_describes(monkeypatch):
+def test_the_first_hour_shows_what_it_describes(tmp_path, monkeypatch):
     for package in ("pandas", "xarray"):
         pytest.importorskip(package)
     plt = pytest.importorskip("matplotlib.pyplot")
     plt.switch_backend("Agg")
     monkeypatch.setattr(plt, "show", lambda: None)
-    monkeypatch.chdir(SCRIPT.parent)
+    monkeypatch.chdir(tmp_path)
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
         names = runpy.run_path(os.fspath(SCRIPT))

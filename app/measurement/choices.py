@@ -8,8 +8,6 @@ import mdr_core as mdr
 from mdr_core.measurements.fit.parameters import PARAMETERS
 from mdr_core.show.units import KINDS
 
-from ..common.quantities import ASSETS
-
 
 class Number(NamedTuple):
     """A number that is typed: symbol, name, kind of unit, unit while it is empty, and bounds (SI)."""
@@ -117,10 +115,10 @@ CLASS_NAMES = {"a": "constant hardness", "b": "hardness ∝ 1/a", "c": "hardness
 
 
 class Example(NamedTuple):
-    """A file of the assets: its button, path and name, with its tip, kind of sample and numbers."""
+    """A measured curve of the library: button, file, name, tip, kind of sample and numbers."""
 
     button: str
-    path: str
+    file: str
     name: str
     tip: str
     medium: str
@@ -128,7 +126,7 @@ class Example(NamedTuple):
 
     def read(self) -> bytes:
         """Return what is in the file."""
-        return (ASSETS / self.path).read_bytes()
+        return mdr.example(self.file).read_bytes()
 
 
 EXAMPLES = {

@@ -180,7 +180,7 @@ noise of the force and unknown first contact. The mean is known to 0.03, the wid
 
 {}
 
-Fused silica and quartz, NiAl (with a pop-in) and steel under a Berkovich tip (`assets/silica.csv`, \
+Fused silica and quartz, NiAl (with a pop-in) and steel under a Berkovich tip (`silica.csv`, \
 `tests/data`), as a cone of slope 0.358. The fits use 0.5 % of the largest force to 12 % on unloading. \
 The table gives the residuals of a fit of each class alone, as root mean square over the largest force, \
 and the class in the report. For silica, Oliver and Pharr's analysis by micromechanics gives {:.1f} \
@@ -249,7 +249,7 @@ unloadings with air, a hold, creep, cycles, a measured stiffness, other units, a
 as ideal tips. Further cases are files, area functions and hardnesses over radii. The measured cases \
 are three AFM curves of gels and a cell as a paraboloid and a cone, two of them in time. Silica, \
 quartz, NiAl and steel are fitted as each class, as elastic, and with two constants, and their \
-unloadings with and without times (`tests/data`, `assets/silica.csv`).
+unloadings with and without times (`tests/data`, `silica.csv`).
 
 {}
 

@@ -21,6 +21,7 @@ from urllib.request import urlopen
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect
 
+import mdr_core as mdr
 from tests.app.conftest import Server
 
 #: Seconds to wait for a page: the first one of a process builds all its plots.
@@ -227,7 +228,7 @@ class Uploader(Visitor):
         await super().open(f"{url}?fit&tip=berkovich&medium=constant")
         fields = (each for each in objects(self.document) if str(each.get("name")).endswith("FileDropper"))
         self.field = next(fields)["id"]
-        self.data = (Path(__file__).parents[2] / "assets" / "silica.csv").read_bytes()
+        self.data = mdr.example("silica.csv").read_bytes()
         return self
 
     async def act(self, n):

@@ -222,7 +222,7 @@ def _without_stiffness():
 
 def record_of(name):
     """Depth (m), force (N) and time (s) of a measured curve that yields."""
-    path = DATA / f"{name}.csv" if name != "silica" else DATA.parents[1] / "assets/silica.csv"
+    path = DATA / f"{name}.csv" if name != "silica" else mdr.example("silica.csv")
     data = np.genfromtxt(path, delimiter=",", names=True)
     return 1e-9 * data["depth_nm"], 1e-3 * data["force_mN"], data["time_s"]
 

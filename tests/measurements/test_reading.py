@@ -1,7 +1,6 @@
 """Measured curves from files as instruments write them."""
 
 import sys
-from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
 import numpy as np
@@ -11,7 +10,7 @@ import mdr_core as mdr
 
 from ..approx import approx
 
-SILICA = Path(__file__).parents[2] / "assets" / "silica.csv"
+SILICA = mdr.example("silica.csv")
 DEPTH, FORCE, TIME = [-1.0, 0.0, 2.0, 4.0, 3.0], [0.0, 0.0, 1.5, 6.0, 2.0], range(5)
 
 

@@ -77,7 +77,7 @@ for limit in mdr.indent(mdr.Cone(slope=70.3), gold, 1e-9).limits:
 # quote. By default the fit assumes class (b), a hardness q_c/a. That is wrong for
 # silica, as the figure shows.
 
-curve = mdr.read_curve("../../silica.csv")
+curve = mdr.read_curve(mdr.example("silica.csv"))
 berkovich = mdr.Cone.from_half_angle(70.3)
 print(curve)
 print(mdr.oliver_pharr(berkovich, curve))

@@ -35,7 +35,7 @@ def measured(name, segment):
 
 def silica():
     """Depth (m) and force (N) of loading, hold and unloading, and the index of the largest depth."""
-    data = np.genfromtxt(DATA.parents[1] / "assets/silica.csv", delimiter=",", names=True)[:1154]
+    data = np.genfromtxt(mdr.example("silica.csv"), delimiter=",", names=True)[:1154]
     return 1e-9 * data["depth_nm"], 1e-3 * data["force_mN"], int(np.argmax(data["depth_nm"]))
 
 

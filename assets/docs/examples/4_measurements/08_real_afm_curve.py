@@ -2,9 +2,9 @@
 A real AFM curve
 ================
 
-The approach of an AFM force–distance curve of a gel (afmformats, MIT licence, in
-``tests/data``), fitted with a nominal paraboloid of 10 µm. ``q_c=inf`` keeps the medium
-elastic; first contact and the baseline are fitted.
+The approach of an AFM force–distance curve of a gel (afmformats, MIT licence), fitted
+with a nominal paraboloid of 10 µm. ``q_c=inf`` keeps the medium elastic; first contact
+and the baseline are fitted.
 """
 
 import matplotlib.pyplot as plt
@@ -12,7 +12,7 @@ import numpy as np
 
 import mdr_core as mdr
 
-data = np.genfromtxt("../../../../tests/data/spot3-0.csv", delimiter=",", names=True)
+data = np.genfromtxt(mdr.example("gel.csv"), delimiter=",", names=True)
 approach = data["retract"] == 0
 depth, force = 1e-9 * data["depth_nm"][approach], 1e-9 * data["force_nN"][approach]
 fit = mdr.fit_indentation(

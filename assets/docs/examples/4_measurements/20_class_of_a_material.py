@@ -2,7 +2,7 @@
 Which class is my material?
 ===========================
 
-Fused silica under a Berkovich tip (micromechanics, MIT licence, in ``assets``), loaded
+Fused silica under a Berkovich tip (micromechanics, MIT licence), loaded
 and unloaded. A fit with a constant hardness, class (a), misses the force by a third of
 a percent. A fit with a hardness :math:`q_c/a`, class (b), misses it by five times as
 much. ``fit.classes`` has the fit of each class alone. The report lists the classes that
@@ -18,7 +18,7 @@ import numpy as np
 
 import mdr_core as mdr
 
-data = np.genfromtxt("../../../silica.csv", delimiter=",", names=True)
+data = np.genfromtxt(mdr.example("silica.csv"), delimiter=",", names=True)
 depth, force = 1e-9 * data["depth_nm"], 1e-3 * data["force_mN"]
 top = np.argmax(force)
 low = force[top:] < 0.12 * force[top]
