@@ -10,7 +10,6 @@ import pytest
 
 import mdr_core as mdr
 from app.common.process import Here
-from app.common.quantities import ASSETS
 from app.measurement import query
 from app.measurement.page import Measurement
 
@@ -99,7 +98,7 @@ def curve_at(path, medium=GLASS):
 
 def silica_in(unit):
     """The curve of fused silica with another unit of depth."""
-    return (ASSETS / "silica.csv").read_bytes().replace(b"_nm", f"_{unit}".encode())
+    return mdr.example("silica.csv").read_bytes().replace(b"_nm", f"_{unit}".encode())
 
 
 def afm_curve():

@@ -8,7 +8,6 @@ import pytest
 
 import mdr_core as mdr
 from app.common.host import last
-from app.common.quantities import ASSETS
 from app.explorer import changes, link
 from app.explorer.drives import follow
 from app.explorer.extras import hardness, sweep
@@ -198,7 +197,7 @@ def test_a_viscous_impact_and_a_ramp_in_time_solve(option):
 
 def test_the_preset_of_fused_silica_is_that_of_the_measured_curve():
     """E* of the handbook instead of the fitted one makes the force 7 % less at the largest depth."""
-    curve = mdr.read_curve(ASSETS / "silica.csv")
+    curve = mdr.read_curve(mdr.example("silica.csv"))
     state = preset_state(SILICA).replace(max_depth=float(curve.depth.max()))
     assert profile(state).slope == approx(mdr.Cone.from_half_angle(70.3).slope, rel=1e-3)
     assert follow(state).turning_point.force == approx(curve.force.max(), rel=0.1)

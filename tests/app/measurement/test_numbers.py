@@ -8,10 +8,9 @@ import pytest
 from scipy.optimize import curve_fit
 
 import mdr_core as mdr
-from app.common.quantities import ASSETS
 
 from ...approx import approx
-from ..measuring import DATA, buttons, opened, saved
+from ..measuring import DATA, buttons, opened, saved, silica_in
 
 
 class Case(NamedTuple):
@@ -60,7 +59,7 @@ CONES = {"berkovich": 70.3, "cube_corner": 42.28, "rounded_cone": np.degrees(1.2
 
 def unloading(name, tip):
     """E* (Pa) by Oliver and Pharr: a power law by SciPy from 95 to 40 % of the force, with ε = 0.75."""
-    curve = mdr.read_curve(ASSETS / "silica.csv" if name == "silica" else DATA / f"{name}.csv")
+    curve = mdr.read_curve(mdr.example("silica.csv") if name == "silica" else DATA / f"{name}.csv")
     top = int(np.argmax(curve.force))
     depth, force = 1e9 * curve.depth[top:], curve.force[top:] / curve.force.max()
     end = int(np.argmax(force < 0.4))
@@ -124,7 +123,7 @@ CASES = [
 def data(name):
     if not name.startswith("silica"):
         return (DATA / f"{name}.csv").read_bytes()
-    return (ASSETS / "silica.csv").read_bytes().replace(b"_nm", f"_{name[7:] or 'nm'}".encode())
+    return silica_in(name[7:] or "nm")
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.curve} {case.medium} {case.tip}")

@@ -12,6 +12,7 @@ from types import SimpleNamespace
 
 import pytest
 
+import mdr_core as mdr
 from app.common import process
 from app.common.errors import Refused
 from app.common.folders import Files
@@ -60,7 +61,7 @@ def in_a_loop(test):
     return wraps(test)(run_in_a_thread)
 
 
-SILICA = str(ROOT / "assets" / "silica.csv")
+SILICA = str(mdr.example("silica.csv"))
 
 
 async def read(worker, path=SILICA, **told):
