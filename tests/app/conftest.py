@@ -20,7 +20,6 @@ import numpy as np
 import pytest
 
 collect_ignore_glob = [] if importlib.util.find_spec("panel") else ["*"]
-
 ROOT = Path(__file__).parents[2]
 #: The one without windows takes a seventh less of the processor, and shows the same pages.
 CHROMIUM = os.environ.get("CHROMIUM") or which("chromium-headless-shell") or "/usr/bin/chromium"
@@ -36,7 +35,6 @@ READY = "window.Bokeh?.documents.length && Bokeh.documents.every((each) => each.
 FOCUSED = Path(__file__).with_name("focused.js").read_text(encoding="utf-8")
 #: `mdr-explorer` as it is started by hand.
 PROGRAM = ("-c", "import mdr_explorer; mdr_explorer.main()")
-
 # What the page draws: rows by name, axes, and whether all is done.
 SCRIPT = """
 window.explorer = {
@@ -69,8 +67,6 @@ window.explorer = {
     explorer.row("force", "now")?.[0].length === 1,
 }
 """
-
-
 MODULE = ("-m", "panel")
 
 

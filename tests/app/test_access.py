@@ -50,12 +50,8 @@ STATES = {
     "silica": ("?fit", silica, DESK),
     "theory": ("?theory", few_formulas, DESK),
 }
-
-
 #: Pages beside the explorer, and when they are there.
 OTHERS = {"?fit": READY, "?theory": "document.querySelector('math')"}
-
-
 MAIN = "main, [role=main]"
 
 

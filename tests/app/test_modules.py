@@ -24,10 +24,7 @@ def loaded(code, names):
 
 FITS = (
     "app.measurement",
-    "mdr_core.measurements.fit",
-    "mdr_core.measurements.files",
-    "mdr_core.measurements.reading",
-    "mdr_core.measurements.measured_curve",
+    *(f"mdr_core.measurements.{name}" for name in ("fit", "files", "reading", "measured_curve")),
 )
 
 
@@ -43,10 +40,8 @@ PAGES = ("panel", "bokeh", "holoviews", "tornado", "app.explorer.page", "app.com
 
 def test_a_process_that_reads_and_fits_loads_no_page():
     """It has no use for them, and a start would take a second more."""
-    begins = _PROGRAM.partition("from ")[0]
-    assert (
-        loaded(begins + "import app.common.process, app.common.tip, app.measurement.analysis", PAGES) == []
-    )
+    code = "import app.common.process, app.common.tip, app.measurement.analysis"
+    assert loaded(_PROGRAM.partition("from ")[0] + code, PAGES) == []
 
 
 def imported(path):
@@ -64,48 +59,28 @@ def imported(path):
 def test_the_page_for_measurements_is_imported_where_pages_are_served_alone():
     """So the explorer, and what both pages share, do without it."""
     outside = [each for each in APP.rglob("*.py") if APP / "measurement" not in each.parents]
-    found = {
-        each
-        for each in outside
-        if any(f"{name}.".startswith("app.measurement.") for name in imported(each))
-    }
+    inside = "app.measurement."
+    found = {each for each in outside if any(f"{name}.".startswith(inside) for name in imported(each))}
     assert found == {APP / "main.py", APP / "server_lifecycle.py"}
 
 
-def lines(paths):
-    return [len(path.read_text(encoding="utf-8").splitlines()) for path in paths]
-
-
-EXPLORER = [*APP.glob("*.py"), *(APP / "explorer").rglob("*.py"), *(APP / "common").glob("*.py")]
-
-
-MEASUREMENT = list((APP / "measurement").glob("*.py"))
-
-
-def test_files_can_be_read_at_once():
-    assert max(lines(EXPLORER)) <= 370
-    assert max(lines(MEASUREMENT)) <= 400
+@pytest.mark.parametrize(("folder", "most"), [("explorer", 370), ("common", 370), ("measurement", 400)])
+def test_files_can_be_read_at_once(folder, most):
+    for path in (APP / folder).rglob("*.py"):
+        assert len(path.read_text(encoding="utf-8").splitlines()) <= most, path
 
 
 @cache
 def imports(path):
     """Modules of the app that one of them imports, those for annotations included."""
     found, package = set(), path.parent
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and node.level:
             base = package if node.level == 1 else package.parents[node.level - 2]
             base = base / (node.module or "").replace(".", "/")
             for name in [alias.name for alias in node.names]:
-                for each in (
-                    base / f"{name}.py",
-                    base / name / "__init__.py",
-                    base.with_suffix(".py"),
-                    base / "__init__.py",
-                ):
-                    if each.is_file():
-                        found.add(each)
-                        break
+                places = base / f"{name}.py", base / name / "__init__.py", base.with_suffix(".py")
+                found |= {*[each for each in (*places, base / "__init__.py") if each.is_file()][:1]}
     return found - {path, APP / "__init__.py"}
 
 

@@ -105,8 +105,6 @@ def test_every_text_of_the_page_is_read_in_the_dark(explorer):
 
 
 APP = Path(app.__file__).parent
-
-
 SHEETS = sorted(APP.rglob("*.css"))
 
 

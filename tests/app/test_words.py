@@ -13,22 +13,20 @@ from .conftest import ROOT
 from .states import HOSTILE
 
 
-def test_a_refused_argument_of_the_core_is_said_by_symbol_value_and_bound():
-    """Without the names of Python and the remedies for those who call it; all else as the core has it."""
+def test_a_message_of_the_core_has_symbols_and_the_units_that_fit():
+    """Instead of names of Python and SI; a message without them stays as it is."""
     with pytest.raises(ValueError, match="E_star") as refused:
         mdr.Medium(E_star=-2e9, q_c=1.0)
-    assert error_text(refused.value) == "E*, effective modulus, = −2.000 GPa must be finite and positive"
-    assert error_text(ValueError("no contact")) == "no contact"
-
-
-def test_a_message_of_the_core_has_each_number_in_the_unit_that_fits_it():
-    """Its value and its bound, which the core gives in SI."""
-    with pytest.raises(ValueError, match=r"4\.39823e-05 N") as caught:
+    said = error_text(refused.value)
+    assert said.startswith("E*")
+    assert "−2.000 GPa" in said
+    with pytest.raises(ValueError, match=r"4\.39823e-05 N") as refused:
         mdr.indent_to_force(mdr.FlatPunch(1e-6), mdr.Medium(E_star=1e9, q_c=14.0), 45.14e-6)
-    said = error_text(caught.value)
-    assert "= 45.14 µN" in said
-    assert "less than the 43.98 µN" in said
+    said = error_text(refused.value)
+    assert "45.14 µN" in said
+    assert "43.98 µN" in said
     assert "e-0" not in said
+    assert error_text(ValueError("no contact")) == "no contact"
 
 
 def test_messages_have_no_folder_of_the_server():
@@ -46,22 +44,19 @@ def test_a_message_that_quotes_a_file_has_a_bound():
 
 
 def test_a_text_is_shown_as_it_is_and_never_taken_for_html():
+    makers = (
+        ui.as_html,
+        ui.html_subscripts,
+        ui.symbol,
+        ui.linked,
+        ui.notice,
+        lambda text: ui.html(text).object,
+    )
     for text in HOSTILE:
-        makers = (
-            ui.as_html,
-            ui.html_subscripts,
-            ui.symbol,
-            ui.linked,
-            ui.notice,
-            lambda text: ui.html(text).object,
-        )
         for make in makers:
-            found = make(text)
-            own = re.sub(r"</?(i|sub)>", "", found)
-            assert "<" not in own
+            assert "<" not in re.sub(r"</?(i|sub)>", "", make(text))
         # In an attribute, too.
-        assert '"' not in ui.as_html(text)
-        assert "'" not in ui.as_html(text)
+        assert not {'"', "'"} & {*ui.as_html(text)}
 
 
 def test_html_is_made_of_literals_of_the_page_alone():

@@ -240,15 +240,11 @@ NUMBER = {
     "name": "wrong.share", "symbol": "φ", "label": "share", "kind": "number", "bounds": [0.0, 1.0],
     "default": 0.5, "span": -1.0, "help": "", "equation": "",
 }  # fmt: skip
-
-
 MISTAKES = {
     "nothing to load": ("", {}, "it ends with EXTRA = Extra"),
     "no bounds": ({}, {"numbers": [{"name": "wrong.share"}]}, "wrong.json does not describe"),
     "an unknown field": ({}, {"numbers": [NUMBER | {"colour": "red"}]}, "wrong.json does not describe"),
 }
-
-
 PLOT = """
 from ..extra import Extra
 from ..plot import AxisSpec, Plot

@@ -25,8 +25,8 @@ def test_guided_scenes_say_what_is_so():
     assert elastic.state.pressure(0.0) == float("inf")
     assert begun.state.plastic_radius > 0
     assert begun.state.pressure(0.0) < float("inf")
-    # (21): the ring a − c stays as wide as it is.
     assert float(deep.state.mean_pressure * deep.state.contact_radius) == approx(0.90 * 100, rel=0.01)
+    # (21): the ring a − c stays as wide as it is.
     rings = [float(course.state.contact_radius - course.state.plastic_radius) for course in (begun, deep)]
     assert rings[0] == approx(rings[1], rel=1e-9)
     assert lifted.states.force[lifted.now] == 0

@@ -41,8 +41,6 @@ def runs(there, gap):
 
 #: Pixels of a picture: below the title of a large plot; from a swatch to its word, and between two items.
 TITLE, BESIDE, BETWEEN = 84, 19, 36
-
-
 Image = pytest.importorskip("PIL.Image")
 
 

@@ -24,8 +24,6 @@ from ..conftest import DROP, GOLD, PUNCH
 from ..states import SIZES, linked_state, numbers, press, state_with, view_of
 
 PLATE, SUPPORT = "small_ball-carbon_epoxy", "striker-glass_epoxy-plate"
-
-
 EDGES = "ball-carbon_laminate"
 
 

@@ -30,12 +30,8 @@ class Case(NamedTuple):
 
 
 BERKOVICH, PARABOLOID, R = "berkovich", "paraboloid", {"radius": 1e-5}
-
-
 #: Handbooks: steel of 210 GPa and ν = 0.3 under diamond, and fused quartz, of which silica is made.
 STEEL, QUARTZ = 192e9, 69.6e9
-
-
 REFERENCE = json.loads((DATA / "reference.json").read_text(encoding="utf-8"))
 
 
@@ -48,12 +44,8 @@ def nanite(name, *path):
 
 
 GEL_IN_TIME = nanite("map2x2-2", "in_time")
-
-
 #: Radius (m) of the rounded tip.
 ROUND = 1e-7
-
-
 CONES = {"berkovich": 70.3, "cube_corner": 42.28, "rounded_cone": np.degrees(1.227)}
 
 
@@ -83,17 +75,9 @@ def unloading(name, tip):
 
 #: Another range of the unloading and another exponent are worth some per cent.
 RANGE = 0.05
-
-
 DEPTH = {"Look at the unit of depth"}
-
-
 UNITS = DEPTH | {"Look at the unit of force"}
-
-
 CLASS, TIP = {"Take class (a), constant hardness"}, {"Choose another tip"}
-
-
 CASES = [
     Case("steel", "gel", BERKOVICH, {}, {"drift", "misfit"},
          {"Take glass, metal or ceramic", "Subtract a drift of 862 pm/s"}),

@@ -51,8 +51,6 @@ def test_a_sample_is_one_click_and_all_of_it_is_in_sight_in_any_window(measureme
 
 
 LIGHT, DARK = ([ROLES[role][k].lower() for role in ("measured", "elastic")] for k in (0, 1))
-
-
 DRAWN = """(name) => Bokeh.documents[0].get_model_by_name('force plot').renderers
   .find((each) => each.name === name).glyph[name === 'model' ? 'line_color' : 'fill_color'].value"""
 

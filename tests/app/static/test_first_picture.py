@@ -38,8 +38,6 @@ def started(browser, written):
 AS_IT_IS = {
     "": GOLD, f"?preset={DROP}&dark=1": DROP, f"?utm_source=course&preset={ELASTIC}&fbclid=I": ELASTIC,
 }  # fmt: skip
-
-
 #: Links to other scenes, and some that the page will refuse.
 OTHERS = (
     f"?preset={PUNCH}&max_depth=5e-5", "?tiles=hardness", "?preset=none", "?preset=../theory",

@@ -42,8 +42,6 @@ def hosted(browser, real, tmp_path_factory):
 
 #: Once the page has taken the place of the first picture, for a busy machine.
 STARTED, PATIENCE = "!document.getElementById('start') && window.explorer?.idle()", 300_000
-
-
 #: Presets that are compared with the library, of drives and shapes that differ, with their labels.
 SCENES = {name: PRESETS[name].label for name in (ELASTIC, PUNCH, DROP, "microsphere-pdms", "ball-steel")}
 
