@@ -1,27 +1,23 @@
 """All plots: rows, axes, colours, legends, and plots over time."""
 
-import json
-
 import bokeh.models as bk
 import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
 from app.common.host import last
-from app.common.quantities import CHOICES, unicode_subscripts
+from app.common.quantities import CHOICES
 from app.explorer import changes
 from app.explorer.drives import follow
 from app.explorer.extras import share, sweep
 from app.explorer.extras.scene_file import scene_file
 from app.explorer.extras.section import section
-from app.explorer.figures import Picture, drawn, legend, picture_of, ticks
-from app.explorer.layout import frames
+from app.explorer.figures import Picture, drawn, picture_of, ticks
 from app.explorer.page import Page
-from app.explorer.plot import Plot, View, rows_of
-from app.explorer.plots import NAMED, PLOTS, D, F, visible
+from app.explorer.plot import View, rows_of
+from app.explorer.plots import NAMED, PLOTS, visible
 from app.explorer.search import AsyncPlot, as_steps
 from app.explorer.state import PRESETS, preset_state
-from mdr_core.show.figures import line, mark
 from mdr_core.show.units import written
 
 from ...approx import approx
@@ -54,30 +50,6 @@ def test_every_plot_of_every_state_can_be_drawn(damping):
                     assert rows.keys() == names | ({"image"} if getattr(plot, "image", None) else set())
                     for data in picture.columns(of_choice, i).values():
                         assert len({len(column) for column in data.values()}) == 1
-
-
-def test_a_new_plot_is_one_entry():
-    """The example of how to add a plot."""
-
-    def work(view, i):
-        course = view.course
-        depth, lost = course.states.depth, course.ledger.plastic_work / course.scene.medium.critical_depth
-        return {"W_p/d_c": (depth, lost), "now": (depth[[i]], lost[[i]])}
-
-    plot = Plot(
-        "work", "Plastic work", "W_p = d_c φ(d_p)", (D, F),
-        (line("W_p/d_c", "yielded", 2.5, symbol="W_p/d_c"), mark("now")),
-        work, tab="Work",
-    )  # fmt: skip
-    view, picture = view_of(preset_state()), Picture(plot)
-    data = {source.name: columns for source, columns in picture.columns(view, 20).items()}
-    assert data["work lines"]["row"] == [unicode_subscripts("W_p/d_c")]
-    assert data["work marks"]["x"][0] == approx(view.course.states.depth[20] * 1e9, rel=1e-3)
-    # The curve stays while the scene is played.
-    sources, [marks], _, _ = frames(view, [picture])
-    assert [source.name for source in sources] == ["work marks"]
-    assert json.loads(marks[20]) == {name: data["work marks"][name] for name in ("x", "y")}
-    assert legend(plot, drawn(view, plot)).count("<span") == 2
 
 
 def test_another_theme_is_another_palette():

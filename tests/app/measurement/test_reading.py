@@ -1,6 +1,5 @@
 """Files of curves: columns, units, several curves, and files that cannot be read."""
 
-import pickle
 import re
 import struct
 import zipfile
@@ -260,18 +259,6 @@ def test_a_full_disk_is_said_on_the_page(monkeypatch):
         assert "its disk is full" in plain(page.form.tip_about.object)
     take_file(page, "other.csv", curve_file())
     assert page.found is not None
-
-
-def test_what_comes_back_of_a_table_is_what_is_shown_of_it():
-    """Heads and three rows, of a table whose columns are known and of one that asks for them."""
-    rows = "".join(f"{k},{2 * k}\n" for k in range(1000))
-    for head in ("h (nm),F (mN)", f"{'x' * 500},y"):
-        page = page_of()
-        take_file(page, "run.csv", f"{head}\n{rows}".encode())
-        assert list(map(len, page.table.values.values())) == [3, 3]
-        assert max(map(len, page.table.heads.values())) <= 80
-        # Beside the names of its fields.
-        assert len(pickle.dumps(page.table)) < 2000
 
 
 def test_a_name_of_a_file_is_no_symbol():

@@ -22,18 +22,15 @@ def added(uploads, *parts, most=CURVE_BYTES):
 
 
 def test_files_that_come_at_once_are_whole_and_unchanged():
+    """Also two of one name in two folders, and an empty one."""
     uploads = Uploads()
     # All bytes there are, in parts of different sizes.
-    files = {f"{k}.csv": [bytes(range(k, 256)), b"\r\n\0", b"\xff" * k] for k in (1, 2, 3)}
+    names = ("1.csv", "a/run.csv", "b/run.csv")
+    files = {name: [bytes(range(k, 256)), b"\r\n\0", b"\xff" * k] for k, name in enumerate(names)}
     parts = [part(name, k + 1, 3, files[name][k]) for k in range(3) for name in files]
     assert added(uploads, *parts) == [(name, b"".join(data)) for name, data in files.items()]
+    assert added(uploads, part("empty.csv", 1, 1, b"")) == [("empty.csv", b"")]
     assert uploads.size == 0
-
-
-def test_files_of_one_name_in_two_folders_are_two_files():
-    names = "a/run.csv", "b/run.csv"
-    parts = [part(name, k, 2, f"{name} {k}\n".encode()) for k in (1, 2) for name in names]
-    assert added(Uploads(), *parts) == [(name, f"{name} 1\n{name} 2\n".encode()) for name in names]
 
 
 def test_a_file_begun_anew_has_nothing_of_its_first_parts():
@@ -74,10 +71,6 @@ def test_names_and_parts_without_bytes_count():
     before = uploads.size
     added(uploads, part("empty", 1, 9, b""), part("empty", 2, 9, b""))
     assert uploads.size > before
-
-
-def test_an_empty_file_is_whole():
-    assert added(Uploads(), part("empty.csv", 1, 1, b"")) == [("empty.csv", b"")]
 
 
 #: A part of the size in which the page sends files.
@@ -153,7 +146,7 @@ NO_PARTS = {
 def test_what_is_no_part_of_a_file_is_refused_and_not_kept(what):
     uploads = Uploads()
     added(uploads, part("b", 1, 2, b"1"))
-    with pytest.raises(ValueError, match=r": drop (it|the file) again$"):
+    with pytest.raises(ValueError, match="drop"):
         uploads.add(NO_PARTS[what], CURVE_BYTES)
     # A byte, its name and what lists it.
     assert 0 < uploads.size < 100
