@@ -220,6 +220,9 @@ def test_a_refused_number_stays_until_it_is_another_or_all_is_set_anew(page):
     assert all(unit.name in refused for unit in UNITS["yield constant"])
     page.undo()
     assert part(page, "q_c").look["refused"] == refused
+    page.apply(lambda state: changes.put(state, "q_c", 50.0))
+    assert seen(page, "q_c") == ("50 N/m", "")
+    part(page, "q_c").act({"text": "abc"})
     page.choose("preset", DROP)
     assert part(page, "q_c").look["refused"] == ""
 

@@ -7,7 +7,7 @@ import pytest
 
 import mdr_core as mdr
 from app.common.tip import read_tip
-from app.common.upload import MAX_SAMPLES
+from app.common.upload import MAX_SAMPLES, Uploaded
 from app.explorer import changes
 from app.explorer.drives import follow
 from app.explorer.page import Page
@@ -137,3 +137,8 @@ def test_an_error_of_a_tip_stands_beside_its_field_until_a_good_file(explorer, t
     said.wait_for(state="detached")
     chosen = page.get_by_label("Shape", exact=True).locator("option:checked")
     chosen.filter(has_text=re.compile("^Measured tip$")).wait_for(state="attached")
+
+
+def test_a_file_that_is_larger_than_the_browser_should_send_is_refused():
+    with pytest.raises(ValueError, match=r"run\.csv .*5 MB"):
+        Uploaded("run.csv", 5_000_001, b"1, 2\n" * 10**6 + b"3").read()
