@@ -67,7 +67,9 @@ DARK = "document.documentElement.classList.contains('dark')"
 def test_it_is_dark_as_the_explorer_or_else_as_the_system(explorer, context, opened):
     explorer.press("Dark")
     explorer.page.wait_for_function(DARK)
-    (cookie,) = [each for each in context.cookies() if each["path"] == "/app"]
+    (cookie,) = [
+        each for each in context.cookies() if (each["domain"], each["path"]) == ("localhost", "/app")
+    ]
     assert (cookie["name"], cookie["value"]) == ("dark", "1")
     beside = Explorer(context.new_page(), explorer.page.url.split("?")[0] + "?theory", THERE).page
     assert beside.evaluate(DARK)

@@ -135,7 +135,7 @@ def said(word, texts):
     return any(inside.search(text) or text == word or (sentence and word in text) for text in texts)
 
 
-@pytest.mark.few(2)
+@pytest.mark.few(1)
 @pytest.mark.parametrize("name", EXTRAS)
 def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, name, monkeypatch):
     copied(folder, f"without_{name}", name)

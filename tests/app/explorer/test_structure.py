@@ -128,7 +128,7 @@ def test_the_sweep_over_the_mass_goes_from_the_plate_without_edges_to_the_suppor
     assert support == approx(np.ones(mass.size), abs=1e-9)
     # Resonances stay below it.
     assert 0.85 < restitution[-1] < 1
-    for k in range(0, mass.size, 20):
+    for k in range(0, mass.size, 18):
         hit = mdr.impact(profile(state), medium(state), mass[k], state.speed, structure=made)
         assert restitution[k] == approx(float(hit.restitution), abs=5e-3)
     # Not where the plate itself is swept.
@@ -166,7 +166,10 @@ def test_a_plate_that_is_the_wrong_model_marks_its_numbers_and_offers_the_right_
     assert cells(page)["restitution"][1].endswith("<small>1 contact</small>")
 
 
-@pytest.mark.parametrize(("what", "reached"), [("deflection", "max_deflection"), ("dent", "plastic_depth")])
+@pytest.mark.parametrize(
+    ("what", "reached"),
+    [("deflection", "max_deflection"), pytest.param("dent", "plastic_depth", marks=pytest.mark.full)],
+)
 def test_a_limit_is_a_caution_above_three_times_its_bound(what, reached):
     """Half of the thickness is the bound of the deflection and of the dent."""
     state = state_with(SUPPORT, behind="edges")
