@@ -9,6 +9,8 @@ import socket
 import subprocess
 import sys
 import threading
+from contextlib import closing
+from http.client import HTTPConnection
 from pathlib import Path
 from shutil import which
 from urllib.parse import parse_qsl, urlsplit
@@ -17,8 +19,7 @@ from urllib.request import urlopen
 import numpy as np
 import pytest
 
-collect_ignore_glob = [] if importlib.util.find_spec("panel") else ["*.py"]
-
+collect_ignore_glob = [] if importlib.util.find_spec("panel") else ["*"]
 ROOT = Path(__file__).parents[2]
 #: The one without windows takes a seventh less of the processor, and shows the same pages.
 CHROMIUM = os.environ.get("CHROMIUM") or which("chromium-headless-shell") or "/usr/bin/chromium"
@@ -29,7 +30,11 @@ FLAGS = [
 #: Presets of which some tests need what they are: the opening, an impact, one without yield, a punch.
 GOLD, DROP, ELASTIC = "berkovich-gold", "striker-glass_epoxy-drop-weight", "ball-epoxy-elastic"
 PUNCH = "punch-glass_epoxy"
-
+#: Whether a page beside the explorer is there.
+READY = "window.Bokeh?.documents.length && Bokeh.documents.every((each) => each.is_idle)"
+FOCUSED = Path(__file__).with_name("focused.js").read_text(encoding="utf-8")
+#: `mdr-explorer` as it is started by hand.
+PROGRAM = ("-c", "import mdr_explorer; mdr_explorer.main()")
 # What the page draws: rows by name, axes, and whether all is done.
 SCRIPT = """
 window.explorer = {
@@ -62,8 +67,6 @@ window.explorer = {
     explorer.row("force", "now")?.[0].length === 1,
 }
 """
-
-
 MODULE = ("-m", "panel")
 
 
@@ -129,6 +132,17 @@ def deployed(port):
     return shlex.split(line.replace("explorer.example.org", f"127.0.0.1:{port}"))
 
 
+def get(server, path, headers=None, host=None):
+    """Status, headers and body of an answer."""
+    with closing(HTTPConnection("127.0.0.1", server.port, timeout=60)) as connection:
+        host = host or f"localhost:{server.port}"
+        connection.request("GET", path, headers={"Host": host} | (headers or {}))
+        answer = connection.getresponse()
+        # A websocket that is accepted stays open.
+        body = b"" if answer.status == 101 else answer.read()
+        return answer.status, answer.headers, body
+
+
 class Explorer:
     """The page as a person sees it, and what it said on the way."""
 
@@ -161,10 +175,6 @@ class Explorer:
 
     def axis(self, figure):
         return self.page.evaluate("(name) => explorer.axis(name)", figure)
-
-    def label(self, figure, name):
-        """Text of a label that is drawn in a plot."""
-        return self.page.evaluate("(a) => explorer.text(...a)", [figure, name])
 
     def goto(self, url):
         """Open another address, and wait until all is painted."""
@@ -262,6 +272,15 @@ class Explorer:
         self.page.evaluate("window.before = explorer.scene()")
         act(*arguments, **options)
         self.page.wait_for_function("explorer.scene() !== before && explorer.idle()")
+
+
+def heights(explorer, *names):
+    """Heights (pixels) of plots within their axes."""
+    return [explorer.page.evaluate(f"explorer.model('{name}').inner_height") for name in names]
+
+
+def boxes(page, *selectors):
+    return [page.locator(each).first.bounding_box() for each in selectors]
 
 
 @pytest.fixture(scope="session")

@@ -21,5 +21,5 @@
     within({ left: x ? r.left + b : -far, right: x ? r.right - b : far, top: y ? r.top + b : -far, bottom: y ? r.bottom - b : far }, `${up.tagName.toLowerCase()}.${up.className}`)
     if (getComputedStyle(up).position === "fixed") break
   }
-  return { name, wide, cut: Math.round(10 * cut) / 10, by }
+  return { name, wide, colour: style.outlineColor, cut: Math.round(10 * cut) / 10, by }
 }

@@ -1,7 +1,6 @@
 """The page for measurements in tests: what a person gives it, and what it shows."""
 
 import re
-from html import unescape
 from io import BytesIO
 from math import inf
 
@@ -15,7 +14,7 @@ from app.measurement import query
 from app.measurement.page import Measurement
 
 from .conftest import ROOT
-from .states import table
+from .states import plain, table
 
 DATA = ROOT / "tests" / "data"
 TIP = mdr.Cone.from_half_angle(70.3)
@@ -91,12 +90,29 @@ def workbook():
     return file.getvalue()
 
 
+def curve_at(path, medium=GLASS):
+    """A file with a made curve."""
+    path.write_bytes(curve_file(medium))
+    return path
+
+
+def silica_in(unit):
+    """The curve of fused silica with another unit of depth."""
+    return mdr.example("silica.csv").read_bytes().replace(b"_nm", f"_{unit}".encode())
+
+
+def afm_curve():
+    """A made gel of 20 kPa under a sphere of 5 µm: heights of an AFM without its k = 0.05 N/m."""
+    afmformats = pytest.importorskip("afmformats")
+    d = 1e-6 * np.append(np.linspace(-1.0, 0.6, 300), np.linspace(0.6, -1.0, 300)[1:])
+    force = mdr.indent(mdr.Paraboloid(5e-6), mdr.Medium(20e3), d).force
+    data = {"force": force, "height (measured)": -d - force / 0.05}
+    data["segment"] = np.repeat([0, 1], [300, 299]).astype(np.uint8)
+    known = {"enum": 0, "path": "made", "imaging mode": "force-distance"}
+    return afmformats.mod_force_distance.AFMForceDistance(data, known)
+
+
 # What is shown.
-
-
-def plain(html):
-    """What is read of HTML."""
-    return " ".join(unescape(re.sub(r"<[^>]+>", " ", html)).split())
 
 
 def text(*parts):
@@ -131,3 +147,29 @@ def saved(page, kind):
 
 def link_of(page):
     return query.read(page.link().query())
+
+
+# In a browser.
+
+
+def drop(opened, *files):
+    opened.page.locator('.filepond--browser, input[type="file"]').first.set_input_files(files)
+
+
+def shown_number(opened, text):
+    """Wait for the number that is large, and return it."""
+    shown = opened.page.locator(".big output", has_text=re.compile(text))
+    shown.wait_for()
+    return shown.inner_text()
+
+
+def focused(page, name):
+    """Wait until a field with a name has the focus, in whichever shadow it is."""
+    page.wait_for_function(
+        """(name) => {
+          let each = document.activeElement
+          while (each?.shadowRoot?.activeElement) each = each.shadowRoot.activeElement
+          return (each?.ariaLabel ?? each?.labels?.[0]?.innerText ?? "").startsWith(name)
+        }""",
+        arg=name,
+    )

@@ -1,33 +1,14 @@
-"""The pages without a mouse and without sight: landmarks, names, the focus and its ring, keys, axe."""
+"""The pages without a mouse and without sight: keys, focus and its ring, landmarks, names, axe."""
 
 import importlib.resources
 from functools import cache
-from pathlib import Path
 
 import pytest
 
-from .conftest import DROP, Explorer
+from .colours import DARK, LIGHT, contrast, hexadecimal
+from .conftest import DROP, FOCUSED, READY, Explorer
 
-pytest.importorskip("axe_playwright_python")
-AXE = importlib.resources.files("axe_playwright_python").joinpath("axe.min.js").read_text(encoding="utf-8")
-FOCUSED = Path(__file__).with_name("focused.js").read_text(encoding="utf-8")
-READY = "window.Bokeh?.documents.length && Bokeh.documents.every((each) => each.is_idle)"
-MAIN = "main, [role=main]"
-#: Pages beside the explorer, and when they are there.
-OTHERS = {"?fit": READY, "?theory": "document.querySelector('math')"}
-#: What axe finds of these impacts keeps somebody from using the page.
-GRAVE = ("serious", "critical")
 DESK, PHONE = (1280, 720), (390, 844)
-
-
-@cache
-def findings(page):
-    """What axe finds on a page when it is first asked: its impact, its rule, and the elements."""
-    page.evaluate(AXE)
-    # Sheets are fetched anew for one rule alone, of the orientation of a phone.
-    options = "{ resultTypes: ['violations'], preload: false }"
-    found = page.evaluate(f"axe.run(document, {options})")["violations"]
-    return [(each["impact"], each["id"], [node["target"] for node in each["nodes"]]) for each in found]
 
 
 def more(explorer):
@@ -60,17 +41,18 @@ def few_formulas(explorer):
 
 #: Pages in their states: the query, what is done there, and how large the window is.
 STATES = {
-    "first visit": ("", None, DESK),
     "medium": ("", more, DESK),
-    "impact": (f"?preset={DROP}&tiles=energy", None, DESK),
+    "impact, dark": (f"?preset={DROP}&tiles=energy&dark=1", None, DESK),
     "guide": ("", guide, DESK),
     "share": ("", share, DESK),
-    "dark": ("?dark=1", None, DESK),
     "phone": ("", None, PHONE),
     "fit": ("?fit", None, DESK),
     "silica": ("?fit", silica, DESK),
     "theory": ("?theory", few_formulas, DESK),
 }
+#: Pages beside the explorer, and when they are there.
+OTHERS = {"?fit": READY, "?theory": "document.querySelector('math')"}
+MAIN = "main, [role=main]"
 
 
 @pytest.fixture(scope="module", params=STATES)
@@ -91,19 +73,26 @@ def state(request, server, context):
     explorer.page.close()
 
 
-def test_axe_finds_nothing_grave(state):
-    grave = [each for each in findings(state.page) if each[0] in GRAVE]
-    assert grave == []
+AXE = importlib.resources.files("axe_playwright_python").joinpath("axe.min.js").read_text(encoding="utf-8")
 
 
-def test_axe_would_find_what_is_grave(explorer):
-    """A field that loses its name is found, also where it is inside of components."""
-    explorer.field("d_max").evaluate("(field) => { field.ariaLabel = null; field.id = 'other' }")
-    assert ("critical", "label") in [each[:2] for each in findings(explorer.page)]
+@cache
+def findings(page):
+    """What axe finds on a page when it is first asked: its impact, its rule, and the elements."""
+    page.evaluate(AXE)
+    # Sheets are fetched anew for one rule alone, of the orientation of a phone.
+    options = "{ resultTypes: ['violations'], preload: false }"
+    found = page.evaluate(f"axe.run(document, {options})")["violations"]
+    return [(each["impact"], each["id"], [node["target"] for node in each["nodes"]]) for each in found]
 
 
-def test_all_is_within_landmarks_under_one_heading(state):
+#: What axe finds of these impacts keeps somebody from using the page.
+GRAVE = ("serious", "critical")
+
+
+def test_axe_finds_nothing_grave_and_all_is_within_landmarks_under_one_heading(state):
     page = state.page
+    assert [each for each in findings(page) if each[0] in GRAVE] == []
     assert page.locator("h1").count() == 1
     assert page.locator(MAIN).count() == 1
     names = [rule for _, rule, _ in findings(page)]
@@ -125,33 +114,38 @@ def walk(explorer, most=120):
 
 
 def test_each_tab_stop_has_a_name_and_a_ring_that_is_seen_whole(state):
+    """The ring has a contrast of 3 to both grounds (WCAG 2.2, 1.4.11)."""
     stops = walk(state)
-    assert [each for each in stops if not each["name"]] == []
-    assert [each for each in stops if each["wide"] < 1] == []
-    # Less than a pixel is the rounding of places.
-    assert [each for each in stops if each["cut"] > 1] == []
-    # A canvas does nothing with keys.
-    assert [each for each in stops if "bk-" in each["name"]] == []
+    dark = state.page.evaluate("document.documentElement.classList.contains('dark')")
+    colours = DARK if dark else LIGHT
+    for stop in stops:
+        assert stop["name"], stop
+        assert stop["wide"] >= 1, stop
+        # Less than a pixel is the rounding of places.
+        assert stop["cut"] <= 1, stop
+        # A canvas does nothing with keys.
+        assert "bk-" not in stop["name"]
+        for ground in ("paper", "ground"):
+            assert contrast(hexadecimal(stop["colour"]), colours[ground]) >= 3, stop
 
 
-def test_the_first_tab_stop_leads_to_the_plots(explorer):
-    page = explorer.page
-    page.keyboard.press("Tab")
-    link = page.get_by_role("link", name="Skip to the plots")
-    assert link.bounding_box()["y"] >= 0
-    page.keyboard.press("Enter")
-    # The next one is the first button of a plot, in a page and not in the header.
-    page.keyboard.press("Tab")
-    assert page.evaluate(FOCUSED)["name"].endswith("Large")
-    assert link.bounding_box()["y"] < 0
+def test_every_control_is_reached_by_keys(explorer):
+    names = " ".join(stop["name"] for stop in walk(explorer))
+    for control in (
+        "Preset", "What is q_c, yield cons", "q_c, yield constant, slider", "Shape", "Share", "Guide",
+        "Dark", "Compare", "▶ Play", "State along the path", "Large", "Fourth plot", "Hardness",
+    ):  # fmt: skip
+        assert control in names, control
 
 
-def test_what_is_drawn_has_a_name(explorer):
-    """A fourth plot, too."""
+def test_what_is_drawn_has_a_name_and_axe_would_find_a_field_without(explorer):
+    """A fourth plot, too; a field that loses its name is found, also where it is inside of components."""
     explorer.open("Hardness", "hardness", "hardness")
     for name in ("springs", "pressure", "force", "hardness"):
         figure = explorer.page.locator(f".card.{name} [role=figure]").first
         assert ", over " in figure.get_attribute("aria-label"), name
+    explorer.field("d_max").evaluate("(field) => { field.ariaLabel = null; field.id = 'other' }")
+    assert ("critical", "label") in [each[:2] for each in findings(explorer.page)]
 
 
 def test_both_ends_of_the_range_have_names(server, context):
@@ -167,7 +161,26 @@ def test_both_ends_of_the_range_have_names(server, context):
     explorer.page.close()
 
 
-def test_undo_and_redo_have_their_keys(explorer):
+def test_the_first_tab_stop_leads_to_the_plots(explorer):
+    page = explorer.page
+    page.keyboard.press("Tab")
+    link = page.get_by_role("link", name="Skip to the plots")
+    assert link.bounding_box()["y"] >= 0
+    page.keyboard.press("Enter")
+    # The next one is the first button of a plot, in a page and not in the header.
+    page.keyboard.press("Tab")
+    assert page.evaluate(FOCUSED)["name"].endswith("Large")
+    assert link.bounding_box()["y"] < 0
+
+
+HAS_FOCUS = "(name) => explorer.all().some((each) => each.name === name && each.matches(':focus'))"
+
+
+def test_undo_and_redo_have_their_keys_and_leave_the_focus_where_it_is(explorer):
+    """*Redo* in the place of *Undo* would take the next Space. A button that disappears hands its focus on.
+
+    A plot that becomes large is laid out anew.
+    """
     page, now = explorer.page, explorer.page.keyboard.press
     depth = "explorer.row('force', 'now')[0][0]"
     explorer.change(explorer.type, "d_max", "5 nm")
@@ -179,37 +192,16 @@ def test_undo_and_redo_have_their_keys(explorer):
         explorer.change(now, keys)
         # As it is shown, to three decimals.
         assert abs(page.evaluate(depth) - expected) < 1e-3, keys
+        assert "d_max" in page.evaluate(FOCUSED)["name"]
     # In a field they are its own: it has again what stood there, and the scene stays.
     field = explorer.field("q_c")
     field.press_sequentially("6")
     field.press("Control+z")
     assert field.input_value() == "100 N/m"
     assert page.evaluate(depth) == 5
-
-
-HAS_FOCUS = "(name) => explorer.all().some((each) => each.name === name && each.matches(':focus'))"
-
-
-def test_a_button_that_changes_the_page_leaves_the_focus_where_it_was(explorer):
-    """A plot that becomes large is laid out anew, and the button to undo is gone after the last step."""
-    page = explorer.page
+    explorer.change(page.locator(".act[name=Undo]").press, "Enter")
+    explorer.wait(HAS_FOCUS, "Redo")
     page.locator(".card.force .act[name=Large]").press("Enter")
     for label in ("Small", "Large"):
         explorer.wait(HAS_FOCUS, label)
-        page.keyboard.press("Escape")
-    explorer.change(explorer.slider("q_c").press, "PageUp")
-    page.locator(".act[name=Undo]").press("Enter")
-    explorer.wait(HAS_FOCUS, "Redo")
-
-
-def test_escape_in_the_link_closes_what_it_is_in(explorer):
-    """Before a large plot that lies below."""
-    page = explorer.page
-    page.locator(".card.force .act[name=Large]").click()
-    explorer.press("Share")
-    page.get_by_label("Link to this page").click()
-    page.keyboard.press("Escape")
-    page.get_by_label("Link to this page").wait_for(state="hidden")
-    assert page.locator(".card.force .act[name=Small]").is_visible()
-    page.keyboard.press("Escape")
-    page.locator(".card.force .act[name=Large]").wait_for()
+        now("Escape")

@@ -1,5 +1,6 @@
 """The theory is a page of its own, which links lead into, and which is as dark as the explorer."""
 
+import re
 from http.client import HTTPConnection
 
 import pytest
@@ -9,7 +10,6 @@ from app.explorer import theory
 from .conftest import Explorer
 
 THERE = "document.querySelectorAll('math').length > 100"
-DARK = "document.documentElement.classList.contains('dark')"
 
 
 @pytest.fixture
@@ -34,9 +34,8 @@ def assert_at(page, place):
     assert "\\(" not in page.locator("main").inner_text()
 
 
-@pytest.mark.parametrize("place", ["eq-11", "section-13"])
-def test_links_of_today_and_earlier_ones_lead_to_a_place(place, opened):
-    for path in (f"?theory={place}", f"/theory.html#{place}"):
+def test_links_of_today_and_earlier_ones_lead_to_a_place(opened):
+    for path, place in (("?theory=eq-11", "eq-11"), ("/theory.html#section-13", "section-13")):
         page = opened(path)
         assert page.url.endswith(f"/app/theory.html#{place}")
         assert_at(page, place)
@@ -62,10 +61,15 @@ def test_the_next_equation_is_found_without_loading_the_page_again(explorer, con
     page.close()
 
 
+DARK = "document.documentElement.classList.contains('dark')"
+
+
 def test_it_is_dark_as_the_explorer_or_else_as_the_system(explorer, context, opened):
     explorer.press("Dark")
     explorer.page.wait_for_function(DARK)
-    (cookie,) = [each for each in context.cookies() if each["path"] == "/app"]
+    (cookie,) = [
+        each for each in context.cookies() if (each["domain"], each["path"]) == ("localhost", "/app")
+    ]
     assert (cookie["name"], cookie["value"]) == ("dark", "1")
     beside = Explorer(context.new_page(), explorer.page.url.split("?")[0] + "?theory", THERE).page
     assert beside.evaluate(DARK)
@@ -97,3 +101,10 @@ def test_it_is_written_once_and_kept_by_the_browser(server):
     assert answer() == (200, mark, text)
     assert answer(**{"If-None-Match": mark}) == (304, mark, "")
     connection.close()
+
+
+def test_the_theory_leads_to_no_file_that_is_not_served():
+    shown = theory.html()
+    assert not re.findall(r'href="(?!#|\?|http)[^"]*"', shown)
+    # Its picture is in it.
+    assert re.findall(r'src="([^"]{26})', shown) == ["data:image/svg+xml;base64,"]

@@ -33,7 +33,7 @@ TESTS = {"core": ["--ignore=tests/app"], "page": ["tests/app"]}
 #: Files of the core that have texts and plots.
 LEFT_OUT = ("figures", "springs", "report", "progress", "quantities", "_errors", "__init__")
 #: Tests in a browser of what the page draws and says, of each change of the page.
-BROWSER_TESTS = tuple(f"tests/app/test_{name}.py" for name in ("page", "drawn", "first_screen", "seen"))
+BROWSER_TESTS = tuple(f"tests/app/explorer/test_{name}.py" for name in ("form", "player", "screen"))
 #: Largest number of tests for one change.
 _MOST_TESTS = 150
 #: Extents of the suite: options of pytest, and the time (s) after which a change is taken to make it hang.
