@@ -102,19 +102,6 @@ def test_numbers_alone_make_numbers():
     assert float(one.max_depth) == approx(float(hit.max_depth), rel=1e-14)
 
 
-def test_first_loadings():
-    depth = xr.DataArray([-1e-9, 1e-9, 1e-7, 1e-6], dims="depth")
-    slope = xr.DataArray([0.1, 0.3], dims="cone")
-    names = ["force", "contact_radius", "plastic_work", "mean_pressure", "stiffness"]
-    table = sweep.indentations(mdr.Cone, slope=slope, E_star=1e9, q_c=10.0, depth=depth, quantities=names)
-    for i, s in enumerate(slope.values):
-        for j, d in enumerate(depth.values):
-            state = mdr.indent(mdr.Cone(s), mdr.Medium(1e9, q_c=10.0), d)
-            for name in names:
-                found = float(table[name].isel(cone=i, depth=j))
-                assert found == approx(float(getattr(state, name)), rel=1e-12, abs=0.0), name
-
-
 def test_results_say_what_they_are():
     table = sweep.impacts(mdr.Sphere, **SPHERES, quantities=("damaged_area", "restitution"))
     assert table.damaged_area.attrs == {"units": "m²", "long_name": "damaged area", "symbol": "A"}
@@ -168,21 +155,6 @@ def test_units_are_converted_told_or_not_touched():
     xr.testing.assert_identical(sweep.impacts(mdr.Sphere, **SPHERES | change), plain)
     with pytest.raises(ValueError, match="speed is given in"):
         sweep.impacts(mdr.Sphere, **SPHERES | {"speed": SPEED * ureg("mm/s")})
-
-
-def test_imprints_before_the_impact():
-    """Repeated impacts: each one meets the imprint of the last one."""
-    first = sweep.impacts(mdr.Sphere, **SPHERES, quantities=["plastic_depth"])
-    table = sweep.impacts(
-        mdr.Sphere,
-        **SPHERES,
-        plastic_depth=first.plastic_depth,
-        quantities=["restitution", "plastic_depth"],
-    )
-    medium, imprint = mdr.Medium(1e9, q_c=10.0), first.plastic_depth[1, 4]
-    hit = mdr.impact(mdr.Sphere(1e-5), medium, 1e-12, 1.0, plastic_depth=float(imprint))
-    assert float(table.restitution[1, 4]) == approx(hit.restitution, rel=1e-12)
-    assert float(table.plastic_depth[1, 4]) == approx(hit.plastic_depth, rel=1e-12)
 
 
 class TestInvalid:
@@ -453,42 +425,3 @@ class TestLazily:
                 assert len(client.scheduler_info()["workers"]) == 2
                 total = float(self.stream().restitution.sum().compute())
         assert total == approx(float(self.stream().compute().restitution.sum()), rel=1e-12)
-
-
-def test_sweeps_over_a_hardness():
-    hardness = xr.DataArray([1e9, 9e9], dims="hardness")
-    given = {"radius": 1e-5, "E_star": 70e9, "hardness": hardness}
-    table = sweep.impacts(mdr.Sphere, mass=1e-12, speed=10.0, **given)
-    pressed = sweep.indentations(mdr.Sphere, depth=1e-6, f_c=1e-3, **given)
-    for i, value in enumerate(hardness.values):
-        hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(70e9, hardness=value), 1e-12, 10.0)
-        assert table.restitution.values[i] == approx(hit.restitution, rel=1e-13)
-        state = mdr.indent(mdr.Sphere(1e-5), mdr.Medium(70e9, hardness=value, f_c=1e-3), 1e-6)
-        assert pressed.force.values[i] == approx(state.force, rel=1e-13)
-    slides = {"mass": 1e-12, "speed": 10.0, "tangential_speed": 1.0, "friction": 0.1}
-    names = ["tangential_velocity", "friction_work"]
-    oblique = sweep.oblique_impacts(mdr.Sphere, f_c=1e-3, quantities=names, **slides, **given)
-    for i, value in enumerate(hardness.values):
-        sum_of_both = mdr.Medium(70e9, hardness=value, f_c=1e-3)
-        hit = mdr.oblique_impact(mdr.Sphere(1e-5), sum_of_both, *slides.values(), tolerance=5e-4)
-        assert not hit.slips_throughout
-        # The same steps, among others.
-        for name in names:
-            assert oblique[name].values[i] == approx(getattr(hit, name), rel=1e-8)
-
-
-def test_one_structure_with_modes_for_all():
-    """Against a loop; a finite impedance beside it is refused."""
-    structure = mdr.Structure.modal([800.0, 5000.0], [0.05, 0.1], stiffness=1e6)
-    speed, q_c = xr.DataArray([0.3, 1.0], dims="speed"), xr.DataArray([1e5, np.inf], dims="medium")
-    given = {"radius": 8e-3, "E_star": 10e9, "q_c": q_c, "mass": 0.02, "speed": speed}
-    names = ["restitution", "max_force"]
-    table = sweep.impacts(mdr.Paraboloid, **given, structure=structure, quantities=names)
-    for i, v in enumerate(speed.values):
-        for j, constant in enumerate(q_c.values):
-            medium = mdr.Medium(10e9, q_c=constant)
-            hit = mdr.impact(mdr.Paraboloid(8e-3), medium, 0.02, v, structure=structure)
-            for each in names:
-                assert table[each].isel(speed=i, medium=j) == approx(float(getattr(hit, each)), rel=1e-12)
-    with pytest.raises(ValueError, match="impedance"):
-        sweep.impacts(mdr.Paraboloid, **given, structure=structure, impedance=1.0)

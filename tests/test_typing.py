@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
 
 import pytest
@@ -37,11 +36,6 @@ def test_the_client_script_runs():
 
 def test_the_package_says_that_it_is_typed():
     assert (ROOT / "mdr_core" / "py.typed").exists()
-
-
-def test_version_is_that_of_the_project():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    assert mdr.__version__ == project["project"]["version"]
 
 
 def test_first_calls_need_no_package_of_scipy_for_a_trifle(tmp_path):

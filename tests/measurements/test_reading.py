@@ -86,15 +86,6 @@ def test_an_unloading_alone_keeps_its_signs(read):
     assert reversed_.columns["force"] == (1, "−mN")
 
 
-@pytest.mark.parametrize("sign", [1, -1])
-def test_adhesion_does_not_turn_the_force_round(read, sign):
-    """The force is smallest where contact ends, at a smaller depth than that of the largest force."""
-    depth, force = [-90, -50, 0, 9, 2, -1, -80, -99], [0.1, 0, 0, 5, -3, -9, 0, 0]
-    curve = read(text((sign * np.array(depth), force), ["Depth (nm), F (nN)"]))
-    np.testing.assert_allclose(curve.depth, 1e-9 * np.array(depth))
-    np.testing.assert_allclose(curve.force, 1e-9 * np.array(force))
-
-
 def test_what_is_left_out_is_said_with_its_line(read):
     lines = [
         "tip; h (nm); F (mN)",

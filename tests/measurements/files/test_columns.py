@@ -3,13 +3,11 @@
 import ast
 import copy
 import pickle
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.measurements.files.names import parted
 
 from .curves import DEPTH, FORCE, PIEZO, SENSITIVITY, SMALL, STIFFNESS, TIME, assert_curve, rows
 
@@ -309,32 +307,6 @@ def test_columns_that_are_none_are_refused(write, columns, says):
     path = write("h, F\n" + rows(NM, MN))
     with pytest.raises(ValueError, match=says):
         mdr.read_curve(path, columns=columns)
-
-
-def test_guesses_are_suggestions_alone():
-    """`guess` may be wrong: nothing that reads a curve imports it but what asks."""
-    folder = Path(mdr.__file__).parent / "measurements" / "files"
-    importers = {
-        path.stem
-        for path in folder.rglob("*.py")
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.ImportFrom) and ("guess" in (node.module or "") or "guess" in
-                                                 [alias.name for alias in node.names])
-    }  # fmt: skip
-    assert importers == {"columns"}
-
-
-@pytest.mark.parametrize(
-    ("head", "found"),
-    [
-        ("Depth (nm)", ("depth", "length", "nm")), ("Load µN/s", ("load µn s", "", "")),
-        ("Load mN/s", ("load mn s", "", "")), ("Depth", ("depth", "", "")),
-        ("Time / h", ("time", "time", "h")),
-        ("(nm)", ("", "length", "nm")), ("S [mN/nm]", ("s", "stiffness", "mN/nm")),
-    ],
-)  # fmt: skip
-def test_a_header_is_a_name_and_a_unit(head, found):
-    assert parted(head) == found
 
 
 def test_the_question_about_a_constant_keeps_what_is_told(asked, write):

@@ -5,7 +5,7 @@ import pytest
 
 import mdr_core as mdr
 
-from .curves import DEPTH, FORCE, PIEZO, SMALL, STIFFNESS, TIME, assert_curve, rows
+from .curves import DEPTH, FORCE, TIME, assert_curve, rows
 
 NM, MN = 1e9 * DEPTH, 1e3 * FORCE
 COLUMNS = {"depth": (1, "nm"), "force": (2, "mN")}
@@ -352,16 +352,6 @@ def test_where_no_sheet_is_plain_the_question_is_raised_at_once(tmp_path):
     with pytest.raises(mdr.UnknownColumns, match="Tests: which column") as error:
         mdr.read_curves(path)
     assert_curve(mdr.read_curves(path, **error.value.suggestion)[0])
-
-
-def test_a_stiffness_goes_with_a_suggestion(asked, write):
-    error = asked("Z (nm),Force (nN)\n" + rows(1e9 * PIEZO, 1e9 * SMALL), spring_constant=STIFFNESS)
-    curve = mdr.read_curve(
-        write("Z (nm),Force (nN)\n" + rows(1e9 * PIEZO, 1e9 * SMALL)),
-        spring_constant=STIFFNESS,
-        **error.suggestion,
-    )
-    assert_curve(curve, DEPTH, SMALL)
 
 
 def test_the_table_with_a_length_a_force_and_the_most_rows_is_asked_about(write):

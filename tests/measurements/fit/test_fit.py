@@ -196,24 +196,6 @@ class TestIndentation:
             fit = mdr.fit_indentation(profile, measured, force, depth_noise=depth_noise)
             assert any("not of class (b)" in remark for remark in fit.remarks) == told, fit.remarks
 
-    def test_units(self):
-        """Depth in nm and force in µN make a modulus of 95 mPa and less."""
-        F = curve(mdr.Cone(0.3))
-        fit = mdr.fit_indentation(mdr.Cone(0.3), 1e9 * OUT, 1e6 * F)
-        assert fit.remarks[0].kind == "units"
-        assert [each.what for each in fit.remarks[0].remedy] == ["depth", "force"]
-
-    def test_one_curve_has_no_parts(self):
-        fit = mdr.fit_indentation(mdr.Cone(0.3), OUT, curve(mdr.Cone(0.3)))
-        with pytest.raises(TypeError, match="single result"):
-            fit[0]
-
-    def test_representation(self):
-        depth, force = noisy(mdr.Cone(0.3), 1, seed=6)
-        text = repr(mdr.fit_indentation(mdr.Cone(0.3), depth[0], force[0], force_noise=1e-8))
-        for word in ("E*", "GPa", " ± ", "baseline F₀", "(held)", "reduced χ²"):
-            assert word in text
-
     @pytest.mark.parametrize(
         ("change", "message"),
         [

@@ -239,22 +239,6 @@ class TestSamples:
         assert data.E_star_error.attrs["units"] == "Pa"
         assert data.attrs["remarks"].splitlines() == list(fits.remarks)
 
-    @pytest.mark.slow
-    def test_plot(self):
-        """Points are what was measured; the band is the standard deviation of both noises."""
-        hv = pytest.importorskip("holoviews")
-        z, (force,), _ = self.noisy()
-        fit = mdr.fit_indentation(self.PROFILE, z, force, depth_noise=1e-10, force_noise=1e-8)
-        curve, residual = fit.plot()
-        (points,) = [e for e in curve if isinstance(e, hv.Scatter)]
-        assert 1e-9 * points.dimension_values(0) == approx(z)
-        assert 1e-6 * points.dimension_values(1) == approx(force)
-        (band,) = [e for e in residual if isinstance(e, hv.Polygons)]
-        largest = np.hypot(1e-8, 1e-10 * fit.path.stiffness.max())
-        assert 1e-6 * band.dimension_values(1).max() == approx(largest)
-        with pytest.raises(ValueError, match="needs a single curve"):
-            mdr.fit_indentation(self.PROFILE, [z, z], [force, force]).plot()
-
 
 class TestYieldAndViscosity:
     """A cone pressed to five critical depths in 6.7 s; the record begins at −d/2 and ends there."""

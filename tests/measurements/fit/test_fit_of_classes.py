@@ -303,13 +303,6 @@ class TestVerdict:
         assert (fit.classes["a"].misfit < fit.classes["b"].misfit).tolist() == [True, False]
         assert "class of hardness        (b)" in repr(fit[1])
 
-    def test_found_when_first_read(self):
-        force = made(self.PROFILE, ALONE["a"], 2, seed=8)
-        fit = mdr.fit_indentation(self.PROFILE, np.tile(OUT, (2, 1)), force)
-        assert "class of hardness" not in repr(fit)
-        assert "classes" not in vars(fit)
-        assert fit.classes is fit.classes
-
     def test_without_a_verdict(self):
         """Elastic and viscous media have none; a shape that is not convex none of class (a)."""
         elastic = mdr.fit_indentation(self.PROFILE, OUT, made(self.PROFILE, {}), q_c=np.inf)

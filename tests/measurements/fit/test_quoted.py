@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.measurements.fit import result
 
 from ...approx import approx
 from ..unloading.test_creep import record
@@ -73,30 +72,6 @@ def test_it_is_that_of_one_curve():
     with pytest.raises(ValueError, match="select one"):
         _ = fit.quoted
     assert fit[1].quoted.source == "fit"
-
-
-def test_it_is_computed_only_when_it_is_read():
-    fit = mdr.fit_indentation(CONE, DEPTH, force(mdr.Medium(E, hardness=1.5e9)), hardness=None)
-    assert not {"quoted", "unloading"} & set(vars(fit))
-    assert fit.quoted is fit.quoted
-
-
-def test_the_unloading_is_evaluated_once(monkeypatch):
-    """For the number to quote, and for the row of the report."""
-    calls, evaluate = [], result.unloading
-    monkeypatch.setattr(result, "unloading", lambda fit: calls.append(fit) or evaluate(fit))
-    fit = mdr.fit_indentation(CONE, DEPTH, wavy(mdr.Medium(E, hardness=1.5e9)), hardness=None)
-    assert fit.quoted.value == fit.unloading[0].E_star
-    assert "Oliver and Pharr" in str(fit)
-    assert calls == [fit]
-
-
-def test_silica_with_the_contact_of_its_file():
-    depth, F, _ = silica()
-    fit = mdr.fit_indentation(mdr.Cone.berkovich(), depth, F, hardness=None, contact_point=0.0)
-    assert fit.quoted.source == "unloading"
-    assert fit.quoted.value == approx(69.62e9, abs=0.1e9)
-    assert 0.1e9 < fit.quoted.standard_error < 0.3e9
 
 
 def test_silica_in_any_class_has_one_number():

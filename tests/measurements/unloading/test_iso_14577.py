@@ -219,9 +219,3 @@ def test_results_over_depth_have_none_of_them():
     assert over.elastic_work_ratio is None
     assert "Martens" not in repr(over)
     assert "Martens" not in repr(over[-1])
-
-
-def test_ratios_are_printed_in_per_cent():
-    result = mdr.oliver_pharr(TIP, *two_cycles(), cycles=True)
-    assert "n_IT 49.9" in repr(result)
-    assert result[0].elastic_work_ratio == approx(0.499, abs=2e-3)

@@ -240,16 +240,6 @@ class TestCycles:
         assert result.contact_depth == approx(BERKOVICH.height(a), rel=1e-11)
         assert {remark.kind for remark in result.remarks} == {"left out"}
 
-    def test_they_are_one_table(self):
-        pytest.importorskip("pandas")
-        result = mdr.oliver_pharr(BERKOVICH, *cycles(self.MODULUS), cycles=True)
-        table = result.to_pandas()
-        assert table.index.name == "unloading"
-        assert len(table) == 3
-        assert table["E_star"].tolist() == [each.E_star for each in result]
-        assert "unloading 3              dF/dd 258.9" in repr(result)
-        assert repr(result[2]).splitlines()[2:] == repr(result[-1]).splitlines()[2:]
-
     @pytest.mark.slow
     def test_errors_in_noise_are_those_of_repeated_measurements(self):
         """Of 60 seeds the standard deviation of the pulls is known to 9 %: four of these above 1.
@@ -328,10 +318,6 @@ class TestCycles:
         tip = mdr.Cone.from_half_angle(70.3)
         result = mdr.oliver_pharr(tip, depth, force, cycles=True)
         assert result.E_star.tolist() == [mdr.oliver_pharr(tip, depth, force).E_star]
-
-    def test_a_curve_without_unloading_is_refused(self):
-        with pytest.raises(ValueError, match="5 or more are needed"):
-            mdr.oliver_pharr(BERKOVICH, DEPTH[:60], F_CONE[:60], cycles=True)
 
 
 @pytest.mark.parametrize(("of_depth", "of_force"), [(1e-3, 1.0), (1.0, 1e3)])

@@ -6,7 +6,6 @@ from scipy.integrate import solve_ivp, trapezoid
 
 import mdr_core as mdr
 from mdr_core.solver.foundation.force_path import chain_creep
-from mdr_core.solver.foundation.fronts import force_and_radius
 from mdr_core.solver.foundation.row import Row
 
 from ...approx import approx
@@ -282,20 +281,6 @@ def test_times_within_a_long_slow_fall_change_nothing():
     rel = 3 * (one.error + several.error)
     for energy in ("stored_energy", "plastic_work", "viscous_work"):
         assert getattr(one, energy)[-1] == approx(getattr(several, energy)[-1], rel=rel)
-
-
-def test_the_chain_goes_on_with_the_force_and_the_contact_of_the_last_state(monkeypatch):
-    given, cone, medium = {}, mdr.Cone(0.3), viscous(MEDIA["b"])
-
-    def spied(*arguments, start, **options):
-        given["start"] = start
-        return chain_creep(*arguments, start=start, **options)
-
-    monkeypatch.setattr("mdr_core.solver.contact.creep.chain_creep", spied)
-    path = mdr.creep(cone, medium, 1e-6 * np.array([0.0, 1.0, 0.2, 1.5]), np.array([0, 2, 8, 10]) * TAU)
-    row = given["start"].put_on(Row.virgin(cone, medium, 500, 2 * path.contact_radius.max()))
-    # Elements are weighted with the exact integrals of their loads.
-    assert force_and_radius(row) == approx((0.2e-6, float(path.contact_radius[2])), rel=1e-9)
 
 
 def test_a_punch_of_a_metal_flows_beyond_its_hardness():

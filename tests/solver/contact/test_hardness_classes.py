@@ -13,8 +13,7 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 import mdr_core as mdr
-from mdr_core.solver.contact.yielding import ConstantCap, RadiusCap
-from mdr_core.solver.medium.hardness import SumOfClasses
+from mdr_core.solver.contact.yielding import RadiusCap
 
 from ...approx import approx
 from ...reference import Reference
@@ -222,18 +221,6 @@ class TestClosedLimits:
         np.testing.assert_allclose(
             closed.stored_energy + closed.plastic_work, 0.5e-12 * closed.speed**2, rtol=1e-13
         )
-
-    @pytest.mark.parametrize("shape", SHAPES, ids=name)
-    def test_a_cap_without_slope_is_that_of_class_b(self, shape):
-        general, constant = RadiusCap(shape, SumOfClasses(0.0, 1e-9, 0.0)), ConstantCap(shape, 1e-9)
-        depth = np.array([0.5e-9, 1.0000001e-9, 1e-8, 1e-6])
-        for one, other in zip(general.loading(depth), constant.loading(depth), strict=True):
-            for end in ("lower", "upper", "length"):
-                first, last = (getattr(each, end, each) for each in (one, other))
-                np.testing.assert_allclose(first, last, rtol=1e-14, atol=1e-22)
-        imprint, increase = np.array([0.0, 0.0, 1e-7]), np.array([1e-12, 1e-6, 3e-9])
-        one, other = (rule.plastic_integral(imprint, increase) for rule in (general, constant))
-        np.testing.assert_allclose(one, other, rtol=1e-10)
 
 
 def rebound(profile, medium, mass, speed):

@@ -119,13 +119,6 @@ def test_work_of_the_force_is_the_ledger():
     np.testing.assert_allclose(work, energy, rtol=0, atol=3e-2 * energy[-1])
 
 
-def test_without_viscosity_times_do_not_matter():
-    timed = mdr.indent_in_time(mdr.Cone(0.3), DRY, CYCLE, np.arange(9))
-    slow = mdr.indent(mdr.Cone(0.3), DRY, CYCLE)
-    # The default tolerance.
-    np.testing.assert_allclose(timed.force, slow.force, rtol=0, atol=1e-6 * np.max(slow.force))
-
-
 def test_states_and_fields():
     result = mdr.indent_in_time(mdr.Paraboloid(1e-5), MEDIUM, CYCLE, np.arange(9) * TAU)
     state = result[1]

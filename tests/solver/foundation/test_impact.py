@@ -149,16 +149,6 @@ def test_ledger_is_closed_at_every_instant(shape, times):
     assert np.all(np.diff(motion.velocity) <= 1e-9 * speed)
 
 
-def test_the_error_is_within_every_tolerance():
-    shape, speed = mdr.Paraboloid(1e-5), speed_to_depth(mdr.Paraboloid(1e-5), 8 * D_C)
-    medium = viscous(speed, 8 * D_C, 0.3)
-    exact = scalar_impact(shape, medium, MASS, speed)[0]
-    for tolerance in (1e-3, 1e-5):
-        hit = mdr.chain_impact(shape, medium, MASS, speed, tolerance=tolerance)
-        assert hit.error <= tolerance
-        assert hit.restitution == approx(exact, abs=tolerance)
-
-
 class TestSecondImpact:
     shape = mdr.Paraboloid(1e-5)
     speed = speed_to_depth(shape, 5 * D_C)

@@ -16,23 +16,6 @@ from .test_energy_balance import D_C, MEDIUM, hit_to_depth
 ELASTIC = mdr.Medium(E_star=1e9)
 
 
-@pytest.mark.parametrize(
-    ("shape", "expected"),
-    [
-        (mdr.FlatPunch(1e-6), math.pi),
-        (mdr.Cone(0.3), 2.80436421065),
-        (mdr.Paraboloid(1e-3), 2.94327518432),
-        (mdr.PowerLaw(1e-4, 0.5), 2.62205755429),
-    ],
-    ids=["flat", "cone", "Hertz", "root"],
-)
-def test_elastic_contact_time(shape, expected):
-    """T v/d_max = 2√π Γ(1 + 1/(p+1))/Γ(1/2 + 1/(p+1)) for F ∝ dᵖ; Hertz: 2.943."""
-    hit = mdr.impact(shape, ELASTIC, 1e-3, [1e-6, 1e-3, 1.0])
-    np.testing.assert_allclose(hit.contact_time * hit.speed / hit.max_depth, expected, rtol=1e-11)
-    np.testing.assert_array_equal(hit.restitution, 1.0)
-
-
 @pytest.mark.parametrize("n", [0.2, 1.5, 3.0, 10.0, 50.0])
 def test_elastic_contact_time_of_power_laws(n):
     q = 1 / (2 + 1 / n)

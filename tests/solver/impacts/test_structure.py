@@ -616,19 +616,6 @@ def test_models_of_a_scene():
     assert in_time.contact_time == approx(exact.contact_time, rel=1e-9)
 
 
-def test_a_sweep_over_impedances():
-    xarray = pytest.importorskip("xarray")
-    Z = xarray.DataArray([60.0, 346.0, np.inf], dims="Z")
-    given = {"E_star": E, "mass": MASS, "speed": SPEED, "quantities": ("restitution", "max_deflection")}
-    table = mdr.sweep.impacts(mdr.Paraboloid, radius=R, impedance=Z, **given)
-    hit = mdr.impact(BALL, ELASTIC, MASS, SPEED, structure=mdr.Structure(Z.values))
-    assert table.restitution.values == approx(hit.restitution, rel=1e-12)
-    assert table.max_deflection.values == approx(hit.max_deflection, rel=1e-12)
-    K = xarray.DataArray([-1.0, 1e7], dims="K")
-    table = mdr.sweep.impacts(mdr.Paraboloid, radius=R, stiffness=K, invalid="nan", **given)
-    assert np.isnan(table.restitution.values).tolist() == [True, False]
-
-
 def test_the_mass_of_a_support_is_estimated_for_the_worst_of_many_impacts():
     """Where the contact yields the mass hides: the excess of an elastic impact among others is told."""
     support = mdr.Structure(stiffness=5e6, mass=0.02, thickness=4e-3)

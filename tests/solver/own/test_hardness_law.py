@@ -144,20 +144,6 @@ class TestALawThatWritesTheSumOut:
             rel = 1e-5 if mixture == "q" else 1e-10
             assert getattr(one, name) == approx(getattr(other, name), rel=rel)
 
-    def test_ensembles(self, mixture):
-        hardness, q_c, f_c = (np.array([1.0, 1.3, 0.8]) * part for part in MIXTURES[mixture])
-        balls, speed = mdr.Sphere(radius=[1e-5, 2e-5, 3e-5]), np.array([[3.0], [30.0]])
-        constants = mdr.Medium([E, 2 * E, E], q_c=q_c, hardness=hardness, f_c=f_c)
-        law = mdr.Medium([E, 2 * E, E], hardness=Written(hardness, q_c, f_c))
-        assert law.shape == (3,)
-        one, other = (mdr.impact(balls, medium, 1e-12, speed) for medium in (law, constants))
-        assert_same(one, other, rel=4e-12)
-        single = mdr.impact(mdr.Sphere(radius=2e-5), law.entries(1), 1e-12, 30.0)
-        assert single.restitution == approx(one.restitution[1, 1], rel=1e-12)
-        depth = np.array([[1e-7, 5e-7]])
-        columns = [mdr.indent(CONE, each.entries(np.s_[:, None]), depth) for each in (law, constants)]
-        assert_same(*columns, names=["force", "plastic_depth", "plastic_work"])
-
 
 @pytest.mark.parametrize("eta", [0.0, 20.0])
 @pytest.mark.parametrize("mixture", ["H", "q", "H+q+f"])

@@ -227,22 +227,6 @@ def test_a_polygon_has_a_contact_radius_at_any_depth():
     assert alone == approx(radius[-1], rel=1e-14)
 
 
-def test_scales_of_a_class_are_one_where_its_parameters_are():
-    """Its table is that of parameters of 1, here of a length of 1/2."""
-
-    @dataclass(frozen=True, eq=False)
-    class Ball(OneLength):
-        __module__ = "mdr_core.solver.profiles.ball"
-
-        diameter: float
-
-        _length = _depth = property(lambda self: self.diameter / 2)
-        _Z = _G = _G_slope = staticmethod(lambda u: u)
-
-    with pytest.raises(TypeError, match=r"Ball with parameters of 1 has the length 0\.5"):
-        _ = mdr.indent(Ball(1.0), mdr.Medium(1.0), 0.1).stiffness
-
-
 @pytest.mark.parametrize(
     ("former", "name"),
     [
