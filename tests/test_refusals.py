@@ -114,6 +114,8 @@ def refusal(make):
     """The error of a call that is refused."""
     with pytest.raises(ValueError) as caught:  # noqa: PT011 - its words are a part of what is compared
         make()
+    # Who catches `MDRError` catches all.
+    assert isinstance(caught.value, mdr.MDRError)
     return caught.value
 
 

@@ -29,7 +29,6 @@ def test_a_client_script_passes_a_strict_type_checker():
 
 @pytest.mark.slow
 def test_the_client_script_runs():
-    assert len(CLIENT.read_text(encoding="utf-8").splitlines()) >= 40
     result = run("-m", "tests.client")
     assert result.returncode == 0, result.stderr
 

@@ -1,6 +1,6 @@
 """How results show themselves, count, and become dicts, tables and datasets."""
 
-import builtins
+import sys
 
 import numpy as np
 import pytest
@@ -178,9 +178,7 @@ def test_parameters_of_many_are_coordinates():
 
 @pytest.mark.parametrize(("method", "package"), [("to_pandas", "pandas"), ("to_xarray", "xarray")])
 def test_what_is_missing_is_said(method, package, monkeypatch):
-    monkeypatch.setattr(
-        "mdr_core.show.report.import_module", lambda name: builtins.__import__("no_such_" + name)
-    )
+    monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(ImportError, match=rf"{method}\(\) needs {package}, .* pip install {package}"):
         getattr(PATH, method)()
 

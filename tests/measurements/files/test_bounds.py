@@ -181,5 +181,5 @@ def test_a_table_of_too_many_lines_is_refused_before_it_takes_memory(end):
 )
 def test_a_table_takes_at_most_twenty_times_its_size(row):
     """Cells, which would take up to fifty times the size, are not kept."""
-    text = "depth (nm), force (mN)\n" + f"{row}\n" * 20_000
+    text = "depth (nm), force (mN)\n" + f"{row}\n" * 5_000
     assert peak_of(lambda: read_tables(text, "curve.csv")) < 20 * len(text)

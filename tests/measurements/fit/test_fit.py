@@ -221,6 +221,7 @@ class TestIndentation:
 
 
 class TestRealCurves:
+    @pytest.mark.few(6)
     @pytest.mark.parametrize("order", ["time", "reversed", "random"])
     @pytest.mark.parametrize("segment", ["approach", "retract"])
     @pytest.mark.parametrize("name", AFM)
@@ -273,17 +274,6 @@ class TestRealCurves:
         medium, depth = mdr.Medium(E, q_c=q_c), np.linspace(60e-9, 45e-9, 50)
         fit = mdr.fit_indentation(mdr.Cone(0.3), depth, curve(mdr.Cone(0.3), medium, depth))
         assert (fit.medium.E_star, fit.medium.q_c) == approx((E, q_c), rel=1e-9)
-
-
-def test_paths_of_many_media():
-    """Each row is the path on its own medium; media along the axis of the path are refused."""
-    profile, media = mdr.Sphere(1e-6), mdr.Medium([[E], [2 * E]], q_c=[[Q], [3 * Q]])
-    path = mdr.indent(profile, media, OUT)
-    for i, (modulus, q_c) in enumerate(((E, Q), (2 * E, 3 * Q))):
-        # The same closed form on other array lengths: a few units of rounding.
-        assert path.force[i] == approx(curve(profile, mdr.Medium(modulus, q_c=q_c)), rel=1e-13, abs=1e-20)
-    with pytest.raises(ValueError, match="path"):
-        mdr.indent(profile, mdr.Medium([E, 2 * E]), [1e-9, 2e-9])
 
 
 class TestHardness:

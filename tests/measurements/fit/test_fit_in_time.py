@@ -83,6 +83,7 @@ class TestInverse:
         fit = mdr.fit_indentation(profile, z[keep], force[keep], time=TIME[keep], q_c=np.inf, **FREE)
         assert (fit.medium.E_star, fit.medium.eta) == approx((E, ETA), rel=1e-4)
 
+    @pytest.mark.few(1)
     @pytest.mark.parametrize("path", PATHS)
     def test_errors_are_those_of_repeated_measurements(self, path):
         """The standard deviation of the pulls of 60 curves is known to 9 %: four of these around 1."""
@@ -251,6 +252,7 @@ class TestYieldAndViscosity:
         medium = mdr.Medium(1e9, q_c=self.MEDIUM.q_c, eta=tau * 1e9 / 4)
         return mdr.indent_in_time(self.CONE, medium, self.DEPTH, self.TIME, tolerance=1e-6).force
 
+    @pytest.mark.few(2)
     @pytest.mark.parametrize("tau", [0.8, 1.2, 2.0, 4.0])
     def test_dashpots_do_not_stand_for_springs(self, tau):
         """0.1 % of noise; an E* within 20 %, of which the statistical error is at most 6 %."""

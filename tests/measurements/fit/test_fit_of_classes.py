@@ -106,6 +106,7 @@ def test_derivatives_are_those_of_the_force(profile, constants):
         assert jacobian[..., i] == approx(difference, abs=1e-7 * size), curves.free[i]
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("constants", [MIXTURES[0], MIXTURES[2]], ids=" and ".join)
 @pytest.mark.parametrize("depth_noise", [0.0, 0.2e-9])
 def test_errors_are_those_of_repeated_measurements(constants, depth_noise):
@@ -202,6 +203,7 @@ class TestRemarks:
         both = made(self.PROFILE, {"hardness": 0.3e9, "q_c": 60.0}, 1, seed=3)[0]
         assert not mdr.fit_indentation(self.PROFILE, OUT, both, hardness=None, q_c=None).remarks
 
+    @pytest.mark.few(1)
     @pytest.mark.parametrize("constants", MIXTURES[2:], ids=" and ".join)
     def test_noise_alone(self, constants):
         """Constants may be 0 at once in a search; the record has no contact, and a remark says so."""
@@ -279,6 +281,7 @@ class TestVerdict:
             # The minimum is known to the square root of rounding.
             assert single[letter].misfit == approx(each.misfit[1], rel=1e-6)
 
+    @pytest.mark.few(1)
     @pytest.mark.parametrize(
         "free", [{"baseline": None}, {"baseline": None, "tilt": None}], ids=" and ".join
     )

@@ -170,6 +170,7 @@ def test_an_adhesion_that_is_left_out_is_said(w, part):
     assert "adhesion" not in {each.kind for each in fit.remarks}
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("eta", [0.0, 100.0])
 @pytest.mark.parametrize("drag", [0.0, 2e-3])
 @pytest.mark.parametrize("noise", [4e-3, 2e-2])

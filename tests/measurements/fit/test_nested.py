@@ -175,6 +175,7 @@ class TestData:
             assert words in fit.remarks[0]
             assert not mdr.fit_indentation(tip, depth, force, **free).remarks
 
+    @pytest.mark.few(2)
     @pytest.mark.parametrize("baseline", [0.0, None])
     @pytest.mark.parametrize("noise", [0.0, 0.003, 0.01])
     def test_columns_of_a_yielding_cone_pressed_only(self, baseline, noise):
@@ -212,12 +213,13 @@ class TestContactIsSeen:
         fit = mdr.fit_indentation(BALL, depth, force, time=time, q_c=np.inf, baseline=None)
         assert NO_CONTACT not in str(fit.remarks)
 
+    @pytest.mark.few(2)
     @pytest.mark.parametrize("start", [-1e-7, 0.0, 2e-7, 5e-7])
     def test_in_a_noisy_record_that_begins_at_contact_or_in_it(self, start):
         """With noise of 20 % of the force: the contact explains half of the variance or more."""
         depth = np.interp(TIME, [0, 1, 2], [start, 1e-6, start])
         force = mdr.indent(BALL, GEL, depth).force
-        for seed in range(5):
+        for seed in range(3):
             noise = 0.2 * force.max() * np.random.default_rng(seed).normal(size=force.size)
             fit = mdr.fit_indentation(BALL, depth, force + noise, q_c=np.inf, baseline=None)
             assert NO_CONTACT not in str(fit.remarks)

@@ -75,12 +75,15 @@ def test_it_is_that_of_one_curve():
 
 
 def test_silica_in_any_class_has_one_number():
-    """Its own zero is first contact: those of the fits, 106 and −27 nm, are not."""
+    """That of the unloading from its own zero: first contacts of the fits, 106 and −27 nm, are not used."""
     depth, F, _ = silica()
-    for hardness in ({}, {"hardness": None}):
-        quoted = mdr.fit_indentation(mdr.Cone.berkovich(), depth, F, **hardness).quoted
-        assert quoted.value == approx(69.62e9, abs=0.1e9)
-        assert quoted.standard_error == approx(0.14e9, abs=0.03e9)
+    expected = mdr.oliver_pharr(mdr.Cone.berkovich(), depth, F)
+    for given in ({}, {"hardness": None}, {"hardness": None, "contact_point": 0.0}):
+        quoted = mdr.fit_indentation(mdr.Cone.berkovich(), depth, F, **given).quoted
+        assert quoted.source == "unloading"
+        # Less than the error, 0.2 %.
+        assert quoted.value == approx(expected.E_star, rel=1.5e-3)
+        assert quoted.standard_error == approx(expected.standard_errors["E_star"], rel=0.2)
 
 
 def test_a_yielded_curve_that_is_held_elastic_has_none():

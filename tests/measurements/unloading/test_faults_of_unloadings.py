@@ -163,6 +163,7 @@ def test_air_after_a_preload_is_used(share):
     assert mdr.oliver_pharr(TIP, d, F, cycles=True).unloading.tolist() == [1]
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("preload", [30e-9, 100e-9])
 @pytest.mark.parametrize("noise", [0.0, 1e-4])
 @pytest.mark.parametrize("shift", [0.0, 60e-9])
@@ -209,7 +210,7 @@ def test_creep_is_said_without_times(kind):
         assert "give time=" in remark
         assert "give time=" not in remark.text
     _, depth, force = record(0.0, kind)
-    for seed in range(10):
+    for seed in range(4):
         noisy = force + 2e-3 * force.max() * np.random.default_rng(seed).normal(size=force.size)
         assert "creep" not in kinds(mdr.oliver_pharr(TIP, depth, noisy))
 
@@ -266,6 +267,7 @@ def test_records_of_few_samples_are_refused_in_words(count, sign):
             mdr.oliver_pharr(TIP, depth, force, time=time)
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("share", [0.6, 0.9, 0.97])
 @pytest.mark.parametrize("noise", [0.0, 2e-4])
 def test_a_depth_at_the_limit_of_its_sensor_has_no_number(share, noise):

@@ -73,21 +73,21 @@ def test_a_yielded_cone_has_the_stiffness_of_the_model_at_another_radius():
 
 @pytest.mark.slow
 def test_errors_are_those_of_repeated_measurements():
-    """The standard deviation of 100 pulls is known to 7 %: four of these around 1."""
+    """The standard deviation of 30 pulls is known to 13 %: four of these around 1."""
     profile, random = mdr.Cone(0.3), np.random.default_rng(1)
     F = mdr.indent(profile, mdr.Medium(E), DEPTH).force
     exact = mdr.oliver_pharr(profile, DEPTH, F)
     noisy = [
         mdr.oliver_pharr(profile, DEPTH, F + 0.004 * F.max() * random.standard_normal(F.size))
-        for _ in range(100)
+        for _ in range(30)
     ]
     for name, error in exact.standard_errors.items():
         pulls = [
             (getattr(each, name) - getattr(exact, name)) / each.standard_errors[name] for each in noisy
         ]
         assert error < 1e-10 * abs(getattr(exact, name))
-        assert 0.72 < np.std(pulls) < 1.28, name
-        assert abs(np.mean(pulls)) < 0.45, name
+        assert 0.48 < np.std(pulls) < 1.52, name
+        assert abs(np.mean(pulls)) < 4 / np.sqrt(30), name
 
 
 def test_fused_silica():
@@ -130,21 +130,21 @@ def test_a_report_leaves_it_out_of_media_whose_unloading_is_no_power_law(paramet
 
 @pytest.mark.slow
 def test_its_error_in_a_report_is_also_that_of_the_contact_point():
-    """Of 60 unloadings, the standard deviation of whose pulls is known to 9 %: four of these around 1.
+    """Of 30 unloadings, the standard deviation of whose pulls is known to 13 %: four of these around 1.
 
     That of the scatter about the power law alone would be 1.7.
     """
     profile, depth = mdr.Cone(0.3), np.linspace(60e-9, 20e-9, 200)
     force, random = mdr.indent(profile, mdr.Medium(E), depth).force, np.random.default_rng(2)
     exact, sigma, pulls = mdr.oliver_pharr(profile, depth, force).E_star, 0.002 * force.max(), []
-    for _ in range(60):
+    for _ in range(30):
         noisy = force + sigma * random.normal(size=force.size)
         fit = mdr.fit_indentation(
             profile, depth + 7e-9, noisy, q_c=np.inf, baseline=None, force_noise=sigma
         )
         value, error = re.search(r"Pharr +E\* ([\d.]+) ± ([\d.]+) GPa", repr(fit)).groups()
         pulls.append((float(value) - exact / 1e9) / float(error))
-    assert 0.64 < np.std(pulls) < 1.36
+    assert 0.48 < np.std(pulls) < 1.52
 
 
 def test_a_report_leaves_it_out_where_the_model_does_not_fit():
@@ -177,6 +177,7 @@ F_CONE = mdr.indent(mdr.Cone(0.3), mdr.Medium(E), DEPTH).force
         (DEPTH, F_CONE, {"epsilon": -1.0}, "epsilon"),
         (DEPTH, F_CONE, {"beta": 0.0}, "beta"),
         ([], [], {}, "have no samples"),
+        (DEPTH[:60], F_CONE[:60], {"cycles": True}, "5 or more are needed"),
     ],
 )
 def test_curves_without_an_unloading_are_refused(depth, force, options, says):
@@ -242,18 +243,18 @@ class TestCycles:
 
     @pytest.mark.slow
     def test_errors_in_noise_are_those_of_repeated_measurements(self):
-        """Of 60 seeds the standard deviation of the pulls is known to 9 %: four of these above 1.
+        """Of 20 seeds the standard deviation of the pulls is known to 16 %: four of these above 1.
 
         The errors are not less than the range of results for parts of the unloading, and may be larger.
         """
         depth, force = cycles(self.MODULUS)
         pulls = []
-        for seed in range(60):
+        for seed in range(20):
             noise = 5e-5 * np.random.default_rng(seed).normal(size=force.size)
             result = mdr.oliver_pharr(BERKOVICH, depth, force + noise, cycles=True)
             assert result.shape == (3,)
             pulls.append((result.E_star - self.MODULUS) / result.standard_errors["E_star"])
-        assert np.all(np.std(pulls, axis=0) < 1.36)
+        assert np.all(np.std(pulls, axis=0) < 1.64)
 
     def test_without_cycles_a_remark_says_which_unloading_was_taken(self):
         depth, force = cycles(self.MODULUS)

@@ -68,6 +68,7 @@ def reference(g, slope, d, d_p):
         return float(a), float(force), float(r), float(pressure)
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("medium", [ELASTIC, YIELDING], ids=["elastic", "yielding"])
 def test_states_agree_with_40_digits(name, medium):
@@ -127,6 +128,7 @@ def test_force_is_the_derivative_of_the_energy(profile, medium):
         assert state.stiffness[1::3] == approx(rate, rel=1e-5, abs=1e-7 * E_STAR * B)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", ["paraboloid", "cone"])
 @pytest.mark.parametrize("d_c", [math.inf, D_C])
 def test_a_chain_with_torn_springs_agrees(name, d_c):

@@ -106,6 +106,7 @@ class Reference:
         return np.array(depths)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("given", MEDIA.values(), ids=MEDIA)
 @pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Paraboloid(1e-5)], ids=name)
 @pytest.mark.parametrize("pace", [1e-2, 1.0, 30.0])
@@ -154,6 +155,7 @@ def test_a_flat_punch_remembers_the_force_exponentially():
     assert path.model == "chain"
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("shape", "given"),
     [
@@ -240,7 +242,7 @@ def test_elements_follow_their_law_along_the_depths(given):
 def test_the_error_covers_the_error():
     """Random histories, shapes and media, against the laws to 10⁻¹⁰."""
     rng = np.random.default_rng(3)
-    for _ in range(30):
+    for _ in range(10):
         shape = SHAPES[rng.integers(len(SHAPES))]
         given = list(MEDIA.values())[rng.integers(len(MEDIA))]
         if "hardness" in given and isinstance(shape, mdr.PowerLaw) and shape.exponent < 1:

@@ -253,6 +253,7 @@ def rebound(profile, medium, mass, speed):
     return largest, -last.y[1, -1] / speed, first.t[-1] + last.t[-1]
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("eta", [0.0, 5.0])
 @pytest.mark.parametrize(("index", "mixture"), [(1, "H"), (3, "H+q+f"), (4, "H+q"), (5, "q+f")])
 def test_impacts_against_newtons_equation_over_elements(index, mixture, eta):

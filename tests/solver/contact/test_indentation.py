@@ -206,6 +206,8 @@ def test_bad_arguments_are_refused():
         mdr.indent(mdr.Cone(0.3), 1e9, 1e-9)
     with pytest.raises(ValueError, match="needs a single state, but this result has shape"):
         mdr.indent(mdr.Cone(0.3), MEDIUM, [D_C, 2 * D_C]).pressure(0.0)
+    with pytest.raises(ValueError, match="path"):
+        mdr.indent(mdr.Cone(0.3), mdr.Medium([1e9, 2e9]), [1e-9, 2e-9])
     with pytest.raises(ValueError, match="radius r = inf m must be finite"):
         mdr.indent(mdr.Cone(0.3), MEDIUM, D_C).pressure(math.inf)
 

@@ -207,6 +207,7 @@ def ledger(foundation, path, dt, steps):
     return work, foundation
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("dt", [np.inf, 2e-9], ids=["slow", "viscous"])
 @pytest.mark.parametrize(
     "given", [{"q_c": 0.5}, {"hardness": 0.1e9}, {"f_c": 1e-9}, {"hardness": NixGao(0.05e9, 1e-9)}]

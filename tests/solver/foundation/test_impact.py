@@ -79,6 +79,7 @@ def test_every_estimate_covers_its_error(shape, depth, times):
         assert hit.max_force == approx(exact.max_force, rel=hit.errors.max_force)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("times", [1e2, 1e3])
 @pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Paraboloid(1e-5), mdr.FlatPunch(1e-6)], ids=name)
 def test_body_that_nearly_sticks(shape, times):
@@ -125,6 +126,7 @@ def test_motion_is_that_of_the_equation_of_motion(shape, times):
     np.testing.assert_allclose(chain.contact_radius[inside], expected, rtol=0, atol=5e-3 * expected.max())
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("zeta", [0.05, 0.5, 0.95])
 def test_flat_punch_without_yield_is_a_damped_oscillator(zeta):
     """e = exp(−ζθ/√(1 − ζ²)), cot θ = (ζ − 1/(2ζ))/√(1 − ζ²): until the force is zero."""
@@ -167,6 +169,7 @@ class TestSecondImpact:
         assert second.contact_time == approx(dry.contact_time, rel=second.errors.contact_time)
         assert second.max_force == approx(dry.max_force, rel=1e-5)
 
+    @pytest.mark.few(1)
     @pytest.mark.parametrize("wait", [0.05, 1.0, 100.0])
     def test_against_small_steps(self, wait):
         """A second impact before the elements have relaxed, or long after."""
@@ -215,6 +218,7 @@ def test_the_largest_force_behind_a_wall_is_that_of_the_plateau():
     assert hit.max_force == approx(np.pi * 3.4 * 1.4e-7, rel=hit.errors.max_force)
 
 
+@pytest.mark.full
 @pytest.mark.slow
 def test_a_coarse_run_on_a_soft_support_may_end_far_above_the_largest_depth():
     """Where the force of f_c jumps at the onset of yield, six steps of a support end 13 % above it."""

@@ -96,6 +96,7 @@ def passage(springs, kinetic, low, high, cuts):
     return total
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("speed", [0.2, 0.3])
 @pytest.mark.parametrize("tip", TIPS, ids=name)
 def test_across_kinks(tip, speed):

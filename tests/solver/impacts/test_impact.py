@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.solver.impacts.equation_of_motion import Bodies
 
 from ...approx import approx
 from .test_energy_balance import D_C, MEDIUM, hit_to_depth
@@ -42,10 +41,7 @@ def test_indices_are_those_of_arrays(eta):
     """A permutation, a mask, a repeated entry and a slice pick what they pick of the speeds."""
     speed = np.array([0.1, 1.0, 10.0])
     hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, q_c=10.0, eta=eta), 1e-12, speed)
-    bodies = Bodies.of(hit.profile, hit.medium, hit.mass, hit.speed, 0.0, hit.max_depth)
     for index in (np.array([2, 0, 1]), speed > 0.5, np.array([1, 1, 1]), slice(None, None, -1)):
         for name in ("speed", "restitution", "contact_time", "plastic_work", "viscous_work"):
             # Dry ones are solved again, as arrays of another length.
             np.testing.assert_allclose(getattr(hit[index], name), getattr(hit, name)[index], rtol=1e-14)
-        np.testing.assert_array_equal(bodies[index].speed[:, 0], speed[index])
-        np.testing.assert_array_equal(bodies[index].dry_penetration[:, 0], hit.max_depth[index])

@@ -87,6 +87,7 @@ def test_against_small_steps(shape, medium):
 
 
 class TestMaw:
+    @pytest.mark.few(4)
     @OF_ALL
     def test_slip_throughout(self, medium):
         """ΔW = −μ (m/m_t)(1 + e) v, whatever the shape: ψ₂ = ψ₁ − 4χ where e = 1."""
@@ -261,20 +262,20 @@ OTHERS = (pair for pair in itertools.product((0.5, 1.3), MEDIA) if pair not in U
 def test_limit_of_vanishing_viscosity(psi, medium):
     """Viscous impacts are solved by other equations; what they tend to is linear in the viscosity."""
     dry, *viscous = (
-        hit_at(psi, medium=replace(medium, eta=eta), tolerance=1e-6) for eta in (0.0, 2e-4, 4e-4)
+        hit_at(psi, medium=replace(medium, eta=eta), tolerance=1e-5) for eta in (0.0, 2e-4, 4e-4)
     )
-    # Velocities are relative to W₀, of which the finest steps leave more than 10⁻⁶.
+    # Three solutions with the tolerance; velocities are relative to W₀.
     scales = {"tangential_velocity": dry.tangential_speed}
     for quantity in ("tangential_velocity", "max_tangential_force", "friction_work"):
         near, far = (getattr(hit, quantity) for hit in viscous)
         value = getattr(dry, quantity)
-        assert abs(value - (2 * near - far)) <= 2e-5 * scales.get(quantity, value), quantity
+        assert abs(value - (2 * near - far)) <= 4e-5 * scales.get(quantity, value), quantity
 
 
 @pytest.fixture(scope="module")
 def ensemble():
     """Impacts at random d/d_c up to some 100, ψ₁ and μ, by the tolerance of their solution."""
-    rng, count = np.random.default_rng(5), 80
+    rng, count = np.random.default_rng(5), 30
     radius = 10 ** rng.uniform(-6, -4, count)
     psi = rng.uniform(0.1, 4, count)
     mu = rng.uniform(0.1, 0.5, count)
@@ -295,7 +296,7 @@ def deviations(hits, fine):
 
 @pytest.mark.slow
 def test_ensembles(ensemble):
-    """Many at a time: within 10⁻³ of what finer steps give at all, 99 % within the errors or nearly so."""
+    """Many at a time: within 10⁻³ of what finer steps give, and within four times the errors."""
     hits = ensemble[2e-4]
     depth = hits.max_depth / hits.medium.critical_depth
     assert depth.min() < 1
@@ -303,7 +304,7 @@ def test_ensembles(ensemble):
     miss, errors = deviations(hits, ensemble[1e-6]), hits.errors.tangential_velocity
     assert np.all(errors <= 2e-4)
     assert np.all(miss <= 1e-3)
-    assert np.quantile(miss / errors, 0.99) < 4
+    assert np.max(miss / errors) < 4
 
 
 @pytest.mark.slow
@@ -467,6 +468,7 @@ class TestExtremes:
         hit = mdr.oblique_impact(PARABOLOID, DRY, MASS, 1e-6, 1.0, MU)
         assert hit.velocity_change == approx(-MU * (1 + hit.restitution) * 1e-6, rel=1e-9)
 
+    @pytest.mark.few(4)
     @pytest.mark.parametrize("medium", [ELASTIC, DRY, VISCOUS], ids=["elastic", "yielding", "viscous"])
     @pytest.mark.parametrize(("speed", "mu"), [(0.06, 0.0), (0.06, 1e-60), (1e3, MU), (1e60, MU)])
     def test_motion_in_full_slip(self, medium, speed, mu):

@@ -126,6 +126,7 @@ class TestALawThatWritesTheSumOut:
         moves = [each[1].motion(7) for each in (one, other)]
         np.testing.assert_allclose(moves[0].depth, moves[1].depth, rtol=1e-9, atol=1e-11 * one.max_depth[1])
 
+    @pytest.mark.few(2)
     def test_in_time(self, mixture):
         constants, law = (replace(medium, eta=5.0) for medium in both(mixture))
         one, other = (mdr.impact(BALL, medium, 1e-12, [3.0, 20.0]) for medium in (law, constants))
@@ -145,6 +146,7 @@ class TestALawThatWritesTheSumOut:
             assert getattr(one, name) == approx(getattr(other, name), rel=rel)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("eta", [0.0, 20.0])
 @pytest.mark.parametrize("mixture", ["H", "q", "H+q+f"])
 def test_oblique_impacts_over_a_law_of_ones_own(mixture, eta):
@@ -331,6 +333,7 @@ CALLS = {
 
 
 class TestWhatIsNoLaw:
+    @pytest.mark.few(14)
     @pytest.mark.parametrize(
         ("call", "fault"),
         [

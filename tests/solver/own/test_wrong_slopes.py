@@ -81,6 +81,7 @@ WRONG = [
 WORDS = r"g′\(x\) is .* at x = .* m, but g\(x\) rises with the slope .*correct"
 
 
+@pytest.mark.few(16)
 @pytest.mark.parametrize("call", CALLS)
 @pytest.mark.parametrize("shape", WRONG, ids=name)
 def test_a_wrong_slope_is_refused_in_words(shape, call):
@@ -168,6 +169,7 @@ KINDS = (
 )  # fmt: skip
 
 
+@pytest.mark.few(16)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("power", [1.0, 1.5, 2.0, 3.0])
 @pytest.mark.parametrize("count", [4, 12, 200])

@@ -347,6 +347,7 @@ class TestFit:
         ("r", "z", "says"),
         [
             ([0, 1, 2], [0, 1], "two lists of the same length"),
+            ([], [], "two lists of the same length"),
             ([-1, 0, 1], [1, 0, 1], "three or more different radii"),
             ([0, 1, 2], [0, -1, -2], "does not increase with the radius r"),
             ([0, 1, 2], [0, math.inf, 2], r"z\[1\] = inf m must be finite"),
