@@ -300,28 +300,6 @@ class TestLazily:
         assert table.restitution.isnull().any("cone").values.nonzero()[0].tolist() == [2345]
         assert "invalid" not in table.attrs
 
-    def test_an_interrupted_run_goes_on_where_it_was(self, tmp_path):
-        pytest.importorskip("zarr")
-        store, stream = tmp_path / "stream.zarr", self.stream()
-        with warnings.catch_warnings():
-            # What zarr says of its own format.
-            warnings.simplefilter("ignore")
-            stream.to_zarr(store, compute=False, encoding={name: {"_FillValue": np.nan} for name in stream})
-
-            def fill(last, done=0):
-                for start in range(0, last, 1000):
-                    part = {"particle": slice(start, start + 1000)}
-                    found = xr.open_zarr(store).isel(part)
-                    if found.isnull().any().to_array().any():
-                        stream.isel(part).to_zarr(store, region=part)
-                        done += 1
-                return done
-
-            assert fill(2000) == 2
-            assert int(xr.open_zarr(store).restitution.isnull().sum()) == 2000
-            assert fill(4000) == 2
-            xr.testing.assert_allclose(xr.open_zarr(store).load(), stream.compute(), rtol=1e-13)
-
     def test_the_recipe_goes_on_where_it_was_killed_while_it_made_the_store(self, tmp_path, monkeypatch):
         """With all files of the store but its name, and with none, one, or half of them."""
         pytest.importorskip("zarr")
@@ -406,19 +384,3 @@ class TestLazily:
         xr.testing.assert_allclose(
             restitution, sweep.impacts(mdr.Sphere, **given, speed=speed).restitution, rtol=1e-9
         )
-
-    @pytest.mark.full
-    def test_on_two_processes(self):
-        distributed = pytest.importorskip("distributed")
-        with warnings.catch_warnings():
-            # Ports and sockets are distributed's business.
-            warnings.simplefilter("ignore")
-            with (
-                distributed.LocalCluster(
-                    n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
-                ) as cluster,
-                distributed.Client(cluster) as client,
-            ):
-                assert len(client.scheduler_info()["workers"]) == 2
-                total = float(self.stream().restitution.sum().compute())
-        assert total == approx(float(self.stream().compute().restitution.sum()), rel=1e-12)

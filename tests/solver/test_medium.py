@@ -148,13 +148,6 @@ class TestHardness:
         with pytest.raises(ValueError, match="radius = 0 m must be finite and positive"):
             medium.hardness_at(0.0)
 
-    def test_what_is_not_given(self):
-        assert (mdr.Medium(1e9, hardness=1e6).q_c, mdr.Medium(1e9, f_c=1.0).q_c) == (0.0, 0.0)
-        assert mdr.Medium(1e9, q_c=5.0).hardness == mdr.Medium(1e9, q_c=5.0).f_c == 0.0
-        glass = mdr.Medium.from_bodies(70e9, 0.2, hardness=9e9)
-        assert (glass.q_c, glass.hardness, glass.poisson) == (0.0, 9e9, 0.2)
-        assert repr(glass.entries(())) == repr(glass)
-
     @pytest.mark.parametrize(
         ("arguments", "says"),
         [

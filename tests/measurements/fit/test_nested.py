@@ -8,6 +8,7 @@ import pytest
 import mdr_core as mdr
 
 from ...approx import approx
+from ...said import kinds, remark_of
 from .test_fit import AFM, measured
 from .test_fit_in_time import fit_of
 
@@ -115,13 +116,13 @@ class TestYielding:
         """As the docstring of the fit says. In so little noise it is seen, and its rate told."""
         fit = self.fit(self.RAMP, 1e-10)
         assert 0.01 < fit.medium.E_star / METAL.E_star - 1 < 0.06
-        (remark,) = (remark for remark in fit.remarks if remark.kind == "drift")
+        remark = remark_of(fit, "drift")
         rate = float(re.search(r"a drift of (\S+) pm/s", remark)[1])
         assert rate == approx(100, rel=0.05)
 
     def test_a_hold_tells_it(self):
         fit = self.fit(self.HOLD, 1e-10)
-        (remark,) = [remark for remark in fit.remarks if remark.kind == "creep"]
+        remark = remark_of(fit, "creep")
         rate, said = re.search(
             r"depth changes by (\S+) pm/s: this is creep, or a drift.* by (\S+) %", remark
         ).groups()
@@ -136,12 +137,12 @@ class TestYielding:
         """In 20 s at the largest load, with the noise of the force and none of the depth."""
         depth = 1e-9 * np.interp(self.TIME, [0, 5, 85, 105, 140], [-20, 0, 300, 300, 250])
         fit = self.fit(depth, 1e-10, noise, mdr.Medium(70e9, q_c=2e3))
-        (remark,) = [remark for remark in fit.remarks if remark.kind == "creep"]
+        remark = remark_of(fit, "creep")
         rate = float(re.search(r"depth changes by (\S+) pm/s", remark)[1])
         assert rate == approx(100, rel=0.05)
         # A ramp is none, whatever the noise.
         ramp = self.fit(self.RAMP, 1e-10, noise, mdr.Medium(70e9, q_c=2e3))
-        assert "creep" not in {remark.kind for remark in ramp.remarks}
+        assert "creep" not in kinds(ramp)
 
 
 class TestData:

@@ -8,6 +8,7 @@ import pytest
 import mdr_core as mdr
 
 from ...approx import approx
+from ...said import remark_of
 from ..unloading.test_creep import record
 from .test_fit import silica
 
@@ -131,7 +132,7 @@ def test_an_elastic_fit_with_systematic_residuals_has_none(change, ratio):
     """Of less than 5 % of the force, which is 100 times the noise; E* of the lower half tells the cause."""
     fit = mdr.fit_indentation(BALL, X, gel(change), q_c=np.inf)
     assert (fit.quoted.source, fit.quoted.kind) == (None, "misfit")
-    (remark,) = (each for each in fit.remarks if each.kind == "misfit")
+    remark = remark_of(fit, "misfit")
     told = float(re.search(r"(\S+) times E\* of the lower half", remark.text)[1])
     assert told == approx(ratio, abs=0.02)
 

@@ -11,16 +11,13 @@ import scipy
 import mdr_core as mdr
 
 from ...approx import approx
+from ...said import kinds, remark_of
 from ..fit.test_fit import silica
 from .test_creep import record
 
 DATA = Path(__file__).parents[2] / "data"
 E, DEEP, TIP = 70e9, 300e-9, mdr.Cone.berkovich()
 SAID = {"zero", "creep", "taken"}
-
-
-def kinds(result):
-    return {remark.kind for remark in result.remarks}
 
 
 def first_yield(tip, medium):
@@ -91,7 +88,7 @@ def test_a_depth_that_is_0_at_a_force_is_said_with_both_numbers(share, noise):
     result = mdr.oliver_pharr(TIP, depth[start:] - depth[start], force[start:])
     assert result.contact_point == 0
     assert result.E_star > 1.05 * expected.E_star
-    (remark,) = (each for each in result.remarks if each.kind == "zero")
+    remark = remark_of(result, "zero")
     before, first_E, first_H = re.search(
         r"contact is ([\d.]+) nm before, .*: E\* ([\d.]+) GPa and H ([\d.]+) GPa, instead of", remark
     ).groups()
@@ -112,7 +109,7 @@ def test_a_depth_that_is_0_at_a_small_force_is_said_with_the_depth_that_it_hides
     later = depth[: np.argmax(depth)] > hidden
     start = int(np.argmax(later))
     result = mdr.oliver_pharr(TIP, depth[start:] - depth[start], force[start:])
-    (remark,) = (each for each in result.remarks if each.kind == "zero")
+    remark = remark_of(result, "zero")
     told = float(re.search(r"a cone has ([\d.]+) % of its depth", remark)[1])
     assert told == approx(100 * depth[start] / depth.max(), rel=0.2)
     assert result.hardness > (1 + 1.5 * np.sqrt(share)) * expected.hardness
@@ -123,7 +120,7 @@ def test_an_offset_of_the_force_is_the_other_reading():
     depth, force = pressed(TIP, mdr.Medium(E, hardness=8e9))
     expected = mdr.oliver_pharr(TIP, depth, force)
     result = mdr.oliver_pharr(TIP, depth, force + 0.05 * force.max())
-    (remark,) = (each for each in result.remarks if each.kind == "zero")
+    remark = remark_of(result, "zero")
     without = re.search(r"an offset: E\* ([\d.]+) GPa and H ([\d.]+) GPa", remark).groups()
     # The stiffness is fitted to the force with the offset.
     assert float(without[0]) == approx(expected.E_star / 1e9, rel=0.03)
@@ -204,7 +201,7 @@ def test_creep_is_said_without_times(kind):
         _, depth, force = record(share, kind)
         result = mdr.oliver_pharr(TIP, depth, force)
         assert result.E_star > 1.1 * E
-        (remark,) = (each for each in result.remarks if each.kind == "creep")
+        remark = remark_of(result, "creep")
         assert "creeps" in remark.text
         assert [each.what for each in remark.remedy] == ["time"]
         assert "give time=" in remark

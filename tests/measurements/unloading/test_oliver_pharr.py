@@ -9,6 +9,7 @@ import pytest
 import mdr_core as mdr
 
 from ...approx import approx
+from ...said import kinds
 from ..fit.test_fit import silica
 
 E = 10e9
@@ -43,7 +44,7 @@ def test_elastic_unloadings_are_power_laws(profile, epsilon, exponent):
     expected = loaded.stiffness, E, loaded.mean_pressure, exponent
     values = result.stiffness, result.E_star, result.hardness, result.exponent
     assert values == approx(expected, rel=1e-11)
-    assert not {remark.kind for remark in result.remarks} & {"creep", "taken"}
+    assert not kinds(result) & {"creep", "taken"}
     height = profile.height(loaded.contact_radius)
     assert result.contact_depth == approx(height, rel=1e-11, abs=1e-18)
 
@@ -239,7 +240,7 @@ class TestCycles:
         a = np.sqrt(np.array(PEAKS) / (np.pi * 9.2e9))
         assert result.stiffness == approx(2 * self.MODULUS * a, rel=1e-11)
         assert result.contact_depth == approx(BERKOVICH.height(a), rel=1e-11)
-        assert {remark.kind for remark in result.remarks} == {"left out"}
+        assert kinds(result) == {"left out"}
 
     @pytest.mark.slow
     def test_errors_in_noise_are_those_of_repeated_measurements(self):
@@ -267,7 +268,7 @@ class TestCycles:
         twice = np.append(depth[:698], depth[:349]), np.append(force[:698], force[:349])
         assert mdr.oliver_pharr(BERKOVICH, *twice).remarks[0].startswith("unloading 2 of 3")
         single = mdr.oliver_pharr(BERKOVICH, depth[:349], force[:349])
-        assert "taken" not in {remark.kind for remark in single.remarks}
+        assert "taken" not in kinds(single)
 
     def test_an_unloading_that_is_none_is_left_out_with_its_reason(self):
         """The force relaxes by 30 % at the depth of the second peak: it falls at one depth."""

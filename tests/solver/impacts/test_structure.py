@@ -12,6 +12,7 @@ import mdr_core as mdr
 from ...approx import approx
 from ...events import until
 from ...laws import NixGao
+from ...said import limit_of
 from ...shapes import name
 
 E, R, MASS, SPEED = 10e9, 5e-3, 4.1e-3, 5.0
@@ -215,7 +216,7 @@ class TestABodyThatNeverLeaves:
 
     def test_its_limits_say_that_plates_have_edges(self):
         hit = mdr.impact(BALL, YIELDING, MASS, SPEED, structure=mdr.Structure(60.0))
-        (edges,) = (limit for limit in hit.limits if limit.what == "edges")
+        edges = limit_of(hit, "edges")
         assert edges.exceeded
         assert edges.value == np.inf
 
@@ -503,7 +504,7 @@ class TestLimits:
         ball = mdr.Paraboloid(radius), mdr.Medium(206e9 / 0.91 / 2), 4 / 3 * np.pi * radius**3 * 7850, 1.0
         support = mdr.Structure(stiffness=beam.stiffness, mass=line_mass * length / 2)
         hit = mdr.impact(*ball, structure=support)
-        (limit,) = (limit for limit in hit.limits if limit.what == "support")
+        limit = limit_of(hit, "support")
         by_modes = mdr.impact(*ball, structure=beam)
         assert by_modes.max_force > 7 * hit.max_force
         assert limit.exceeded
@@ -511,7 +512,7 @@ class TestLimits:
         assert 0.5 < limit.value / (by_modes.max_force / hit.max_force - 1) < 2
         drop = mdr.Paraboloid(8e-3), mdr.Medium(10e9, q_c=4e5), 5.5, 1.0
         support = mdr.Structure(stiffness=2.332e6, mass=0.075 * 0.125 * 4.5e-3 * 1600 / 4)
-        (limit,) = (each for each in mdr.impact(*drop, structure=support).limits if each.what == "support")
+        limit = limit_of(mdr.impact(*drop, structure=support), "support")
         assert not limit.exceeded
         assert limit.value < 0.01
 
@@ -527,7 +528,7 @@ class TestLimits:
         assert limits["dent"].value == 0
         assert "weight" not in limits
         dented = mdr.impact(BALL, mdr.Medium(E, hardness=1e8), MASS, SPEED, structure=plate)
-        (dent,) = (each for each in dented.limits if each.what == "dent")
+        dent = limit_of(dented, "dent")
         assert dent.value == approx(dented.plastic_depth / 0.5e-3, rel=1e-12)
         slow, limits = self.limits(mdr.Structure(stiffness=100.0), 0.1)
         assert limits["weight"].value == approx(9.81 * slow.contact_time / 0.1, rel=1e-12)
@@ -631,7 +632,7 @@ def test_the_mass_of_a_support_is_estimated_for_the_worst_of_many_impacts():
     speed = np.array([0.6, 1.0, 2.0, 2.6])
 
     def told(hit):
-        (limit,) = (each for each in hit.limits if each.what == "support")
+        limit = limit_of(hit, "support")
         return limit
 
     many = mdr.impact(*given, speed, structure=support)
@@ -643,6 +644,6 @@ def test_the_mass_of_a_support_is_estimated_for_the_worst_of_many_impacts():
 def test_a_wide_contact_on_a_support_of_known_thickness_is_told():
     support = mdr.Structure(stiffness=5e6, thickness=2e-3)
     hit = mdr.impact(mdr.Paraboloid(8e-3), mdr.Medium(10e9, q_c=1.6e6), 5.5, 2.0, structure=support)
-    (thin,) = (each for each in hit.limits if each.what == "thin")
+    thin = limit_of(hit, "thin")
     assert thin.exceeded
     assert thin.value == approx(2 * float(hit.contact_radius) / 2e-3)
