@@ -21,11 +21,14 @@ SCENE = mdr.Scene(mdr.Cone(0.1), mdr.Medium(1e9, q_c=1 / 3), mdr.scene.DepthPath
         mdr.scene.DepthPath([1e-9, 0]),
         mdr.scene.FreeImpact(1e-3, 0.1),
         mdr.scene.FreeImpact(1e-3, 0.1, plastic_depth=1e-9),
+        mdr.scene.FreeImpact(1e-3, 0.1, structure=mdr.Structure.plate(4e-3, 50e9, 0.3, 1600.0, edge=0.1)),
+        mdr.scene.FreeImpact(1e-3, 0.1, structure=mdr.Structure(stiffness=1e7)),
         mdr.scene.FreeObliqueImpact(1e-3, 0.1, -1 / 3, 0.3),
     ],
 )
 @pytest.mark.parametrize("medium", [mdr.Medium(1e9), mdr.Medium(1 / 3, q_c=0.1, eta=1e-30)])
-@pytest.mark.parametrize("shape", SHAPES, ids=name)
+@pytest.mark.few(12)
+@pytest.mark.parametrize("shape", [*SHAPES, mdr.Sampled([0, 1e-6, 3e-6], [0, 1e-7, 7e-7])], ids=name)
 def test_round_trip_is_exact(shape, medium, drive):
     scene = mdr.Scene(shape, medium, drive)
     assert mdr.Scene.from_json(scene.to_json()) == scene

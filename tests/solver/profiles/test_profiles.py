@@ -159,7 +159,6 @@ def test_limits_of_families():
     ("make", "says"),
     [
         (lambda: mdr.Cone(slope=0.0), "Cone slope = 0 must be finite and positive"),
-        (lambda: mdr.Cone(slope=math.nan), "Cone slope = nan"),
         (lambda: mdr.Paraboloid(radius=-1.0), "Paraboloid radius = -1 m"),
         (lambda: mdr.PowerLaw(coefficient=1.0, exponent=0.0), "exponent = 0"),
         (lambda: mdr.Hyperboloid(slope=1e-200, tip_radius=1.0), r"between 1e-25 and 1e\+25"),
@@ -170,9 +169,7 @@ def test_limits_of_families():
         (lambda: mdr.PowerLaw(coefficient=1e308, exponent=50.0), r"1e\+308 m\^\(1-n\) must lie between"),
         (lambda: kappa([2.0, 300.0]), r"exponent n\[1\] = 300 must be 0 or lie between 0 and 100"),
         (lambda: mdr.FlatPunch(radius=math.inf), "radius = inf m"),
-        (lambda: mdr.TruncatedCone(flat_radius=1.0, slope="steep"), "slope must be one real number"),
         (lambda: mdr.Cone(slope=1.0).contact_radius(-1.0), "depth = -1 m is negative"),
-        (lambda: mdr.Cone(slope=1.0).contact_radius([1.0, math.nan]), r"depth\[1\] = nan m must be finite"),
         (lambda: mdr.Cone(slope=1.0).height("far"), "radius r must be real numbers"),
         (lambda: mdr.Sphere(radius=1.0).contact_radius(1e3), "deeper than the equator"),
     ],

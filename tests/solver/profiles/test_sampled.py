@@ -106,11 +106,6 @@ def test_radius_at_the_height_of_a_polygon():
     np.testing.assert_allclose(radius, [1e-6, 1.5e-6, 2e-6, 3e-6, 4e-6, np.inf], rtol=1e-15)
 
 
-def test_scene_holds_a_sampled_tip():
-    scene = mdr.Scene(mdr.Sampled([0, 1e-6, 3e-6], [0, 1e-7, 7e-7]), MEDIUM, mdr.scene.ForcePath(1e-6))
-    assert mdr.Scene.from_json(scene.to_json()) == scene
-
-
 @pytest.mark.parametrize(
     ("r", "z", "says"),
     [
