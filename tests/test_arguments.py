@@ -34,6 +34,7 @@ CALLS = {
     "ForcePath": (mdr.scene.ForcePath, {"force": np.abs(FORCE), "time": TIME}),
     "HardnessLaw": (law_of, {"H0": 1e9 * ONE, "a_star": 1e-6 * ONE}),
     "Hyperboloid": (mdr.Hyperboloid, {"slope": TWO, "tip_radius": ONE}),
+    "MeasuredCurve": (mdr.MeasuredCurve, {"depth": DEPTH, "force": FORCE, "time": TIME}),
     "Medium": (mdr.Medium, {"E_star": 1e9 * ONE, "q_c": ONE, "eta": ONE, "poisson": TWO}),
     "Medium.from_bodies": (mdr.Medium.from_bodies, {"E1": 1e9 * ONE, "nu1": TWO, "q_c": ONE}),
     "ParabolicPunch": (mdr.ParabolicPunch, {"radius": ONE, "cylinder_radius": TWO}),
@@ -88,7 +89,7 @@ CALLS = {
 #: Public names that take no arrays, or only through those above.
 WITHOUT = {
     "ChainImpact", "CurveTable", "Foundation", "HardnessClass", "HardnessFit", "Impact", "Indentation",
-    "IndentationFit", "Limit", "MDRError", "MeasuredCurve", "MeasuredCurves", "Motion", "ObliqueImpact",
+    "IndentationFit", "Limit", "MDRError", "MeasuredCurves", "Motion", "ObliqueImpact",
     "OliverPharr", "Profile", "Quoted", "Remark", "Remedy", "ScalingLaw", "Scene", "Smooth",
     "TimedIndentation", "UnknownColumns", "abel", "chain_impact", "read_curve", "read_curves", "scene",
     "sweep",

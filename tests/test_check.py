@@ -82,6 +82,7 @@ def test_arrays_stay_what_they_are():
     """Empty ones give empty ones, and read-only ones are taken."""
     assert mdr.indent(mdr.Cone(0.3), MEDIUM, []).force.shape == (0,)
     assert mdr.impact(mdr.Smooth(lambda r: 0.3 + 0 * r), MEDIUM, 1e-9, []).contact_time.shape == (0,)
+    assert mdr.impact(mdr.Sphere([]), MEDIUM, 1.0, 1.0).max_depth.shape == (0,)
     depth = np.array([1e-6, 2e-6])
     depth.setflags(write=False)
     assert mdr.indent(mdr.Cone(0.3), MEDIUM, depth).force.shape == (2,)
@@ -207,10 +208,6 @@ def test_what_rounding_leaves_for_zero_is_taken():
     # A part of 10⁻²⁰ of the depth is less than its rounding.
     fresh, again = (mdr.impact(cone, MEDIUM, 1e-12, 0.1, plastic_depth=d).max_depth for d in (0.0, 1e-30))
     assert again == approx(fresh, rel=1e-12)
-
-
-def test_no_indenters_at_all():
-    assert mdr.impact(mdr.Sphere([]), MEDIUM, 1.0, 1.0).max_depth.shape == (0,)
 
 
 def test_stress_at_a_radius_next_to_nothing():
@@ -387,8 +384,3 @@ def test_what_a_hint_names_is_there():
         thing = mdr
         for part in name.split("."):
             thing = getattr(thing, part)
-
-
-def test_a_missing_argument_is_named_by_python():
-    with pytest.raises(TypeError, match="missing 1 required positional argument: 'slope'"):
-        mdr.Cone()

@@ -33,10 +33,6 @@ def test_eq_12_and_19_yield_line_load_is_reached_at_the_critical_depth():
     assert medium.critical_depth * medium.E_star == approx(medium.yield_line_load, rel=1e-15)
 
 
-def test_without_yield_constant_nothing_yields():
-    assert mdr.Medium(E_star=1.0).critical_depth == math.inf
-
-
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [

@@ -16,7 +16,7 @@ from ...approx import approx
 from ...reference import Reference
 from ...shapes import SHAPES, name
 from ...slow_reference import Impact as SpringImpact
-from ...slow_reference import Springs
+from ...slow_reference import Springs, WithRadii
 from ...slow_reference import State as SpringState
 
 E = 70e9
@@ -171,13 +171,6 @@ class TestClosedLimits:
         np.testing.assert_allclose(
             closed.stored_energy + closed.plastic_work, 0.5e-12 * closed.speed**2, rtol=1e-13
         )
-
-
-class WithRadii(Springs):
-    """Springs that take their contact radii from the profile, as a bisection takes long."""
-
-    def radius(self, depth):
-        return np.where(depth > 0, self.profile.contact_radius(np.maximum(depth, 0.0)), 0.0)
 
 
 def rebound(profile, medium, mass, speed):

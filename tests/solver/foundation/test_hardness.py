@@ -15,6 +15,7 @@ CASES = [
 ]
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize(("shape", "given"), CASES, ids=["H", "H+q+f", "q+f"])
 def test_a_path_of_the_chain(shape, given):
     """Loading, unloading, reloading: the work of the elements is of second order in a ramp."""
@@ -33,6 +34,7 @@ def test_a_path_of_the_chain(shape, given):
     np.testing.assert_allclose(chain.plastic_work, exact.plastic_work, rtol=0, atol=2e-5 * total)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("eta", [0.0, 5.0])
 @pytest.mark.parametrize(("shape", "given"), CASES, ids=["H", "H+q+f", "q+f"])
 def test_an_impact_of_the_chain(shape, given, eta):

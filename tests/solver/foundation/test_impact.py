@@ -27,6 +27,7 @@ def viscous(speed, depth, times):
     return mdr.Medium(DRY.E_star, q_c=DRY.q_c, eta=times * depth / speed * DRY.E_star / 4)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("times", [0.03, 1.0])
 @pytest.mark.parametrize(
     "shape", [*POWER_LAWS, mdr.FlatPunch(1e-6), mdr.TruncatedCone(1e-6, 0.3)], ids=name
@@ -101,6 +102,7 @@ def test_force_is_largest_where_a_flat_face_touches():
     assert hit.max_force == approx(8 * 1.0 * 1e-6 * 1.0, rel=1e-8)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("times", [0.0, 0.3])
 @pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.FlatPunch(1e-6)], ids=name)
 def test_motion_is_that_of_the_equation_of_motion(shape, times):

@@ -43,6 +43,7 @@ def test_agrees_with_the_impact_that_it_knows_nothing_of(profile, medium, struct
     assert chain.max_deflection == approx(hit.max_deflection, rel=1e-4)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("structure", [PLATE, SUPPORT], ids=["plate", "support"])
 @pytest.mark.parametrize("eta", [0.0, 1e3])
 def test_its_ledger_closes_at_every_step(eta, structure):

@@ -9,7 +9,7 @@ import mdr_core as mdr
 
 from ...approx import approx
 from ...shapes import name
-from ...slow_reference import RATE, WAY, Springs
+from ...slow_reference import RATE, WAY, WithRadii
 
 E, W, MASS = 1e9, 2e-3, 1e-12
 MEDIUM = mdr.Medium(E, q_c=8.0, work_of_adhesion=W)
@@ -23,7 +23,7 @@ TIPS = (
 )
 
 
-class Sticky(Springs):
+class Sticky(WithRadii):
     """Springs that are stretched by Δl = √(2π a w/E*) at the rim."""
 
     def stretch(self, a):

@@ -125,6 +125,7 @@ def many_digits(integrals, d, d_c):
     return time
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("depth", [1e-4, 0.97, 1.5])
 @pytest.mark.parametrize(
     ("shape", "integrals"),

@@ -77,6 +77,7 @@ CURVES = {
 }
 
 
+@pytest.mark.few(8)
 @pytest.mark.parametrize("q_c", [math.inf, 10.0])
 @pytest.mark.parametrize("share", [1e-4, 0.1, 1.0, 30.0])
 @pytest.mark.parametrize("curve", CURVES)

@@ -370,6 +370,7 @@ def test_no_lower_mode_of_a_plate_is_missed(stiffness):
     assert np.sort(mass) == approx(np.sort(2.0 * 0.15 / 4 / shape[seen][order] ** 2))
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("at", [0.5, 0.2])
 def test_more_modes_change_less_and_less(at):
     """Of a beam with its static stiffness: 12, 24 and 48 of its modes."""

@@ -20,6 +20,7 @@ MEDIA = {
 OF_ALL = pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
 
 
+@pytest.mark.few(2)
 @OF_ALL
 def test_a_punch_without_slip(medium):
     """Width and stiffness along the surface stay the same, yield or not: W = W₀ cos ωt until contact ends.
@@ -35,6 +36,7 @@ def test_a_punch_without_slip(medium):
     assert hit.max_tangential_force == approx(BALL * omega * 0.05, rel=1e-5)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("eta", [0.0, 5.0])
 @pytest.mark.parametrize("psi", [0.3, 1.3])
 def test_a_cone_of_constant_hardness_has_no_length_of_its_own(psi, eta):
