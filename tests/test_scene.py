@@ -177,12 +177,7 @@ class TestModel:
 
 @pytest.mark.parametrize(
     ("part", "keys"),
-    [
-        ("medium", ["poisson"]),
-        ("medium", ["hardness", "f_c"]),
-        ("drive", ["plastic_depth"]),
-        ("drive", ["time"]),
-    ],
+    [("medium", "poisson"), ("medium", "hardness f_c"), ("drive", "plastic_depth"), ("drive", "time")],
 )
 def test_a_file_from_before_a_parameter_is_read(part, keys):
     """As one without its effect: an incompressible medium of class (b), a virgin one, a slow path."""
