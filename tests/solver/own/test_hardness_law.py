@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.solver.medium.hardness import HardnessLaw, SumOfClasses
+from mdr_core.solver.medium.hardness import HardnessLaw
 
 from ...approx import approx
 from ...laws import FAULTS, Decaying, Kinked, Layered, NixGao, Written, Wrong
@@ -43,38 +43,6 @@ def assert_same(one, other, rel=1e-12, names=None):
         first, last = (np.asarray(getattr(each, name), dtype=float) for each in (one, other))
         scale = np.max(np.abs(last[np.isfinite(last)]), initial=0.0)
         np.testing.assert_allclose(first, last, rtol=rel, atol=rel * scale * 1e-2, err_msg=name)
-
-
-class TestTheSum:
-    """The paper's sum, which stands in `SumOfClasses` alone, beside one that is written here."""
-
-    @pytest.mark.parametrize("mixture", MIXTURES)
-    def test_its_five_functions(self, mixture):
-        hardness, q_c, f_c = MIXTURES[mixture]
-        law, a = SumOfClasses(hardness, q_c, f_c), np.geomspace(1e-12, 1e-2, 41)
-        sigma = [hardness + q_c / r + f_c / (r * r) for r in a.tolist()]
-        slope = [-q_c / (r * r) - 2 * f_c / (r * r * r) for r in a.tolist()]
-        np.testing.assert_allclose(law.at(a), sigma, rtol=1e-14)
-        np.testing.assert_allclose(law.rate(a), slope, rtol=1e-14)
-        np.testing.assert_allclose(law.line_load(a), a * sigma, rtol=1e-14)
-        # What is left of two terms that cancel has the rounding of the terms.
-        scale = 1e-15 * np.abs(sigma)
-        np.testing.assert_allclose(law.line_load_rate(a), sigma + a * slope, rtol=1e-14, atol=scale.max())
-        np.testing.assert_allclose(law.wall_load(a), a * a * sigma, rtol=1e-14)
-
-    def test_its_limits(self):
-        assert SumOfClasses(1.0, 2.0, 0.0).line_load(0.0) == 2.0
-        assert SumOfClasses(0.0, 0.0, 3.0).wall_load(np.inf) == 3.0
-        assert SumOfClasses(0.0, 2.0, 3.0).wall_load(np.inf) == np.inf
-
-    def test_in_other_units(self):
-        for law in (SumOfClasses(*MIXTURES["H+q+f"]), Written(*MIXTURES["H+q+f"])):
-            scaled, a = law.scaled(2.0, 1e-6).scaled(3.0, 0.5), np.array([0.2, 3.0])
-            np.testing.assert_allclose(scaled.line_load(a), 6 * law.line_load(a * 0.5e-6), rtol=1e-14)
-            slope = 3e-6 * law.line_load_rate(a * 0.5e-6)
-            np.testing.assert_allclose(scaled.line_load_rate(a), slope, rtol=1e-13)
-            wall = 6 / 0.5e-6 * law.wall_load(a * 0.5e-6)
-            np.testing.assert_allclose(scaled.wall_load(a), wall, rtol=1e-14)
 
 
 @pytest.mark.parametrize("mixture", MIXTURES)
