@@ -337,10 +337,7 @@ def test_no_energy_depth_or_velocity_is_taken_for_another_one_that_is_spelled_al
 
 @pytest.mark.parametrize(
     ("name", "cone", "area"),
-    [
-        ("Vickers", mdr.Cone.berkovich(), 24.504),
-        ("CubeCorner", mdr.Cone.from_half_angle(42.28), 2.598),
-    ],
+    [("Vickers", mdr.Cone.berkovich(), 24.504), ("CubeCorner", mdr.Cone.from_half_angle(42.28), 2.598)],
 )
 def test_cones_of_pyramids_have_their_area(name, cone, area):
     """A = area h²: 4 tan²68° of Vickers, 3√3/2 of a corner of a cube; to 0.1 %, as the cone is given."""

@@ -121,10 +121,7 @@ def test_results_say_what_they_are():
         ({"radius": None}, "radius must be one real number, got None"),
         ({"speed": np.ones(3)}, "speed is an array without names of dimensions"),
         ({"speed": SPEED.assign_attrs(units="mm/s")}, "speed is given in mm/s: give numbers in m/s"),
-        (
-            {"structure": mdr.Structure.modal([800.0], [0.05]), "impedance": 1.0},
-            "impedance",
-        ),
+        ({"structure": mdr.Structure.modal([800.0], [0.05]), "impedance": 1.0}, "impedance"),
         ({"speed": SPEED - 0.1}, r"speed\[0\] = -0.09 m/s must be finite and positive"),
     ],
 )

@@ -87,12 +87,7 @@ def test_an_unloading_alone_keeps_its_signs(read):
 
 
 def test_what_is_left_out_is_said_with_its_line(read):
-    lines = [
-        "tip; h (nm); F (mN)",
-        *(f"new; {k}; {k * k}" for k in range(8)),
-        "new; ; 9",
-        "old; 9; 81",
-    ]
+    lines = ["tip; h (nm); F (mN)", *(f"new; {k}; {k * k}" for k in range(8)), "new; ; 9", "old; 9; 81"]
     curve = read("\n".join([*lines, "end"]))
     np.testing.assert_allclose(curve.depth, np.array([*range(8), 9]) * 1e-9, rtol=1e-12)
     assert curve.remarks == (

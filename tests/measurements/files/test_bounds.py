@@ -175,10 +175,7 @@ def test_a_table_of_too_many_lines_is_refused_before_it_takes_memory(end):
     assert peak_of(refused) < 1e6
 
 
-@pytest.mark.parametrize(
-    "row",
-    ["0.001,1.2345", "1.2345678901,3.4567890123,0.123", "0,001;1,234;loading"],
-)
+@pytest.mark.parametrize("row", ["0.001,1.2345", "1.2345678901,3.4567890123,0.123", "0,001;1,234;loading"])
 def test_a_table_takes_at_most_twenty_times_its_size(row):
     """Cells, which would take up to fifty times the size, are not kept."""
     text = "depth (nm), force (mN)\n" + f"{row}\n" * 5_000

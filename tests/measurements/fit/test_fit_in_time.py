@@ -111,8 +111,7 @@ class TestInverse:
 class TestRealCurves:
     @pytest.mark.parametrize("name", ["spot3-0", "map2x2-2"])
     @pytest.mark.parametrize(
-        ("free", "key"),
-        [((), "rms_elastic_no_drag"), (("drag",), "rms_elastic"), (("drag", "eta"), "rms")],
+        ("free", "key"), [((), "rms_elastic_no_drag"), (("drag",), "rms_elastic"), (("drag", "eta"), "rms")]
     )
     def test_residuals_of_both_segments(self, name, free, key):
         """Root mean square over the range of force, at most 1.02 times that of a search by brute force."""

@@ -264,12 +264,7 @@ class TestVerdict:
         """With all that the fit was given: noise of force and depth, a held first contact, a baseline."""
         force = made(self.PROFILE, ALONE["a"], 3, seed=8) + 1e-6
         depth = OUT + 2e-10 * np.random.default_rng(9).normal(size=force.shape)
-        given = {
-            "contact_point": 0.0,
-            "baseline": None,
-            "depth_noise": 2e-10,
-            "force_noise": 1e-7,
-        }
+        given = {"contact_point": 0.0, "baseline": None, "depth_noise": 2e-10, "force_noise": 1e-7}
         fit = mdr.fit_indentation(self.PROFILE, depth, force, hardness=None, **given)
         # With a free baseline over the range of the record, which is the same for all classes.
         own, load = fit.classes["a"], np.ptp(fit.force, axis=1)

@@ -162,12 +162,7 @@ F_CONE = mdr.indent(mdr.Cone(0.3), mdr.Medium(E), DEPTH).force
 @pytest.mark.parametrize(
     ("depth", "force", "options", "says"),
     [
-        (
-            DEPTH[:60],
-            F_CONE[:60],
-            {},
-            r"after the largest depth, 60 nm \(sample 60 of 60\)",
-        ),
+        (DEPTH[:60], F_CONE[:60], {}, r"after the largest depth, 60 nm \(sample 60 of 60\)"),
         (DEPTH[:64], F_CONE[:64], {}, "upper half of an unloading has 4 samples, 5 or more"),
         (DEPTH - 50e-9, F_CONE, {}, r"contact depth .* must be positive and within the profile"),
         (DEPTH, -F_CONE, {}, "depth and force must decrease"),
