@@ -196,14 +196,12 @@ class TestInvalid:
     def test_every_ensemble(self):
         depth = xr.DataArray([1e-9, np.inf], dims="depth")
         table = sweep.indentations(mdr.Cone(0.3), E_star=1e9, depth=depth, invalid="nan")
-        assert table.attrs["invalid"] == [
-            "depth[1] = inf m must be finite; leave it out, or correct the data it comes from"
-        ]
+        assert "depth[1] = inf m must be finite" in table.attrs["invalid"][0]
         friction = xr.DataArray([0.1, -0.1], dims="particle")
         given = {"E_star": 1e9, "mass": 1e-12, "speed": 1.0, "tangential_speed": 10.0, "friction": friction}
         table = sweep.oblique_impacts(mdr.Paraboloid(1e-5), **given, invalid="nan")
         assert table.friction_work.isnull().values.tolist() == [False, True]
-        assert table.attrs["invalid"] == ["friction[1] = -0.1 must be not negative; check it"]
+        assert "friction[1] = -0.1 must be not negative" in table.attrs["invalid"][0]
 
     def test_what_is_no_particle_raises(self, monkeypatch):
         """A number that is out of range, an unknown choice, and a solver that fails."""

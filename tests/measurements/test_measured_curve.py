@@ -106,9 +106,7 @@ def test_segments_that_the_file_names_are_kept(tmp_path):
     np.testing.assert_array_equal(curve.approach.depth, curve.depth[:500])
     np.testing.assert_array_equal(curve.retract.time, curve.time[560:710])
     assert curve.approach.segment.tolist() == 500 * ["approach"]
-    with pytest.raises(
-        ValueError, match=r"run\.csv has no retract: the segments of its samples are approach"
-    ):
+    with pytest.raises(ValueError, match=r"run\.csv has no retract: .* approach"):
         _ = curve.approach.retract
 
 
@@ -143,9 +141,7 @@ def test_corrections_with_units(tmp_path):
 
 def test_drifts_without_a_hold_are_refused(tmp_path):
     loading = mdr.read_curve(DATA / "spot3-0.csv")
-    with pytest.raises(
-        ValueError, match="no hold after the largest force and below a fifth of it: give the"
-    ):
+    with pytest.raises(ValueError, match=r"no hold .* below a fifth of it: give the"):
         loading.drift()
     curve = read(tmp_path, DEPTH)
     with pytest.raises(ValueError, match=r"slice\(5, 7, None\) has 2 samples of run\.csv"):

@@ -90,10 +90,9 @@ def test_what_is_left_out_is_said_with_its_line(read):
     lines = ["tip; h (nm); F (mN)", *(f"new; {k}; {k * k}" for k in range(8)), "new; ; 9", "old; 9; 81"]
     curve = read("\n".join([*lines, "end"]))
     np.testing.assert_allclose(curve.depth, np.array([*range(8), 9]) * 1e-9, rtol=1e-12)
-    assert curve.remarks == (
-        "column 1 tip, which has no numbers, is left out",
-        "left out lines 10, 12: a cell is missing or not a number",
-    )
+    column, lines = curve.remarks
+    assert "column 1 tip" in column
+    assert "lines 10, 12" in lines
     assert "'h (nm)' in nm" in repr(curve)
     assert "by its header" in repr(curve)
     # A gap in a column that is not used leaves out nothing.

@@ -62,11 +62,11 @@ def test_a_small_contact_exceeds_nothing(result):
 def test_numbers_in_other_units_are_noticed():
     """A modulus in GPa, half-angles in radians and depths in µm are taken for what they say, and told."""
     state = mdr.indent(mdr.Cone(0.2), mdr.Medium(95.0, q_c=1e-6), 1e-9)
-    assert "E* is 95 Pa: check that it is given in Pa" in limit_of(state, "modulus").sentence
+    assert "E* is 95 Pa: check" in limit_of(state, "modulus").sentence
     assert "modulus" in exceeded(mdr.indent(mdr.Cone(0.2), mdr.Medium(2e13), 1e-9))
     for wrong in (1.0, 3e12):
         state = mdr.indent(mdr.Cone(0.2), mdr.Medium(1e9, hardness=wrong), 1e-9)
-        assert "check that H and E* are given in Pa" in limit_of(state, "hardness").sentence
+        assert "H and E* are given in Pa" in limit_of(state, "hardness").sentence
         assert limit_of(state, "hardness").value == approx(wrong / 1e9)
     # Fused silica; and what is a part of σ_c, or no hardness, has any value.
     for right in (
@@ -82,7 +82,7 @@ def test_numbers_in_other_units_are_noticed():
     assert limit_of(state, "slope").value == approx(47.74, rel=1e-4)
     assert "in degrees, not in radians" in limit_of(state, "slope").sentence
     state = mdr.indent(mdr.Paraboloid(1e-6), SOFT, 5e-6)
-    assert "2.24 R, beyond the equator of the body" in limit_of(state, "contact radius").sentence
+    assert "2.24 R" in limit_of(state, "contact radius").sentence
     assert "beyond" in repr(state)
 
 
@@ -129,7 +129,7 @@ def test_a_path_goes_as_far_as_its_largest_contact():
 def test_degrees_taken_for_a_slope_are_told():
     state = mdr.indent(mdr.Cone(70.3), SOFT, 1e-9)
     assert "tangent" in limit_of(state, "slope").sentence
-    assert "a half-angle is in degrees, not in radians" in repr(state)
+    assert "in degrees, not in radians" in repr(state)
     assert "from_half_angle" not in repr(mdr.indent(mdr.Cone.from_half_angle(70.3), SOFT, 1e-9))
 
 

@@ -27,7 +27,7 @@ def test_of_an_elastic_medium_it_is_the_modulus_of_the_fit():
     assert quoted.value == fit.medium.E_star == approx(E)
     assert quoted.standard_error == fit.standard_errors["E_star"]
     assert "elastic" in quoted.reason
-    assert repr(quoted) == "E* 10 GPa by the fit: the medium is elastic"
+    assert repr(quoted).startswith("E* 10 GPa by the fit")
 
 
 @pytest.mark.parametrize("noise", [0.0, 1e-3])

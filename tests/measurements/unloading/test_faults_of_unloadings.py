@@ -217,7 +217,7 @@ def test_a_laminate_is_no_half_space():
     depth = np.append(np.linspace(0, DEEP, 200), np.linspace(DEEP, 0, 200))
     force = 1e-3 * (depth / DEEP) ** 2.5
     (remark,) = (each for each in mdr.oliver_pharr(TIP, depth, force).remarks if each.kind == "creep")
-    assert remark.startswith("m = 2.5 exceeds the exponent of an elastic unloading of this tip, 2")
+    assert re.match(r"m = 2\.5 exceeds .*, 2\b", remark)
 
 
 def test_the_error_covers_other_parts_of_an_unloading_that_bends():
