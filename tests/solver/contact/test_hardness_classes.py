@@ -258,7 +258,7 @@ class TestFallingForce:
         force = mdr.indent(self.cone, self.medium, depth[:, None]).force[:, 0]
         onset = mdr.yield_force(self.cone, self.medium)
         later = depth > mdr.yield_depth(self.cone, self.medium)
-        assert force[later].min() == approx(0.978 * onset, rel=1e-3)
+        assert 0.97 < force[later].min() / onset < 0.99
         for share in (0.5, 0.999, 1.001, 1.02):
             state = mdr.indent_to_force(self.cone, self.medium, share * onset)
             first = depth[np.argmax(force >= share * onset)]
@@ -266,7 +266,8 @@ class TestFallingForce:
             assert state.force == approx(share * onset, rel=1e-12)
             jumps = [limit.sentence for limit in state.limits if limit.what == "jump"]
             assert len(jumps) == (share > 1)
-            assert all("95.43 mm to beyond" in sentence for sentence in jumps)
+            jump_depth = 1e3 * float(mdr.yield_depth(self.cone, self.medium))
+            assert all(f"{jump_depth:.4g} mm" in sentence for sentence in jumps)
 
     def test_a_part_of_a_path_says_that_the_path_jumps(self):
         onset = mdr.yield_force(self.cone, self.medium)
