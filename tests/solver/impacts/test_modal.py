@@ -291,30 +291,13 @@ def test_a_slow_impact_is_one_on_a_support():
     assert hit.max_force == approx(float(support.max_force), rel=5e-3)
 
 
-@pytest.mark.few(1)
-@pytest.mark.parametrize(
-    "medium", [{}, {"hardness": [2e8, 5e8]}, {"q_c": [1e5, 2e5]}, {"f_c": [30.0, 60.0]}], ids=str
-)
-@pytest.mark.parametrize(
-    "profile", [BALL, mdr.Cone([0.2, 0.4]), mdr.RoundedCone(tip_radius=1e-3, slope=0.3)], ids=str
-)
-def test_arrays_are_a_loop_of_single_impacts(profile, medium):
+def test_contacts_of_arrays_are_those_of_single_impacts():
     structure = mdr.Structure.modal([800.0, 5000.0], [0.05, 0.1], damping=[0.0, 0.01], stiffness=1e6)
-    medium, speed = mdr.Medium(10e9, **medium), np.array([[0.2], [1.0]])
-    hits = mdr.impact(profile, medium, 0.02, speed, plastic_depth=[0.0, 1e-6], structure=structure)
-    assert hits.shape == (2, 2)
+    medium, speed, imprint = mdr.Medium(10e9, q_c=[1e5, 2e5]), np.array([[0.2], [1.0]]), [0.0, 1e-6]
+    hits = mdr.impact(BALL, medium, 0.02, speed, plastic_depth=imprint, structure=structure)
     for i, j in np.ndindex(2, 2):
-        one = profile.entries(j), medium.entries(j), 0.02, speed[i, 0]
-        hit = mdr.impact(*one, plastic_depth=[0.0, 1e-6][j], structure=structure)
-        for name in (
-            "restitution",
-            "max_force",
-            "contact_time",
-            "plastic_work",
-            "structure_work",
-            "max_deflection",
-        ):
-            assert getattr(hits, name)[i, j] == approx(float(getattr(hit, name)), rel=1e-9), name
+        one = BALL, medium.entries(j), 0.02, speed[i, 0]
+        hit = mdr.impact(*one, plastic_depth=imprint[j], structure=structure)
         assert hits.contacts[i, j] == hit.contacts
         assert hits[i, j].hits == hit.hits
 
