@@ -80,6 +80,7 @@ class TestInverse:
         fit = mdr.fit_indentation(profile, z[keep], force[keep], time=TIME[keep], q_c=np.inf, **FREE)
         assert (fit.medium.E_star, fit.medium.eta) == approx((E, ETA), rel=1e-4)
 
+    @pytest.mark.slow
     @pytest.mark.few(1)
     @pytest.mark.parametrize("path", PATHS)
     def test_errors_are_those_of_repeated_measurements(self, path):

@@ -50,19 +50,19 @@ def sound(remark):
 
 def test_all_that_is_said_of_curves_is_a_remark():
     """On curves of three media with one thing wrong each, their unloadings, on files, tips, hardnesses."""
-    kinds = set()
+    seen = set()
     for medium in MEDIA.values():
         others = beside_fits() if medium is GEL else ()
         for result, _ in (*of_a_kind(medium, 0), *of_unloadings(medium, 0), *others):
             assert all(map(sound, result.remarks))
-            kinds |= kinds(result)
+            seen |= kinds(result)
             if isinstance(result, IndentationFit) and not result.shape:
                 quoted = result.quoted
                 assert not PYTHON.search(quoted.reason), quoted.reason
                 assert (quoted.kind is None) == (quoted.value is not None)
                 assert quoted.kind is None or sound(mdr.Remark(quoted.reason, quoted.kind, *quoted.remedy))
     # Most of the two dozen; the others are of maps, and of noise that is not the same everywhere.
-    assert len(kinds) > 16
+    assert len(seen) > 16
 
 
 def test_a_remark_stays_one():

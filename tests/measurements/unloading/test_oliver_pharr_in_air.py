@@ -43,6 +43,7 @@ def test_without_noise_it_is_exact(medium, air, samples, baseline):
     assert "begins in the air" in result.remarks[-1]
 
 
+@pytest.mark.slow
 @pytest.mark.few(1)
 @pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
 def test_its_error_is_in_those_of_the_results(medium):

@@ -155,6 +155,7 @@ def test_a_flat_punch_remembers_the_force_exponentially():
     assert path.model == "chain"
 
 
+@pytest.mark.slow
 @pytest.mark.few(1)
 @pytest.mark.parametrize(
     ("shape", "given"),
@@ -239,6 +240,7 @@ def test_elements_follow_their_law_along_the_depths(given):
     np.testing.assert_allclose(path[-1].elements(elements.x)[1], elements.elastic, rtol=0, atol=3 * step)
 
 
+@pytest.mark.slow
 def test_the_error_covers_the_error():
     """Random histories, shapes and media, against the laws to 10⁻¹⁰."""
     rng = np.random.default_rng(3)

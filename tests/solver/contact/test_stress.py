@@ -169,6 +169,7 @@ def test_far_away_it_is_that_of_a_point_force(shape, distance):
 
 
 # Every third of the shapes: an acute tip, an equator, walls and edges.
+@pytest.mark.slow
 @pytest.mark.few(2)
 @pytest.mark.parametrize("shape", SHAPES[2::3], ids=name)
 def test_against_many_digits(shape):

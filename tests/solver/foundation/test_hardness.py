@@ -15,6 +15,7 @@ CASES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.few(2)
 @pytest.mark.parametrize(("shape", "given"), CASES, ids=["H", "H+q+f", "q+f"])
 def test_a_path_of_the_chain(shape, given):

@@ -171,6 +171,7 @@ class TestSecondImpact:
         assert second.contact_time == approx(dry.contact_time, rel=second.errors.contact_time)
         assert second.max_force == approx(dry.max_force, rel=1e-5)
 
+    @pytest.mark.slow
     @pytest.mark.few(1)
     @pytest.mark.parametrize("wait", [0.05, 1.0, 100.0])
     def test_against_small_steps(self, wait):

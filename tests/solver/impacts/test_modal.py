@@ -206,6 +206,7 @@ def test_a_ball_on_the_laminate_of_sun_and_chen_by_fixed_steps():
     assert alone.restitution < 0.04 < 0.15 < hit.restitution
 
 
+@pytest.mark.slow
 @pytest.mark.few(2)
 @pytest.mark.parametrize("seed", [0, 1, 2, 4, 5, 7])
 def test_nothing_overlaps_between_contacts(seed):

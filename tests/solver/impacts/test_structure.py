@@ -101,9 +101,9 @@ def by_integration(profile, medium, structure):
     return -state[1] / SPEED, time, largest
 
 
-# Eight by default, of a second or two each; a law of one's own takes up to twenty, a polygon up to fifty.
+# Six by default, of a second or two each; a law of one's own takes up to twenty, a polygon up to fifty.
 @pytest.mark.slow
-@pytest.mark.few(8)
+@pytest.mark.few(6)
 @pytest.mark.parametrize("structure", STRUCTURES.values(), ids=STRUCTURES)
 @pytest.mark.parametrize(
     "medium",

@@ -320,6 +320,7 @@ def test_errors_of_ensembles(ensemble):
         assert share.max() < 5
 
 
+@pytest.mark.slow
 def test_coarse_runs_that_agree_by_chance():
     """The first two runs agree to 2·10⁻⁵ and are off by 5·10⁻⁴; the chain's own error is 10⁻⁶."""
     shape, medium = mdr.Cone(0.84645), mdr.Medium(2.697e8, q_c=1398.4, poisson=0.0267)

@@ -94,6 +94,7 @@ class TestALawThatWritesTheSumOut:
         moves = [each[1].motion(7) for each in (one, other)]
         np.testing.assert_allclose(moves[0].depth, moves[1].depth, rtol=1e-9, atol=1e-11 * one.max_depth[1])
 
+    @pytest.mark.slow
     @pytest.mark.few(2)
     def test_in_time(self, mixture):
         constants, law = (replace(medium, eta=5.0) for medium in both(mixture))

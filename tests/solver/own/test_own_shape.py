@@ -131,6 +131,7 @@ class TestPencil:
         )
         assert state.pressure(r) == approx(pressure, rel=1e-10)
 
+    @pytest.mark.slow
     def test_impact_against_the_chain(self):
         medium = mdr.Medium(MEDIUM.E_star, q_c=MEDIUM.q_c, eta=20.0)
         hit = mdr.impact(self.shape, medium, MASS, SPEED)

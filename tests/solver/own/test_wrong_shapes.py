@@ -250,6 +250,7 @@ class Sampled(Wrong):
         return np.pi / 2 * self.slope * share
 
 
+@pytest.mark.slow
 @pytest.mark.few(1)
 @pytest.mark.parametrize("fault", ["NaN", "the last value"])
 def test_a_table_ends(fault):

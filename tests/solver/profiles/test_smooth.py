@@ -170,6 +170,7 @@ def test_pressure_on_the_axis_of_a_rounded_tip(radius):
     assert sharp.reduced_slope(0.0) == approx(np.pi / 2 * 0.3, rel=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.few(1)
 @pytest.mark.parametrize("given", [{}, {"radius": 1e-6}, {"radius": 0.9e-6}, {"radius": 0.3e-6}], ids=str)
 def test_a_slope_that_ends_has_every_class_of_hardness(given):
