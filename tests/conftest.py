@@ -11,7 +11,9 @@ CASES = 3
 def pytest_addoption(parser):
     group = parser.getgroup("extent", "how much is run (otherwise three cases of each test over shapes)")
     group.addoption("--full", action="store_true", help="all cases, as before a release")
-    group.addoption("--quick", action="store_true", help="two cases of each parametrisation, nothing slow")
+    group.addoption(
+        "--quick", action="store_true", help="at most two cases of each parametrisation, nothing slow"
+    )
 
 
 def pytest_configure(config):
@@ -43,9 +45,9 @@ def _left_out(item, quick):
 
 def _most(cases, quick):
     """The largest number of cases of one test that are run."""
-    if quick:
-        return 2
     few = cases[0].get_closest_marker("few") if cases else None
+    if quick:
+        return min(2, few.args[0]) if few else 2
     if few:
         return few.args[0]
     return CASES if any(map(_is_over_shapes, cases)) else len(cases)

@@ -97,6 +97,13 @@ class Springs:
         return 2 * self.E * self.compressed(depth, plastic_depth, *radii, 1)
 
 
+class WithRadii(Springs):
+    """Springs that take their contact radii from the profile, because a bisection takes long."""
+
+    def radius(self, depth):
+        return np.where(depth > 0, self.profile.contact_radius(np.maximum(depth, 0.0)), 0.0)
+
+
 class State:
     """Quantities and fields of one state, at a depth (m) after a largest depth (m)."""
 

@@ -34,6 +34,7 @@ CALLS = {
     "ForcePath": (mdr.scene.ForcePath, {"force": np.abs(FORCE), "time": TIME}),
     "HardnessLaw": (law_of, {"H0": 1e9 * ONE, "a_star": 1e-6 * ONE}),
     "Hyperboloid": (mdr.Hyperboloid, {"slope": TWO, "tip_radius": ONE}),
+    "MeasuredCurve": (mdr.MeasuredCurve, {"depth": DEPTH, "force": FORCE, "time": TIME}),
     "Medium": (mdr.Medium, {"E_star": 1e9 * ONE, "q_c": ONE, "eta": ONE, "poisson": TWO}),
     "Medium.from_bodies": (mdr.Medium.from_bodies, {"E1": 1e9 * ONE, "nu1": TWO, "q_c": ONE}),
     "ParabolicPunch": (mdr.ParabolicPunch, {"radius": ONE, "cylinder_radius": TWO}),
@@ -88,11 +89,15 @@ CALLS = {
 #: Public names that take no arrays, or only through those above.
 WITHOUT = {
     "ChainImpact", "CurveTable", "Foundation", "HardnessClass", "HardnessFit", "Impact", "Indentation",
-    "IndentationFit", "Limit", "MDRError", "MeasuredCurve", "MeasuredCurves", "Motion", "ObliqueImpact",
+    "IndentationFit", "Limit", "MDRError", "MeasuredCurves", "Motion", "ObliqueImpact",
     "OliverPharr", "Profile", "Quoted", "Remark", "Remedy", "ScalingLaw", "Scene", "Smooth",
     "TimedIndentation", "UnknownColumns", "abel", "chain_impact", "example", "read_curve", "read_curves",
     "scene", "sweep",
 }  # fmt: skip
+
+
+#: Beginnings of names of calls whose arrays are measurements.
+FITS = "fit_indentation", "oliver_pharr"
 
 
 def arrays_in(thing, seen):
@@ -120,13 +125,18 @@ def copied(value):
     return value.copy() if isinstance(value, np.ndarray) else value
 
 
-@pytest.mark.parametrize("name", CALLS)
-def test_arguments_are_not_touched_and_not_kept(name):
+def call_of(name):
+    """A function of `CALLS`, its arguments with new arrays, and others that it needs."""
     function, arguments = CALLS[name]
     parameters = inspect.signature(function).parameters
-    arguments = {key: copied(value) for key, value in arguments.items()}
     others = {"profile": CONE, "medium": MEDIUM, "mean_pressure": 1e8 / ONE}
     others = {key: value for key, value in others.items() if key in parameters and key not in arguments}
+    return function, {key: copied(value) for key, value in arguments.items()}, others
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_arguments_are_not_touched_and_not_kept(name):
+    function, arguments, others = call_of(name)
     given = {
         key: np.array(value) for key, value in arguments.items() if isinstance(value, np.ndarray | list)
     }
@@ -137,6 +147,20 @@ def test_arguments_are_not_touched_and_not_kept(name):
             assert array.flags.writeable, key
             assert not any(np.shares_memory(array, other) for other in kept), key
         np.testing.assert_array_equal(arguments[key], before)
+
+
+@pytest.mark.parametrize("bad", [np.nan, "no number"])
+@pytest.mark.parametrize("name", [name for name in CALLS if not name.startswith(FITS)])
+def test_an_entry_that_is_no_number_is_refused_by_the_name_of_its_argument(name, bad):
+    """Of each array; measurements may have samples without a number, which are left out."""
+    for key, value in CALLS[name][1].items():
+        # Of a displacement the error names the line load, which is transformed alike.
+        if isinstance(value, np.ndarray) and (name, key) != ("surface_displacement", "u"):
+            function, arguments, others = call_of(name)
+            arguments[key] = [*value[:-1].tolist(), bad]
+            with pytest.raises(mdr.MDRError) as refused:
+                function(**others, **arguments)
+            assert refused.value.argument == key
 
 
 def test_every_public_name_is_here():

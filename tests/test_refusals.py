@@ -32,10 +32,7 @@ KILOGRAM, LAZY = Kilogram(), Lazy()
 BETWEEN = "must lie between 1e-60 and 1e+60"
 # A call; argument, value, bound, unit and advice of its error.
 REFUSALS = {
-    "no number": (
-        lambda: mdr.Medium("soft"),
-        ("E_star", "soft", "must be one real number", "Pa", ""),
-    ),
+    "no number": (lambda: mdr.Medium("soft"), ("E_star", "soft", "must be one real number", "Pa", "")),
     "no numbers": (
         lambda: mdr.indent(CONE, MEDIUM, [1e-9, "deep"]),
         ("depth", [1e-9, "deep"], "must be real numbers", "m", ""),
@@ -52,10 +49,7 @@ REFUSALS = {
         lambda: mdr.impact(CONE, MEDIUM, 1.0, [1.0, -2.0, 0.0]),
         ("speed", -2.0, "must be finite and positive", "m/s", "give it in SI units (m/s)"),
     ),
-    "no unit": (
-        lambda: mdr.Cone(-0.3),
-        ("slope", -0.3, "must be finite and positive", "", "check it"),
-    ),
+    "no unit": (lambda: mdr.Cone(-0.3), ("slope", -0.3, "must be finite and positive", "", "check it")),
     "out of bounds": (
         lambda: mdr.impact(CONE, MEDIUM, 1e70, 1.0),
         ("mass", 1e70, BETWEEN, "kg", "give it in SI units (kg)"),
@@ -70,13 +64,7 @@ REFUSALS = {
     ),
     "beyond the tip": (
         lambda: mdr.Sampled([0.0, 1.0], [0.0, 1.0]).height(2.0),
-        (
-            "r",
-            2.0,
-            "must not exceed the known radius of the shape, 1 m",
-            "m",
-            "give a smaller radius",
-        ),
+        ("r", 2.0, "must not exceed the known radius of the shape, 1 m", "m", "give a smaller radius"),
     ),
     "no known name": (
         lambda: mdr.indent(CONE, MEDIUM, 1e-9).stress_peak("tension"),
@@ -114,6 +102,8 @@ def refusal(make):
     """The error of a call that is refused."""
     with pytest.raises(ValueError) as caught:  # noqa: PT011 - its words are a part of what is compared
         make()
+    # Who catches `MDRError` catches all.
+    assert isinstance(caught.value, mdr.MDRError)
     return caught.value
 
 

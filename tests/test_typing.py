@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import tomllib
 from pathlib import Path
 
 import pytest
@@ -30,18 +29,12 @@ def test_a_client_script_passes_a_strict_type_checker():
 
 @pytest.mark.slow
 def test_the_client_script_runs():
-    assert len(CLIENT.read_text(encoding="utf-8").splitlines()) >= 40
     result = run("-m", "tests.client")
     assert result.returncode == 0, result.stderr
 
 
 def test_the_package_says_that_it_is_typed():
     assert (ROOT / "mdr_core" / "py.typed").exists()
-
-
-def test_version_is_that_of_the_project():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-    assert mdr.__version__ == project["project"]["version"]
 
 
 def test_first_calls_need_no_package_of_scipy_for_a_trifle(tmp_path):

@@ -1,6 +1,7 @@
 """Arguments that carry a unit are converted or refused, by the protocols of pint, astropy and unyt."""
 
 from dataclasses import dataclass
+from functools import cache
 from typing import ClassVar
 
 import numpy as np
@@ -37,6 +38,7 @@ class Quantity:
         return np.asarray(self.value)
 
 
+@cache
 def of(package):
     """A maker of quantities: numbers and a unit."""
     if package == "protocol":

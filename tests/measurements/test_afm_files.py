@@ -78,8 +78,6 @@ def test_a_depth_with_the_deflection_in_it_is_not_quoted(tmp_path):
     quoted = mdr.fit_indentation(TIP, read.approach, q_c=np.inf).quoted
     assert (quoted.value, quoted.source, quoted.kind) == (None, None, "deflection")
     assert quoted.remedy == (mdr.Remedy("give", "spring_constant"),)
-    assert quoted.kind == "deflection"
-    assert quoted.remedy == (mdr.Remedy("give", "spring_constant"),)
     # Its arrays alone know nothing of it.
     alone = mdr.fit_indentation(TIP, read.approach.depth, read.approach.force, q_c=np.inf)
     assert alone.quoted.source == "fit"
@@ -94,10 +92,9 @@ def test_a_height_without_a_stiffness_has_a_remark(tmp_path):
     curve().export_data(tmp_path / "run.tab", fmt="tab")
     read = mdr.read_curve(tmp_path / "run.tab")
     assert read.spring_constant is None
-    assert read.remarks == (
-        "'height (measured)' includes the deflection of the cantilever, whose stiffness is not known; "
-        "give spring_constant= (N/m)",
-    )
+    (remark,) = read.remarks
+    assert "'height (measured)'" in remark
+    assert remark.endswith("give spring_constant= (N/m)")
     np.testing.assert_allclose(read.depth, -HEIGHT, atol=1e-7 * np.ptp(HEIGHT))
     np.testing.assert_allclose(read.minus_frame(1 / STIFFNESS).depth, DEPTH, atol=2e-7 * np.ptp(HEIGHT))
     # It is subtracted where it is given.
@@ -143,17 +140,14 @@ def test_columns_of_nova_are_known_by_the_constants_that_are_given(tmp_path):
     np.testing.assert_allclose(read.approach.depth, DEPTH[60 - force.size : 60], atol=1e-14)
 
 
-def test_the_numbers_of_a_map_are_in_order_and_it_is_opened_once(grid, monkeypatch):
+def test_the_numbers_of_a_map_are_in_order(grid):
     """Also where ten and eleven stand before two in the file."""
-    opened, load = [], afmformats.load_data
-    monkeypatch.setattr(afmformats, "load_data", lambda *args, **kw: opened.append(1) or load(*args, **kw))
     curves = mdr.read_curves(grid)
     assert len(curves) == 12
     np.testing.assert_allclose(curves.position, [[2e-6 * k, -1e-6] for k in range(12)], atol=1e-20)
     for k, read in enumerate(curves):
         assert read.force.max() == approx(MODULI[k] * FORCE.max())
         assert read.position.tolist() == curves.position[k].tolist()
-    assert opened == [1]
     part = curves[-2:]
     assert (len(part), part.position[0, 0]) == (2, approx(20e-6))
     with pytest.raises(IndexError):

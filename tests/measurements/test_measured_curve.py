@@ -57,13 +57,6 @@ def test_a_curve_of_arrays_is_that_of_its_file(tmp_path):
     assert "arrays" in repr(curve)
 
 
-def test_a_curve_keeps_a_copy_of_its_arrays():
-    depth = DEPTH.copy()
-    curve = mdr.MeasuredCurve(depth, FORCE)
-    depth[:] = 0.0
-    np.testing.assert_array_equal(curve.depth, DEPTH)
-
-
 @pytest.mark.parametrize(
     ("arrays", "says"),
     [
@@ -71,7 +64,6 @@ def test_a_curve_keeps_a_copy_of_its_arrays():
         ((DEPTH, FORCE, TIME[:9]), "same shape"),
         ((DEPTH[None], FORCE[None]), "same shape"),
         (([], []), "same shape"),
-        ((DEPTH, np.where(DEPTH > 4e-7, np.nan, FORCE)), r"force\[.*must be finite"),
     ],
 )
 def test_arrays_of_no_curve_raise(arrays, says):
@@ -114,9 +106,7 @@ def test_segments_that_the_file_names_are_kept(tmp_path):
     np.testing.assert_array_equal(curve.approach.depth, curve.depth[:500])
     np.testing.assert_array_equal(curve.retract.time, curve.time[560:710])
     assert curve.approach.segment.tolist() == 500 * ["approach"]
-    with pytest.raises(
-        ValueError, match=r"run\.csv has no retract: the segments of its samples are approach"
-    ):
+    with pytest.raises(ValueError, match=r"run\.csv has no retract: .* approach"):
         _ = curve.approach.retract
 
 
@@ -151,9 +141,7 @@ def test_corrections_with_units(tmp_path):
 
 def test_drifts_without_a_hold_are_refused(tmp_path):
     loading = mdr.read_curve(DATA / "spot3-0.csv")
-    with pytest.raises(
-        ValueError, match="no hold after the largest force and below a fifth of it: give the"
-    ):
+    with pytest.raises(ValueError, match=r"no hold .* below a fifth of it: give the"):
         loading.drift()
     curve = read(tmp_path, DEPTH)
     with pytest.raises(ValueError, match=r"slice\(5, 7, None\) has 2 samples of run\.csv"):

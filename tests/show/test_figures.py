@@ -145,7 +145,7 @@ def test_a_fit_is_drawn_with_its_residuals():
     depth = np.append(np.linspace(0.0, 60e-9, 60), np.linspace(60e-9, 50e-9, 30))
     force = mdr.indent(cone, mdr.Medium(1e10, q_c=100.0), depth).force
     force = force + noise * np.random.default_rng(5).standard_normal(depth.size)
-    fit = mdr.fit_indentation(cone, depth + 3e-9, force, force_noise=noise)
+    fit = mdr.fit_indentation(cone, depth + 3e-9, force, force_noise=noise, depth_noise=1e-11)
     curve, below = fit.plot()
     measured = columns(element(curve, hv.Scatter, "measured"))
     np.testing.assert_allclose(measured, [(depth + 3e-9) * 1e9, force * 1e6], rtol=1e-14)
@@ -153,9 +153,10 @@ def test_a_fit_is_drawn_with_its_residuals():
     np.testing.assert_allclose(model, [(depth + 3e-9) * 1e9, (force - fit.residuals) * 1e6], rtol=1e-14)
     (points,) = [each for each in below if isinstance(each, hv.Scatter)]
     np.testing.assert_allclose(columns(points), [(depth + 3e-9) * 1e9, fit.residuals * 1e9], rtol=1e-14)
-    # The band is the given noise on both sides.
+    # The band is the standard deviation of both noises, on both sides.
     (band,) = [each for each in below if isinstance(each, hv.Polygons)]
-    np.testing.assert_allclose(np.ptp(band.dimension_values(1)), 2 * noise * 1e9, rtol=1e-12)
+    largest = np.hypot(noise, 1e-11 * fit.path.stiffness.max())
+    np.testing.assert_allclose(np.ptp(band.dimension_values(1)), 2e9 * largest, rtol=1e-12)
 
 
 def shoelace(x, y):

@@ -33,25 +33,15 @@ def test_eq_12_and_19_yield_line_load_is_reached_at_the_critical_depth():
     assert medium.critical_depth * medium.E_star == approx(medium.yield_line_load, rel=1e-15)
 
 
-def test_without_yield_constant_nothing_yields():
-    assert mdr.Medium(E_star=1.0).critical_depth == math.inf
-
-
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
         ({"E_star": 0.0}, "E_star = 0 Pa must be finite and positive"),
-        ({"E_star": math.nan}, "E_star = nan"),
         ({"E_star": math.inf}, "E_star = inf"),
-        ({"E_star": "1e9"}, "E_star must be one real number"),
         ({"E_star": True}, "E_star must be one real number"),
-        (
-            {"E_star": [1e9, -2e9, 0.0]},
-            r"E_star\[1\] = -2e\+09 Pa must be .* \(and 1 more",
-        ),
+        ({"E_star": [1e9, -2e9, 0.0]}, r"E_star\[1\] = -2e\+09 Pa must be .* \(and 1 more"),
         ({"E_star": [1e9, 2e9], "q_c": [1.0, 2.0, 3.0]}, r"E_star \(2,\), q_c \(3,\) do not broadcast"),
         ({"E_star": 1e9, "q_c": 0.0}, "q_c = 0 N/m must be positive"),
-        ({"E_star": 1e9, "q_c": math.nan}, "q_c = nan"),
         ({"E_star": 1e9, "eta": -1.0}, "eta = -1 Pa·s must be finite and not negative"),
         ({"E_star": 1e300, "q_c": 1e-300}, r"E_star = 1e\+300 Pa must lie between 1e-25 and 1e\+25"),
     ],
@@ -147,13 +137,6 @@ class TestHardness:
         assert mdr.Medium(1e9).hardness_at([1.0, 2.0]).tolist() == [math.inf] * 2
         with pytest.raises(ValueError, match="radius = 0 m must be finite and positive"):
             medium.hardness_at(0.0)
-
-    def test_what_is_not_given(self):
-        assert (mdr.Medium(1e9, hardness=1e6).q_c, mdr.Medium(1e9, f_c=1.0).q_c) == (0.0, 0.0)
-        assert mdr.Medium(1e9, q_c=5.0).hardness == mdr.Medium(1e9, q_c=5.0).f_c == 0.0
-        glass = mdr.Medium.from_bodies(70e9, 0.2, hardness=9e9)
-        assert (glass.q_c, glass.hardness, glass.poisson) == (0.0, 9e9, 0.2)
-        assert repr(glass.entries(())) == repr(glass)
 
     @pytest.mark.parametrize(
         ("arguments", "says"),

@@ -5,6 +5,8 @@ import pytest
 
 import mdr_core as mdr
 
+from ...said import remark_of
+
 DEPTH = np.append(np.linspace(-5e-9, 60e-9, 100), np.linspace(60e-9, 25e-9, 100))
 TIPS = (mdr.Paraboloid(1e-6), mdr.Cone(0.3))
 
@@ -76,7 +78,7 @@ def test_units_of_measured_hardnesses_are_named(factor):
     assert mdr.fit_hardness(TIPS[1], state.mean_pressure, radius, **data).remarks == ()
     pressure, length = factor
     fit = mdr.fit_hardness(TIPS[1], pressure * state.mean_pressure, length * radius, **data)
-    (remark,) = [each for each in fit.remarks if each.kind == "units"]
+    remark = remark_of(fit, "units")
     assert remark.remedy[0].what == ("radius" if length > 1 else "mean_pressure")
 
 

@@ -11,6 +11,7 @@ import mdr_core as mdr
 from mdr_core.measurements.files import packed
 from mdr_core.measurements.files.table import read_tables
 
+from ...said import remark_of
 from .curves import DEPTH, FORCE, PIEZO, SMALL, STIFFNESS, assert_curve, rows
 
 NM, MN = 1e9 * DEPTH, 1e3 * FORCE
@@ -66,7 +67,7 @@ def test_numbers_of_1e30_and_more_are_missing(write):
     curve = mdr.read_curve(write("Depth (nm),Load (mN)\n" + "\n".join(lines)))
     keep = [k for k in range(75) if k not in (3, 7, 9)]
     assert_curve(curve, DEPTH[keep], FORCE[keep])
-    assert curve.remarks == ("left out lines 5, 9, 11: a cell is missing or not a number",)
+    assert "5, 9, 11" in remark_of(curve, "left out")
     lines[3], lines[7], lines[9] = "1.797e308,2", "3,1.797e308", "5,-1.797e308"
     assert mdr.read_curve(write("Depth (nm),Load (mN)\n" + "\n".join(lines))).remarks == curve.remarks
 
@@ -95,9 +96,7 @@ def test_a_workbook_that_unpacks_to_gigabytes_is_refused(tmp_path, monkeypatch):
         file.open("xl/media/a.bin", "w") as zeros,
     ):
         zeros.write(bytes(6_000_000))
-    with pytest.raises(
-        ValueError, match=r"run\.xlsx unpacks to 0\.006\d* GB, and at most 0\.005 GB are read"
-    ):
+    with pytest.raises(ValueError, match=r"run\.xlsx .* 0\.006\d* GB.* 0\.005 GB"):
         mdr.read_curves(path)
     archive = path.rename(tmp_path / "run.zip")
     with pytest.raises(ValueError, match=r"run\.zip unpacks to 0\.006"):
@@ -175,11 +174,8 @@ def test_a_table_of_too_many_lines_is_refused_before_it_takes_memory(end):
     assert peak_of(refused) < 1e6
 
 
-@pytest.mark.parametrize(
-    "row",
-    ["0.001,1.2345", "1.2345678901,3.4567890123,0.123", "0,001;1,234;loading"],
-)
+@pytest.mark.parametrize("row", ["0.001,1.2345", "1.2345678901,3.4567890123,0.123", "0,001;1,234;loading"])
 def test_a_table_takes_at_most_twenty_times_its_size(row):
     """Cells, which would take up to fifty times the size, are not kept."""
-    text = "depth (nm), force (mN)\n" + f"{row}\n" * 20_000
+    text = "depth (nm), force (mN)\n" + f"{row}\n" * 5_000
     assert peak_of(lambda: read_tables(text, "curve.csv")) < 20 * len(text)

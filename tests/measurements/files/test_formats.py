@@ -43,7 +43,7 @@ def test_text_of_jpk_has_its_own_constants(write, unit, size):
     assert curve.segment.tolist() == 56 * ["approach"] + 19 * ["retract"]
     assert curve.columns["piezo"] == (0, "−m")
     assert curve.source == "as JPK's text has them"
-    assert "the spring constant of the cantilever, 0.05 N/m, is taken from the file" in curve.remarks
+    assert "0.05 N/m" in " ".join(curve.remarks)
     np.testing.assert_allclose(curve.time, TIME)
 
 
@@ -59,9 +59,7 @@ def test_a_separation_of_jpk_is_the_depth(write):
 
 def test_text_of_jpk_without_a_stiffness_is_asked_about(write):
     path = write(jpk(COLUMNS, "m N m s", (-PIEZO, SMALL, -PIEZO, TIME)))
-    with pytest.raises(
-        mdr.UnknownColumns, match=r"'measuredHeight' is the position of a piezo.* give spring_cons"
-    ) as error:
+    with pytest.raises(mdr.UnknownColumns, match=r"'measuredHeight' .* give spring_cons") as error:
         mdr.read_curves(path)
     # Of a table the segments would be curves.
     assert error.value.suggestion == {}

@@ -5,7 +5,7 @@ import pytest
 
 import mdr_core as mdr
 
-from .curves import DEPTH, FORCE, PIEZO, SMALL, STIFFNESS, TIME, assert_curve, rows
+from .curves import DEPTH, FORCE, TIME, assert_curve, rows
 
 NM, MN = 1e9 * DEPTH, 1e3 * FORCE
 COLUMNS = {"depth": (1, "nm"), "force": (2, "mN")}
@@ -36,7 +36,7 @@ def test_where_the_depth_starts_anew_is_asked_about(asked, write, head, labels, 
     """A column that changes there tells the curves apart; cycles are suggested as one record."""
     text = labelled(head, labels)
     error = asked(text)
-    assert error.why.startswith("the depth starts anew at line 77")
+    assert "anew at line 77" in error.why
     assert error.suggestion == {"columns": COLUMNS, "by": by}
     curves = mdr.read_curves(write(text), **error.suggestion)
     if by == "whole":
@@ -139,9 +139,7 @@ def test_positions_with_noise_are_refused_with_their_number(write):
             f"{a:.9f},{b:.9g},{c:.9g}" for a, b, c in zip(x, np.tile(NM, 2), np.tile(MN, 2), strict=True)
         )
     )
-    with pytest.raises(
-        ValueError, match=r"'x' has 150 values in 150 rows, perhaps with noise .* by='restart'"
-    ):
+    with pytest.raises(ValueError, match=r"'x' has 150 values in 150 rows.* by='restart'"):
         mdr.read_curves(path, by="x")
 
 
@@ -195,7 +193,7 @@ def test_parts_that_do_not_meet_are_asked_about(write):
     columns = [{"depth": (0, "nm"), "force": (1, "mN")}, {"depth": (2, "nm"), "force": (3, "mN")}]
     with pytest.raises(
         mdr.UnknownColumns,
-        match=r"approach and retract do not meet: the force is 8\.944 .* 'a', and 0 .* 'c'",
+        match=r"do not meet: .* 8\.944 .* 'a', and 0 .* 'c'",
     ):
         mdr.read_curves(write(text), columns=columns, by="segments")
 
@@ -291,7 +289,7 @@ def test_sheets_of_results_and_settings_are_left_out_and_named(tmp_path):
     (curve,) = mdr.read_curves(path)
     assert_curve(curve)
     assert curve.stiffness.tolist() == [2e4] * DEPTH.size
-    assert "'Results' is left out, as it has no curve" in curve.remarks
+    assert [remark.kind for remark in curve.remarks if "'Results'" in remark] == ["left out"]
     assert curve.name == "tests.xlsx, Test 001"
 
 
@@ -352,16 +350,6 @@ def test_where_no_sheet_is_plain_the_question_is_raised_at_once(tmp_path):
     with pytest.raises(mdr.UnknownColumns, match="Tests: which column") as error:
         mdr.read_curves(path)
     assert_curve(mdr.read_curves(path, **error.value.suggestion)[0])
-
-
-def test_a_stiffness_goes_with_a_suggestion(asked, write):
-    error = asked("Z (nm),Force (nN)\n" + rows(1e9 * PIEZO, 1e9 * SMALL), spring_constant=STIFFNESS)
-    curve = mdr.read_curve(
-        write("Z (nm),Force (nN)\n" + rows(1e9 * PIEZO, 1e9 * SMALL)),
-        spring_constant=STIFFNESS,
-        **error.suggestion,
-    )
-    assert_curve(curve, DEPTH, SMALL)
 
 
 def test_the_table_with_a_length_a_force_and_the_most_rows_is_asked_about(write):

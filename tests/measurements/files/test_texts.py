@@ -4,6 +4,7 @@ import pytest
 
 import mdr_core as mdr
 
+from ...said import remark_of
 from .curves import DEPTH, FORCE, TIME, assert_curve, rows
 
 
@@ -34,19 +35,15 @@ def test_thousands_are_separated_in_several_ways(write, head, form):
 
 
 def test_a_comma_that_may_be_either_is_refused(write):
-    with pytest.raises(
-        ValueError, match="the comma of '1,024' may be a decimal sign, or separate thousands"
-    ):
+    with pytest.raises(ValueError, match=r"comma of '1,024' .* thousands"):
         mdr.read_curve(write("Depth (nm)\tLoad (mN)\n0\t0\n512\t2\n1,024\t8\n2,048\t32\n"))
-    with pytest.raises(ValueError, match=r"'0,5' .* '1\.024' may be a thousand times larger"):
+    with pytest.raises(ValueError, match=r"'0,5' .* '1\.024' .* thousand"):
         mdr.read_curve(write("Depth (nm);Load (mN)\n0;0,5\n1.024;8,0\n2.048;32,0\n"))
 
 
 def test_a_point_that_may_separate_thousands_is_refused(write):
     """512 and 1.024 nm, as Germans write whole numbers, were 512 and 1.024."""
-    with pytest.raises(
-        ValueError, match=r"the point of '1\.024' may be a decimal sign, or separate thousands"
-    ):
+    with pytest.raises(ValueError, match=r"point of '1\.024' .* thousands"):
         mdr.read_curve(write("Depth (nm);Load (mN)\n0;0.5\n512;2\n1.024;8.5\n2.048;32.5\n"))
     # A number below 1, or of other digits, has a decimal point.
     for other in ("0.512", "1.5"):
@@ -58,7 +55,7 @@ def test_a_line_of_numbers_is_no_header(write):
     head = "Hysitron\nTime (s)\tDisp (nm)\tForce (µN)\n0.5\t1.5\t2.5\neoh\n"
     curve = mdr.read_curve(write(head + rows(TIME, 1e9 * DEPTH, 1e6 * FORCE, between="\t")))
     assert_curve(curve)
-    assert curve.remarks == ("left out line 3: a cell is missing or not a number",)
+    assert "line 3:" in remark_of(curve, "left out")
 
 
 def test_settings_above_the_header_are_no_rows(write):

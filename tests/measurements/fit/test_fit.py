@@ -11,6 +11,7 @@ import mdr_core as mdr
 from mdr_core.show.report import with_error
 
 from ...approx import approx
+from ...said import kinds
 from ...shapes import SHAPES, name
 
 E, Q = 10e9, 127.3
@@ -116,7 +117,7 @@ class TestIndentation:
         for size in (0.0, 0.12e-9):
             held = {"q_c": 0.0, "contact_point": 0.0, "hardness": None}
             fits.append(mdr.fit_indentation(mdr.Cone.berkovich(), depth + size * normal, force, **held))
-            assert "noise" not in {remark.kind for remark in fits[-1].remarks}
+            assert "noise" not in kinds(fits[-1])
         change = fits[1].medium.E_star - fits[0].medium.E_star
         assert abs(change) < 0.1 * fits[0].standard_errors["E_star"]
 
@@ -125,7 +126,7 @@ class TestIndentation:
         depth, force = noisy(profile, 1, seed=2, depth_noise=1e-9)
         assert np.count_nonzero(np.diff(depth[0][back]) > 0) > 0.1 * OUT[back].size
         fit = mdr.fit_indentation(profile, depth[0][back], force[0][back])
-        assert "noise" not in {remark.kind for remark in fit.remarks}
+        assert "noise" not in kinds(fit)
 
     def test_rows_are_the_curves_one_by_one(self):
         profile = mdr.Sphere(1e-6)
@@ -180,7 +181,7 @@ class TestIndentation:
         profile = mdr.Cone(0.3)
         depth, force = noisy(profile, 1, seed=4, depth=OUT[:100])
         fit = mdr.fit_indentation(profile, depth[0], force[0])
-        assert "vague" in {remark.kind for remark in fit.remarks}
+        assert "vague" in kinds(fit)
         assert fit.standard_errors["E_star"] > 0.02 * fit.medium.E_star
 
     @pytest.mark.parametrize("depth_noise", [0.0, 0.2e-9])
@@ -195,24 +196,6 @@ class TestIndentation:
             force = force + 0.002 * force.max() * random.normal(size=force.size)
             fit = mdr.fit_indentation(profile, measured, force, depth_noise=depth_noise)
             assert any("not of class (b)" in remark for remark in fit.remarks) == told, fit.remarks
-
-    def test_units(self):
-        """Depth in nm and force in µN make a modulus of 95 mPa and less."""
-        F = curve(mdr.Cone(0.3))
-        fit = mdr.fit_indentation(mdr.Cone(0.3), 1e9 * OUT, 1e6 * F)
-        assert fit.remarks[0].kind == "units"
-        assert [each.what for each in fit.remarks[0].remedy] == ["depth", "force"]
-
-    def test_one_curve_has_no_parts(self):
-        fit = mdr.fit_indentation(mdr.Cone(0.3), OUT, curve(mdr.Cone(0.3)))
-        with pytest.raises(TypeError, match="single result"):
-            fit[0]
-
-    def test_representation(self):
-        depth, force = noisy(mdr.Cone(0.3), 1, seed=6)
-        text = repr(mdr.fit_indentation(mdr.Cone(0.3), depth[0], force[0], force_noise=1e-8))
-        for word in ("E*", "GPa", " ± ", "baseline F₀", "(held)", "reduced χ²"):
-            assert word in text
 
     @pytest.mark.parametrize(
         ("change", "message"),
@@ -239,6 +222,7 @@ class TestIndentation:
 
 
 class TestRealCurves:
+    @pytest.mark.few(6)
     @pytest.mark.parametrize("order", ["time", "reversed", "random"])
     @pytest.mark.parametrize("segment", ["approach", "retract"])
     @pytest.mark.parametrize("name", AFM)
@@ -251,7 +235,7 @@ class TestRealCurves:
         for model, reference in REFERENCE[name][segment].items():
             fit = mdr.fit_indentation(HERTZ[model], depth[rows], force[rows], q_c=np.inf, baseline=None)
             # Loading, unloading and the largest depth so far mean nothing to an elastic medium.
-            assert not {remark.kind for remark in fit.remarks} & {"noise"}
+            assert not kinds(fit) & {"noise"}
             assert fit.medium.E_star == approx(reference["E_star"], rel=1e-4)
             squares = np.sum((1e9 * fit.residuals) ** 2)
             assert squares == approx(reference["sum_of_squares"], rel=1e-3)
@@ -276,7 +260,7 @@ class TestRealCurves:
         fit = mdr.fit_indentation(HERTZ["hertz_para"], depth, force, q_c=np.inf, baseline=None)
         assert any("1.878 kPa" in remark and "fits about as well" in remark for remark in fit.remarks)
         fit = mdr.fit_indentation(HERTZ["hertz_para"], *measured("spot3-0", "retract"), q_c=np.inf)
-        assert "undetermined" not in {remark.kind for remark in fit.remarks}
+        assert "undetermined" not in kinds(fit)
 
     def test_misfit_of_silica(self):
         """In terms of the force 1.3 % is the least that is possible; weights by a depth noise have more."""
@@ -291,17 +275,6 @@ class TestRealCurves:
         medium, depth = mdr.Medium(E, q_c=q_c), np.linspace(60e-9, 45e-9, 50)
         fit = mdr.fit_indentation(mdr.Cone(0.3), depth, curve(mdr.Cone(0.3), medium, depth))
         assert (fit.medium.E_star, fit.medium.q_c) == approx((E, q_c), rel=1e-9)
-
-
-def test_paths_of_many_media():
-    """Each row is the path on its own medium; media along the axis of the path are refused."""
-    profile, media = mdr.Sphere(1e-6), mdr.Medium([[E], [2 * E]], q_c=[[Q], [3 * Q]])
-    path = mdr.indent(profile, media, OUT)
-    for i, (modulus, q_c) in enumerate(((E, Q), (2 * E, 3 * Q))):
-        # The same closed form on other array lengths: a few units of rounding.
-        assert path.force[i] == approx(curve(profile, mdr.Medium(modulus, q_c=q_c)), rel=1e-13, abs=1e-20)
-    with pytest.raises(ValueError, match="path"):
-        mdr.indent(profile, mdr.Medium([E, 2 * E]), [1e-9, 2e-9])
 
 
 class TestHardness:
@@ -372,7 +345,7 @@ class TestHardness:
         p_m, a = state.mean_pressure * np.exp(0.02 * random.normal(size=8)), state.contact_radius
         given = {"E_star": E, "hardness": None, "q_c": None}
         fit = mdr.fit_hardness(mdr.Cone(0.3), p_m, a, **given)
-        assert "constant" in {remark.kind for remark in fit.remarks}
+        assert "constant" in kinds(fit)
         with pytest.raises(ValueError, match="do not determine hardness and q_c"):
             mdr.fit_hardness(mdr.Cone(0.3), p_m[:2], a[:2], **given)
         with pytest.raises(ValueError, match="all held"):

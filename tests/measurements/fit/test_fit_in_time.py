@@ -1,8 +1,5 @@
 """Fits of curves in time: background, viscosity, holds; weights, samples left out, lists of curves."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -10,10 +7,10 @@ import mdr_core as mdr
 from mdr_core.measurements.fit.measurement import rates
 
 from ...approx import approx
+from ...said import kinds, remark_of
 from ...shapes import name
+from .test_fit import DATA, REFERENCE
 
-DATA = Path(__file__).parents[2] / "data"
-REFERENCE = json.loads((DATA / "reference.json").read_text())
 E, ETA, DEPTH = 5e3, 62.5, 5e-7  # τ = 50 ms
 TIME = np.linspace(0.0, 1.0, 241)
 #: Approach, hold and retract; a triangle; a faster retract, whose corner lies between two samples.
@@ -83,6 +80,8 @@ class TestInverse:
         fit = mdr.fit_indentation(profile, z[keep], force[keep], time=TIME[keep], q_c=np.inf, **FREE)
         assert (fit.medium.E_star, fit.medium.eta) == approx((E, ETA), rel=1e-4)
 
+    @pytest.mark.slow
+    @pytest.mark.few(1)
     @pytest.mark.parametrize("path", PATHS)
     def test_errors_are_those_of_repeated_measurements(self, path):
         """The standard deviation of the pulls of 60 curves is known to 9 %: four of these around 1."""
@@ -113,8 +112,7 @@ class TestInverse:
 class TestRealCurves:
     @pytest.mark.parametrize("name", ["spot3-0", "map2x2-2"])
     @pytest.mark.parametrize(
-        ("free", "key"),
-        [((), "rms_elastic_no_drag"), (("drag",), "rms_elastic"), (("drag", "eta"), "rms")],
+        ("free", "key"), [((), "rms_elastic_no_drag"), (("drag",), "rms_elastic"), (("drag", "eta"), "rms")]
     )
     def test_residuals_of_both_segments(self, name, free, key):
         """Root mean square over the range of force, at most 1.02 times that of a search by brute force."""
@@ -164,7 +162,7 @@ class TestSamples:
         assert fit.to_dict() == approx(other.to_dict(), rel=1e-9)
         assert fit.residuals[keep] == approx(other.residuals, rel=1e-6)
         assert np.isnan(fit.residuals[~keep]).all()
-        assert "3 of 180 samples have no number and are left out" in fit.remarks[-1]
+        assert "3 of 180 samples" in remark_of(fit, "left out")
 
     def test_weights(self):
         """A sample of half the variance counts as one that was measured twice, in errors too."""
@@ -203,7 +201,7 @@ class TestSamples:
         force[0, 5] = np.nan
         fits = mdr.fit_indentation(self.PROFILE, [z, 1e9 * z], [force[0], 1e6 * force[1]])
         assert [each.what for each in fits.remarks[0].remedy] == ["depth", "force"]
-        assert "1 of 180 samples have no number and are left out" in fits.remarks[-1]
+        assert "1 of 180 samples" in fits.remarks[-1]
 
     def test_white_residuals_have_no_blocks(self):
         z, force, _ = self.noisy(50)
@@ -239,22 +237,6 @@ class TestSamples:
         assert data.E_star_error.attrs["units"] == "Pa"
         assert data.attrs["remarks"].splitlines() == list(fits.remarks)
 
-    @pytest.mark.slow
-    def test_plot(self):
-        """Points are what was measured; the band is the standard deviation of both noises."""
-        hv = pytest.importorskip("holoviews")
-        z, (force,), _ = self.noisy()
-        fit = mdr.fit_indentation(self.PROFILE, z, force, depth_noise=1e-10, force_noise=1e-8)
-        curve, residual = fit.plot()
-        (points,) = [e for e in curve if isinstance(e, hv.Scatter)]
-        assert 1e-9 * points.dimension_values(0) == approx(z)
-        assert 1e-6 * points.dimension_values(1) == approx(force)
-        (band,) = [e for e in residual if isinstance(e, hv.Polygons)]
-        largest = np.hypot(1e-8, 1e-10 * fit.path.stiffness.max())
-        assert 1e-6 * band.dimension_values(1).max() == approx(largest)
-        with pytest.raises(ValueError, match="needs a single curve"):
-            mdr.fit_indentation(self.PROFILE, [z, z], [force, force]).plot()
-
 
 class TestYieldAndViscosity:
     """A cone pressed to five critical depths in 6.7 s; the record begins at −d/2 and ends there."""
@@ -267,6 +249,7 @@ class TestYieldAndViscosity:
         medium = mdr.Medium(1e9, q_c=self.MEDIUM.q_c, eta=tau * 1e9 / 4)
         return mdr.indent_in_time(self.CONE, medium, self.DEPTH, self.TIME, tolerance=1e-6).force
 
+    @pytest.mark.few(2)
     @pytest.mark.parametrize("tau", [0.8, 1.2, 2.0, 4.0])
     def test_dashpots_do_not_stand_for_springs(self, tau):
         """0.1 % of noise; an E* within 20 %, of which the statistical error is at most 6 %."""
@@ -295,7 +278,7 @@ class TestYieldAndViscosity:
         fit = mdr.fit_indentation(self.CONE, self.DEPTH, force, time=self.TIME, eta=None)
         assert np.isinf(fit.standard_errors["E_star"])
         said = " ".join(fit.remarks)
-        assert "undetermined" in {remark.kind for remark in fit.remarks}
+        assert "undetermined" in kinds(fit)
         assert not any(word in said for word in ("class", "tip", "unloading", "inf %"))
 
 

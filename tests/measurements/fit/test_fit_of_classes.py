@@ -106,6 +106,7 @@ def test_derivatives_are_those_of_the_force(profile, constants):
         assert jacobian[..., i] == approx(difference, abs=1e-7 * size), curves.free[i]
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("constants", [MIXTURES[0], MIXTURES[2]], ids=" and ".join)
 @pytest.mark.parametrize("depth_noise", [0.0, 0.2e-9])
 def test_errors_are_those_of_repeated_measurements(constants, depth_noise):
@@ -202,6 +203,7 @@ class TestRemarks:
         both = made(self.PROFILE, {"hardness": 0.3e9, "q_c": 60.0}, 1, seed=3)[0]
         assert not mdr.fit_indentation(self.PROFILE, OUT, both, hardness=None, q_c=None).remarks
 
+    @pytest.mark.few(1)
     @pytest.mark.parametrize("constants", MIXTURES[2:], ids=" and ".join)
     def test_noise_alone(self, constants):
         """Constants may be 0 at once in a search; the record has no contact, and a remark says so."""
@@ -262,12 +264,7 @@ class TestVerdict:
         """With all that the fit was given: noise of force and depth, a held first contact, a baseline."""
         force = made(self.PROFILE, ALONE["a"], 3, seed=8) + 1e-6
         depth = OUT + 2e-10 * np.random.default_rng(9).normal(size=force.shape)
-        given = {
-            "contact_point": 0.0,
-            "baseline": None,
-            "depth_noise": 2e-10,
-            "force_noise": 1e-7,
-        }
+        given = {"contact_point": 0.0, "baseline": None, "depth_noise": 2e-10, "force_noise": 1e-7}
         fit = mdr.fit_indentation(self.PROFILE, depth, force, hardness=None, **given)
         # With a free baseline over the range of the record, which is the same for all classes.
         own, load = fit.classes["a"], np.ptp(fit.force, axis=1)
@@ -279,6 +276,7 @@ class TestVerdict:
             # The minimum is known to the square root of rounding.
             assert single[letter].misfit == approx(each.misfit[1], rel=1e-6)
 
+    @pytest.mark.few(1)
     @pytest.mark.parametrize(
         "free", [{"baseline": None}, {"baseline": None, "tilt": None}], ids=" and ".join
     )
@@ -302,13 +300,6 @@ class TestVerdict:
         fit = mdr.fit_indentation(self.PROFILE, [OUT, OUT[:-20]], forces)
         assert (fit.classes["a"].misfit < fit.classes["b"].misfit).tolist() == [True, False]
         assert "class of hardness        (b)" in repr(fit[1])
-
-    def test_found_when_first_read(self):
-        force = made(self.PROFILE, ALONE["a"], 2, seed=8)
-        fit = mdr.fit_indentation(self.PROFILE, np.tile(OUT, (2, 1)), force)
-        assert "class of hardness" not in repr(fit)
-        assert "classes" not in vars(fit)
-        assert fit.classes is fit.classes
 
     def test_without_a_verdict(self):
         """Elastic and viscous media have none; a shape that is not convex none of class (a)."""

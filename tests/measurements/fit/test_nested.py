@@ -8,6 +8,7 @@ import pytest
 import mdr_core as mdr
 
 from ...approx import approx
+from ...said import kinds, remark_of
 from .test_fit import AFM, measured
 from .test_fit_in_time import fit_of
 
@@ -115,13 +116,13 @@ class TestYielding:
         """As the docstring of the fit says. In so little noise it is seen, and its rate told."""
         fit = self.fit(self.RAMP, 1e-10)
         assert 0.01 < fit.medium.E_star / METAL.E_star - 1 < 0.06
-        (remark,) = (remark for remark in fit.remarks if remark.kind == "drift")
+        remark = remark_of(fit, "drift")
         rate = float(re.search(r"a drift of (\S+) pm/s", remark)[1])
         assert rate == approx(100, rel=0.05)
 
     def test_a_hold_tells_it(self):
         fit = self.fit(self.HOLD, 1e-10)
-        (remark,) = [remark for remark in fit.remarks if remark.kind == "creep"]
+        remark = remark_of(fit, "creep")
         rate, said = re.search(
             r"depth changes by (\S+) pm/s: this is creep, or a drift.* by (\S+) %", remark
         ).groups()
@@ -136,12 +137,12 @@ class TestYielding:
         """In 20 s at the largest load, with the noise of the force and none of the depth."""
         depth = 1e-9 * np.interp(self.TIME, [0, 5, 85, 105, 140], [-20, 0, 300, 300, 250])
         fit = self.fit(depth, 1e-10, noise, mdr.Medium(70e9, q_c=2e3))
-        (remark,) = [remark for remark in fit.remarks if remark.kind == "creep"]
+        remark = remark_of(fit, "creep")
         rate = float(re.search(r"depth changes by (\S+) pm/s", remark)[1])
         assert rate == approx(100, rel=0.05)
         # A ramp is none, whatever the noise.
         ramp = self.fit(self.RAMP, 1e-10, noise, mdr.Medium(70e9, q_c=2e3))
-        assert "creep" not in {remark.kind for remark in ramp.remarks}
+        assert "creep" not in kinds(ramp)
 
 
 class TestData:
@@ -175,6 +176,7 @@ class TestData:
             assert words in fit.remarks[0]
             assert not mdr.fit_indentation(tip, depth, force, **free).remarks
 
+    @pytest.mark.few(2)
     @pytest.mark.parametrize("baseline", [0.0, None])
     @pytest.mark.parametrize("noise", [0.0, 0.003, 0.01])
     def test_columns_of_a_yielding_cone_pressed_only(self, baseline, noise):
@@ -212,12 +214,13 @@ class TestContactIsSeen:
         fit = mdr.fit_indentation(BALL, depth, force, time=time, q_c=np.inf, baseline=None)
         assert NO_CONTACT not in str(fit.remarks)
 
+    @pytest.mark.few(2)
     @pytest.mark.parametrize("start", [-1e-7, 0.0, 2e-7, 5e-7])
     def test_in_a_noisy_record_that_begins_at_contact_or_in_it(self, start):
         """With noise of 20 % of the force: the contact explains half of the variance or more."""
         depth = np.interp(TIME, [0, 1, 2], [start, 1e-6, start])
         force = mdr.indent(BALL, GEL, depth).force
-        for seed in range(5):
+        for seed in range(3):
             noise = 0.2 * force.max() * np.random.default_rng(seed).normal(size=force.size)
             fit = mdr.fit_indentation(BALL, depth, force + noise, q_c=np.inf, baseline=None)
             assert NO_CONTACT not in str(fit.remarks)

@@ -4,7 +4,6 @@ import copy
 import json
 import pickle
 import re
-from dataclasses import FrozenInstanceError
 
 import numpy as np
 import pytest
@@ -15,6 +14,7 @@ from mdr_core.measurements.fit.parameters import PARAMETERS
 from mdr_core.measurements.fit.result import IndentationFit
 
 from ...benchmarks.remarks import GEL, beside_fits, of_a_kind, of_unloadings
+from ...said import kinds, remark_of
 from .families import KINDS as MEDIA
 from .families import curve
 from .test_fit import silica
@@ -50,18 +50,19 @@ def sound(remark):
 
 def test_all_that_is_said_of_curves_is_a_remark():
     """On curves of three media with one thing wrong each, their unloadings, on files, tips, hardnesses."""
-    kinds = set()
+    seen = set()
     for medium in MEDIA.values():
-        for result, _ in (*of_a_kind(medium, 0), *of_unloadings(medium, 0), *beside_fits()):
+        others = beside_fits() if medium is GEL else ()
+        for result, _ in (*of_a_kind(medium, 0), *of_unloadings(medium, 0), *others):
             assert all(map(sound, result.remarks))
-            kinds |= {remark.kind for remark in result.remarks}
+            seen |= kinds(result)
             if isinstance(result, IndentationFit) and not result.shape:
                 quoted = result.quoted
                 assert not PYTHON.search(quoted.reason), quoted.reason
                 assert (quoted.kind is None) == (quoted.value is not None)
                 assert quoted.kind is None or sound(mdr.Remark(quoted.reason, quoted.kind, *quoted.remedy))
     # Most of the two dozen; the others are of maps, and of noise that is not the same everywhere.
-    assert len(kinds) > 16
+    assert len(seen) > 16
 
 
 def test_a_remark_stays_one():
@@ -77,8 +78,6 @@ def test_a_remark_stays_one():
         "text": "η is 0",
         "remedy": [{"action": "hold", "what": "eta", "value": 0.0}],
     }
-    with pytest.raises(FrozenInstanceError):
-        remedy[0].value = 1.0
 
 
 def test_a_kind_or_an_action_that_is_none_is_refused():
@@ -98,7 +97,7 @@ def test_a_remedy_does_what_it_says():
                 given = {remedy.what: None if remedy.action == "free" else remedy.value}
                 options = dict(GEL.options) | {"time": result.time} | given
                 again = mdr.fit_indentation(GEL.tip, result.depth, result.force, **options)
-                assert remark.kind not in {each.kind for each in again.remarks}
+                assert remark.kind not in kinds(again)
 
 
 def test_of_many_curves_the_first_is_told_with_their_number():
@@ -107,9 +106,9 @@ def test_of_many_curves_the_first_is_told_with_their_number():
     depth, force, _ = curve(medium, "clean", 0.0, 0)
     force = np.stack([force, *(force + 0.05 * force.max() * depth / 1e-6,) * 2])
     fit = mdr.fit_indentation(medium.tip, [depth] * 3, force, **medium.options)
-    (tilt,) = (remark for remark in fit.remarks if remark.kind == "tilt")
+    tilt = remark_of(fit, "tilt")
     assert tilt.startswith("curve 1 (2 of 3 curves): a tilt of ")
-    (own,) = (remark for remark in fit[1].remarks if remark.kind == "tilt")
+    own = remark_of(fit[1], "tilt")
     assert tilt.text.endswith(own.text)
     assert tilt.remedy == own.remedy
     assert not own.startswith("curve")
@@ -170,7 +169,7 @@ class TestIdealTip:
             assert (result.E_star / true > 1.1) == said
             assert said or result.E_star / true < 1.05
         for result in (held, unloading):
-            assert ("tip" in {remark.kind for remark in result.remarks}) == said
+            assert ("tip" in kinds(result)) == said
             assert not said or result.remarks[-1].kind == "tip"
 
     def test_a_fitted_first_contact_takes_the_rounding_up(self):
@@ -179,13 +178,13 @@ class TestIdealTip:
         fit = mdr.fit_indentation(self.IDEAL, depth, force, hardness=None)
         assert abs(fit.medium.E_star / 70e9 - 1) < 0.03
         assert fit.contact_point < -15e-9
-        assert "tip" not in {remark.kind for remark in fit.remarks}
+        assert "tip" not in kinds(fit)
 
     def test_of_a_tip_with_a_radius_nothing_is_said(self):
         depth, force = self.record(100e-9)
         for tip in (self.REAL, mdr.Sampled.from_area_function([24.5, 150.0], 1e-6, unit="nm")):
             result = mdr.oliver_pharr(tip, depth[20:], force[20:])
-            assert "tip" not in {remark.kind for remark in result.remarks}
+            assert "tip" not in kinds(result)
 
 
 def test_a_modulus_below_1_kPa_is_asked_about():
@@ -193,10 +192,10 @@ def test_a_modulus_below_1_kPa_is_asked_about():
     depth, force, _ = silica()
     wrong = mdr.oliver_pharr(mdr.Cone.berkovich(), 1e3 * depth, 1e-3 * force)
     assert 1.0 < wrong.E_star < 1e3
-    (remark,) = (each for each in wrong.remarks if each.kind == "units")
+    remark = remark_of(wrong, "units")
     assert {each.what for each in remark.remedy} == {"depth", "force"}
     right = mdr.oliver_pharr(mdr.Cone.berkovich(), depth, force)
-    assert "units" not in {each.kind for each in right.remarks}
+    assert "units" not in kinds(right)
 
 
 def test_remedies_that_belong_together_are_joined_by_and_others_by_or():

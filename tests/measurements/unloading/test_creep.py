@@ -6,6 +6,7 @@ import pytest
 import mdr_core as mdr
 
 from ...approx import approx
+from ...said import kinds
 
 TIP, E, H, PEAK = mdr.Cone.berkovich(), 70e9, 9e9, 0.1
 
@@ -64,7 +65,7 @@ def test_where_the_depth_grows_while_the_force_falls(kind):
 def test_less_than_a_twentieth_has_no_remark():
     time, depth, force = record(0.03, "viscous")
     result = mdr.oliver_pharr(TIP, depth, force, time=time)
-    assert "creep" not in {remark.kind for remark in result.remarks}
+    assert "creep" not in kinds(result)
     assert result.E_star == approx(E, rel=1e-3)
 
 
@@ -84,6 +85,7 @@ def triangle(count, noise, seed):
     return np.linspace(0, 10, count), depth, noisy
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("count", [400, 2000])
 @pytest.mark.parametrize("noise", [1e-3, 4e-3, 1e-2])
 def test_the_tip_of_a_triangle_is_no_hold(count, noise):
@@ -107,14 +109,14 @@ def test_the_hold_that_is_taken_is_said(noise):
 
 
 def test_the_noise_of_the_rate_is_in_the_error():
-    """Root mean square of 30 pulls with 0.5 nm of noise of the depth, known to 13 %: at most 1.5."""
+    """Root mean square of 20 pulls with 0.5 nm of noise of the depth, known to 16 %: at most 1.6."""
     time, depth, force = record(0.1, "viscous")
     pulls = []
-    for seed in range(30):
+    for seed in range(20):
         noisy = depth + 0.5e-9 * np.random.default_rng(seed).normal(size=depth.size)
         result = mdr.oliver_pharr(TIP, noisy, force, time=time)
         pulls.append((result.E_star - E) / result.standard_errors["E_star"])
-    assert np.sqrt(np.mean(np.square(pulls))) < 1.5
+    assert np.sqrt(np.mean(np.square(pulls))) < 1.6
 
 
 @pytest.mark.parametrize(
@@ -137,6 +139,7 @@ def test_times_that_go_back_are_refused():
         mdr.oliver_pharr(TIP, depth, force, time=time)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("medium", [mdr.Medium(E, hardness=7e9), mdr.Medium(E, q_c=2e3), mdr.Medium(5e9)])
 @pytest.mark.parametrize("share", [0.95, 0.8])
 def test_a_saturated_force_is_no_hold(medium, share):

@@ -9,6 +9,7 @@ import pytest
 import mdr_core as mdr
 
 from ...approx import approx
+from ...said import kinds
 from ..fit.test_fit import silica
 
 E = 10e9
@@ -43,7 +44,7 @@ def test_elastic_unloadings_are_power_laws(profile, epsilon, exponent):
     expected = loaded.stiffness, E, loaded.mean_pressure, exponent
     values = result.stiffness, result.E_star, result.hardness, result.exponent
     assert values == approx(expected, rel=1e-11)
-    assert not {remark.kind for remark in result.remarks} & {"creep", "taken"}
+    assert not kinds(result) & {"creep", "taken"}
     height = profile.height(loaded.contact_radius)
     assert result.contact_depth == approx(height, rel=1e-11, abs=1e-18)
 
@@ -73,21 +74,21 @@ def test_a_yielded_cone_has_the_stiffness_of_the_model_at_another_radius():
 
 @pytest.mark.slow
 def test_errors_are_those_of_repeated_measurements():
-    """The standard deviation of 100 pulls is known to 7 %: four of these around 1."""
+    """The standard deviation of 30 pulls is known to 13 %: four of these around 1."""
     profile, random = mdr.Cone(0.3), np.random.default_rng(1)
     F = mdr.indent(profile, mdr.Medium(E), DEPTH).force
     exact = mdr.oliver_pharr(profile, DEPTH, F)
     noisy = [
         mdr.oliver_pharr(profile, DEPTH, F + 0.004 * F.max() * random.standard_normal(F.size))
-        for _ in range(100)
+        for _ in range(30)
     ]
     for name, error in exact.standard_errors.items():
         pulls = [
             (getattr(each, name) - getattr(exact, name)) / each.standard_errors[name] for each in noisy
         ]
         assert error < 1e-10 * abs(getattr(exact, name))
-        assert 0.72 < np.std(pulls) < 1.28, name
-        assert abs(np.mean(pulls)) < 0.45, name
+        assert 0.48 < np.std(pulls) < 1.52, name
+        assert abs(np.mean(pulls)) < 4 / np.sqrt(30), name
 
 
 def test_fused_silica():
@@ -130,21 +131,21 @@ def test_a_report_leaves_it_out_of_media_whose_unloading_is_no_power_law(paramet
 
 @pytest.mark.slow
 def test_its_error_in_a_report_is_also_that_of_the_contact_point():
-    """Of 60 unloadings, the standard deviation of whose pulls is known to 9 %: four of these around 1.
+    """Of 30 unloadings, the standard deviation of whose pulls is known to 13 %: four of these around 1.
 
     That of the scatter about the power law alone would be 1.7.
     """
     profile, depth = mdr.Cone(0.3), np.linspace(60e-9, 20e-9, 200)
     force, random = mdr.indent(profile, mdr.Medium(E), depth).force, np.random.default_rng(2)
     exact, sigma, pulls = mdr.oliver_pharr(profile, depth, force).E_star, 0.002 * force.max(), []
-    for _ in range(60):
+    for _ in range(30):
         noisy = force + sigma * random.normal(size=force.size)
         fit = mdr.fit_indentation(
             profile, depth + 7e-9, noisy, q_c=np.inf, baseline=None, force_noise=sigma
         )
         value, error = re.search(r"Pharr +E\* ([\d.]+) ± ([\d.]+) GPa", repr(fit)).groups()
         pulls.append((float(value) - exact / 1e9) / float(error))
-    assert 0.64 < np.std(pulls) < 1.36
+    assert 0.48 < np.std(pulls) < 1.52
 
 
 def test_a_report_leaves_it_out_where_the_model_does_not_fit():
@@ -161,12 +162,7 @@ F_CONE = mdr.indent(mdr.Cone(0.3), mdr.Medium(E), DEPTH).force
 @pytest.mark.parametrize(
     ("depth", "force", "options", "says"),
     [
-        (
-            DEPTH[:60],
-            F_CONE[:60],
-            {},
-            r"after the largest depth, 60 nm \(sample 60 of 60\)",
-        ),
+        (DEPTH[:60], F_CONE[:60], {}, r"after the largest depth, 60 nm \(sample 60 of 60\)"),
         (DEPTH[:64], F_CONE[:64], {}, "upper half of an unloading has 4 samples, 5 or more"),
         (DEPTH - 50e-9, F_CONE, {}, r"contact depth .* must be positive and within the profile"),
         (DEPTH, -F_CONE, {}, "depth and force must decrease"),
@@ -177,6 +173,7 @@ F_CONE = mdr.indent(mdr.Cone(0.3), mdr.Medium(E), DEPTH).force
         (DEPTH, F_CONE, {"epsilon": -1.0}, "epsilon"),
         (DEPTH, F_CONE, {"beta": 0.0}, "beta"),
         ([], [], {}, "have no samples"),
+        (DEPTH[:60], F_CONE[:60], {"cycles": True}, "5 or more are needed"),
     ],
 )
 def test_curves_without_an_unloading_are_refused(depth, force, options, says):
@@ -238,61 +235,36 @@ class TestCycles:
         a = np.sqrt(np.array(PEAKS) / (np.pi * 9.2e9))
         assert result.stiffness == approx(2 * self.MODULUS * a, rel=1e-11)
         assert result.contact_depth == approx(BERKOVICH.height(a), rel=1e-11)
-        assert {remark.kind for remark in result.remarks} == {"left out"}
-
-    def test_they_are_one_table(self):
-        pytest.importorskip("pandas")
-        result = mdr.oliver_pharr(BERKOVICH, *cycles(self.MODULUS), cycles=True)
-        table = result.to_pandas()
-        assert table.index.name == "unloading"
-        assert len(table) == 3
-        assert table["E_star"].tolist() == [each.E_star for each in result]
-        assert "unloading 3              dF/dd 258.9" in repr(result)
-        assert repr(result[2]).splitlines()[2:] == repr(result[-1]).splitlines()[2:]
+        assert kinds(result) == {"left out"}
 
     @pytest.mark.slow
     def test_errors_in_noise_are_those_of_repeated_measurements(self):
-        """Of 60 seeds the standard deviation of the pulls is known to 9 %: four of these above 1.
+        """Of 20 seeds the standard deviation of the pulls is known to 16 %: four of these above 1.
 
         The errors are not less than the range of results for parts of the unloading, and may be larger.
         """
         depth, force = cycles(self.MODULUS)
         pulls = []
-        for seed in range(60):
+        for seed in range(20):
             noise = 5e-5 * np.random.default_rng(seed).normal(size=force.size)
             result = mdr.oliver_pharr(BERKOVICH, depth, force + noise, cycles=True)
             assert result.shape == (3,)
             pulls.append((result.E_star - self.MODULUS) / result.standard_errors["E_star"])
-        assert np.all(np.std(pulls, axis=0) < 1.36)
+        assert np.all(np.std(pulls, axis=0) < 1.64)
 
     def test_without_cycles_a_remark_says_which_unloading_was_taken(self):
         depth, force = cycles(self.MODULUS)
         result = mdr.oliver_pharr(BERKOVICH, depth, force)
-        assert result.remarks[0].startswith(
-            "unloading 3 of 3, which follows the largest depth, was evaluated"
-        )
+        assert result.remarks[0].startswith("unloading 3 of 3")
         assert result.remarks[0] in repr(result)
         # The second of two where the last peak is less deep.
         twice = np.append(depth[:698], depth[:349]), np.append(force[:698], force[:349])
         assert mdr.oliver_pharr(BERKOVICH, *twice).remarks[0].startswith("unloading 2 of 3")
         single = mdr.oliver_pharr(BERKOVICH, depth[:349], force[:349])
-        assert "taken" not in {remark.kind for remark in single.remarks}
-
-    def test_an_unloading_that_is_none_is_left_out_with_its_reason(self):
-        """The force relaxes by 30 % at the depth of the second peak: it falls at one depth."""
-        depth, force = cycles(self.MODULUS)
-        second = slice(548, 698)
-        relaxed = depth.copy()
-        relaxed[second] = depth[547]
-        relaxed[698:897] = np.linspace(depth[547], depth[896], 199)
-        result = mdr.oliver_pharr(BERKOVICH, relaxed, force, cycles=True)
-        assert result.E_star == approx([self.MODULUS] * 2, rel=1e-11)
-        (remark,) = (each for each in result.remarks if each.startswith("unloading 2"))
-        assert remark.startswith("unloading 2 of 3 is left out:")
-        assert "depth and force must decrease" in remark
+        assert "taken" not in kinds(single)
 
     def test_unloadings_have_one_number_in_remarks_print_and_tables(self):
-        """The second of three is left out: the others are 1 and 3 everywhere."""
+        """The second of three is left out, as its force relaxes at one depth: the others are 1 and 3."""
         pytest.importorskip("pandas")
         xarray = pytest.importorskip("xarray")
         depth, force = cycles(self.MODULUS)
@@ -301,6 +273,9 @@ class TestCycles:
         relaxed[698:897] = np.linspace(depth[547], depth[896], 199)
         result = mdr.oliver_pharr(BERKOVICH, relaxed, force, cycles=True)
         assert result.unloading.tolist() == [1, 3]
+        assert result.E_star == approx([self.MODULUS] * 2, rel=1e-11)
+        (remark,) = (each for each in result.remarks if each.startswith("unloading 2 of 3"))
+        assert "depth and force must decrease" in remark
         assert re.findall(r"^  unloading (\d)", repr(result), re.MULTILINE) == ["1", "3"]
         table = result.to_pandas()
         assert table.index.tolist() == [1, 3]
@@ -328,10 +303,6 @@ class TestCycles:
         tip = mdr.Cone.from_half_angle(70.3)
         result = mdr.oliver_pharr(tip, depth, force, cycles=True)
         assert result.E_star.tolist() == [mdr.oliver_pharr(tip, depth, force).E_star]
-
-    def test_a_curve_without_unloading_is_refused(self):
-        with pytest.raises(ValueError, match="5 or more are needed"):
-            mdr.oliver_pharr(BERKOVICH, DEPTH[:60], F_CONE[:60], cycles=True)
 
 
 @pytest.mark.parametrize(("of_depth", "of_force"), [(1e-3, 1.0), (1.0, 1e3)])

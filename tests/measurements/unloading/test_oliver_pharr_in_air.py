@@ -43,6 +43,8 @@ def test_without_noise_it_is_exact(medium, air, samples, baseline):
     assert "begins in the air" in result.remarks[-1]
 
 
+@pytest.mark.slow
+@pytest.mark.few(1)
 @pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
 def test_its_error_is_in_those_of_the_results(medium):
     """Root mean square of 30 pulls, known to 13 %: at most 1.5. Errors are within a few per cent."""

@@ -8,6 +8,7 @@ import pytest
 import mdr_core as mdr
 
 from ...approx import approx
+from ...said import limit_of
 
 mpmath = pytest.importorskip("mpmath")
 mp, mpf = mpmath.mp, mpmath.mpf
@@ -68,6 +69,7 @@ def reference(g, slope, d, d_p):
         return float(a), float(force), float(r), float(pressure)
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("medium", [ELASTIC, YIELDING], ids=["elastic", "yielding"])
 def test_states_agree_with_40_digits(name, medium):
@@ -127,6 +129,7 @@ def test_force_is_the_derivative_of_the_energy(profile, medium):
         assert state.stiffness[1::3] == approx(rate, rel=1e-5, abs=1e-7 * E_STAR * B)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("name", ["paraboloid", "cone"])
 @pytest.mark.parametrize("d_c", [math.inf, D_C])
 def test_a_chain_with_torn_springs_agrees(name, d_c):
@@ -231,49 +234,14 @@ def test_energies_of_impacts_sum_to_the_kinetic_energy(profile):
     assert edge.captured.tolist() == [True, False]
 
 
-@pytest.mark.parametrize(("name", "speed"), [("paraboloid", 0.3), ("cone", 1.0)])
-def test_restitution_agrees_with_20_digits(name, speed):
-    """The energy balance with energies summed over the elements."""
-    profile, g, slope = SHAPES[name]
-    with mp.workdps(20):
-        E, d_c, known = mpf(E_STAR), mpf(D_C), mpf("0.9e-6")
-
-        def energy(a, d_p, c):
-            inside = (g(a) - d_p - stretch(a)) ** 2 * c
-            return (
-                E * (inside + mp.quad(lambda x: (g(a) - stretch(a) - g(x)) ** 2, [c, a]))
-                - mp.pi * W * a * a
-            )
-
-        def root(function, low, high):
-            return mp.findroot(function, (low, high), solver="anderson", tol=1e-28, maxsteps=200)
-
-        def loaded(a):
-            d = g(a) - stretch(a)
-            d_p = max(mpf(0), d - d_c)
-            c = root(lambda x: g(x) - d_p, mpf("1e-12"), a) if d_p else mpf(0)
-            work = 2 * E * d_c * mp.quad(lambda x: d_p - g(x), [0, c]) if d_p else mpf(0)
-            return energy(a, d_p, c), work, d_p, c
-
-        fold = root(lambda a: slope(a) - stretch(a) / (2 * a), mpf("1e-13"), known)
-        touch = root(lambda a: g(a) - stretch(a), fold, known)
-        kinetic = mpf("0.5e-12") * mpf(speed) ** 2 + energy(touch, mpf(0), mpf(0))
-        turn = root(lambda a: sum(loaded(a)[:2]) / kinetic - 1, touch, mpf("0.6e-6"))
-        before, _, d_p, c = loaded(turn)
-        end = max(fold, c)
-        after = before - energy(end, d_p, c)
-        e = float(mp.sqrt(after / (mpf("0.5e-12") * mpf(speed) ** 2)))
-    # Rounding of the energies, which cancel to a hundredth.
-    assert mdr.impact(profile, YIELDING, 1e-12, speed).restitution == approx(e, rel=1e-11)
-
-
 def test_a_cone_bounces_between_two_speeds():
     cone = mdr.Cone(SLOPE)
     hit = mdr.impact(cone, YIELDING, 1e-12, np.array([0.1, 1.0, 30.0, 36.0]))
     # Two digits of an independent chain.
     assert hit.restitution[:3] == approx([0.92, 0.33, 0.024], rel=0.03)
     high = mdr.capture_speeds(cone, YIELDING, 1e-12)[1]
-    assert high == approx(35.188, rel=1e-5)
+    edge = mdr.impact(cone, YIELDING, 1e-12, high * np.array([1 - 1e-6, 1 + 1e-6]))
+    assert edge.captured.tolist() == [False, True]
     assert mdr.capture_speeds(cone, YIELDING, [1e-12, 4e-12])[1] == approx([high, high / 2])
     # For large w/q_c there is no such window, without adhesion no end.
     strong = mdr.Medium(E_STAR, q_c=0.1, work_of_adhesion=1.0)
@@ -315,7 +283,7 @@ def test_limits_say_what_facets_change(count, exceeded):
     r = np.linspace(0, 20 * (9 * math.pi * W * R**2 / (8 * E_STAR)) ** (1 / 3), count)
     tip = mdr.Sampled(r, r**2 / (2 * R))
     state = mdr.indent(tip, ELASTIC, 1e-9)
-    (limit,) = (each for each in state.limits if each.what == "facets")
+    limit = limit_of(state, "facets")
     error = state.pull_off_force / (1.5 * math.pi * W * R) - 1
     assert limit.exceeded == exceeded == (error > limit.bound)
     if not exceeded:

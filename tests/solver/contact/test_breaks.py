@@ -5,7 +5,6 @@ import pytest
 
 import mdr_core as mdr
 from mdr_core.solver.contact.integrals import integrals
-from mdr_core.solver.contact.quadrature import radius_rate
 from mdr_core.solver.contact.yielding import yield_rule
 
 from ...shapes import SHAPES, name
@@ -65,13 +64,3 @@ def test_a_loading_is_smooth_but_for_the_breaks(profile, given, imprint):
     far = np.all(np.abs(y[:, None] - breaks) > 20 * COARSE * y[:, None], axis=1)
     assert far.sum() > 200
     assert is_smooth(rule, imprint, y[far]).all()
-
-
-def test_a_contact_does_not_grow_behind_a_wall():
-    """A parabolic punch: a = √(R d) up to d = b²/R, and b from there on; at the wall itself, too."""
-    R, b = 1e-5, 1e-6
-    punch, wall = mdr.ParabolicPunch(R, b), b * b / R
-    before = wall * np.array([0.01, 0.25, 0.999])
-    # To the rounding of a, of which g′ = 2a/R is taken.
-    np.testing.assert_allclose(radius_rate(punch, before), np.sqrt(R / before) / 2, rtol=1e-14)
-    assert not np.any(radius_rate(punch, wall * np.array([1.0 + 1e-15, 1 + 1e-12, 2.0, 1e3])))

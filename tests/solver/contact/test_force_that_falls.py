@@ -18,6 +18,8 @@ def test_a_force_below_the_onset_leads_to_the_elastic_depth():
     np.testing.assert_allclose(mdr.indent_to_force(tip, medium, force).depth, depth, rtol=1e-13)
 
 
+@pytest.mark.slow
+@pytest.mark.few(2)
 @pytest.mark.parametrize("seed", range(6))
 def test_the_first_depth_that_carries_it(seed):
     """Under random polygons; forces of 2,000 depths tell whether a smaller one carries it."""

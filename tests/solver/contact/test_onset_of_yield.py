@@ -66,9 +66,3 @@ def test_medium_from_the_critical_depth():
         mdr.Medium.from_critical_depth(1e9, 3e-9, q_c=1.0)
     with pytest.raises(ValueError, match=r"critical depth = -1 m must be finite and positive"):
         mdr.Medium.from_critical_depth(1e9, -1.0)
-
-
-def test_contact_area():
-    path = mdr.indent(mdr.Cone(0.3), MEDIUM, [-1e-9, 1e-8, 2e-8])
-    np.testing.assert_allclose(path.contact_area, np.pi * path.contact_radius**2, rtol=4e-16)
-    assert path.to_dict()["contact_area"][0] == 0.0

@@ -70,32 +70,6 @@ def test_cone_on_the_axis(nu):
 
 @pytest.mark.parametrize("history", [HISTORIES[0], HISTORIES[3]])
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
-def test_pressure_is_a_sum_of_point_forces(shape, history):
-    """Boussinesq's solution, added up over the pressure on the surface."""
-    s = state(shape, history)
-    a, nu = s.contact_radius, MEDIUM.poisson
-    breaks = sorted({0.0, s.plastic_radius, *(k for k in (0.3e-6, 1e-6) if k < a), a})
-    node, weight = tanh_sinh()
-    total, places = 0.0, np.array([[0.0, 0.5], [0.4, 0.7], [1.0, 0.5], [2.0, 0.4], [0.9, 3.0]]).T * a
-    phi = 2 * math.pi * np.arange(96) / 96
-    for low, high in pairwise(breaks):
-        # A node that rounds to an end, where the pressure may be infinite, has no weight.
-        inner = (low + (high - low) * node > low) & (low + (high - low) * node < high)
-        rho = low + (high - low) * node[inner]
-        ring = weight[inner] * (high - low) * rho * s.pressure(rho) * 2 * math.pi / phi.size
-        for x, y, force in ((rho * np.cos(f), rho * np.sin(f), ring) for f in phi):
-            r, z = places[0][:, None] - x, places[1][:, None]
-            far = np.hypot(r, y)
-            cos, sin = r / far, -y / far
-            rr, tt, zz, rz = point_force(force, far, z, nu)
-            parts = rr * cos**2 + tt * sin**2, rr * sin**2 + tt * cos**2, zz, rz * cos
-            total = total + np.array([part.sum(axis=1) for part in parts])
-    # Nodes of the pressure end where radii round, 10⁻⁸ by the root next to a rim.
-    np.testing.assert_allclose(tensor(s, *places), total, rtol=0, atol=1e-6 * mean_pressure(s))
-
-
-@pytest.mark.parametrize("history", [HISTORIES[0], HISTORIES[3]])
-@pytest.mark.parametrize("shape", SHAPES, ids=name)
 def test_equilibrium_and_compatibility(shape, history):
     """div σ = 0, and a trace that is harmonic, by differences of fourth order."""
     s = state(shape, history)
@@ -195,6 +169,8 @@ def test_far_away_it_is_that_of_a_point_force(shape, distance):
 
 
 # Every third of the shapes: an acute tip, an equator, walls and edges.
+@pytest.mark.slow
+@pytest.mark.few(2)
 @pytest.mark.parametrize("shape", SHAPES[2::3], ids=name)
 def test_against_many_digits(shape):
     """At scattered places, next to the rim and to c, close to the surface, below the tip."""
@@ -299,7 +275,6 @@ def test_states_of_an_impact(shape):
     ("call", "says"),
     [
         (lambda s: s.stress(0.0, -1e-9), "depth z = -1e-09 m is above the surface; z counts downward"),
-        (lambda s: s.stress(math.nan, 0.0), "radius r = nan m must be finite"),
         (lambda s: s.stress(0.0, [0.0, math.inf]), r"depth z\[1\] = inf m must be finite"),
         (lambda s: s.stress([0.0, 1.0], [0.0, 1.0, 2.0]), r"r \(2,\), z \(3,\) do not broadcast"),
         (

@@ -19,6 +19,7 @@ PATH = np.array([0, 2.5, 2.5, 1.9, 2.2, 1.0, 1.3, -0.5, 1.9, 1.75, 4.0]) * D_C
 MOVES = ((1e-7, 1.0), (0.0, 1e-60), (1e-250, 1e60), (5e-324, 1e60), (1e-7, 1e-60), (-1e-7, 1e60))
 
 
+@pytest.mark.few(3)
 @pytest.mark.parametrize("pace", [0.1, 1.0, 10.0])
 @pytest.mark.parametrize("reduced", [0.0, 0.9 * D_C, 1.8 * D_C])
 def test_every_event_of_an_element(pace, reduced):
@@ -71,6 +72,7 @@ def test_a_ramp_in_one_step_or_in_many(tau):
         assert whole.viscous_work == approx(parts.viscous_work, rel=1e-10)
 
 
+@pytest.mark.few(24)
 @pytest.mark.parametrize("moves", list(itertools.product(MOVES, repeat=3)))
 def test_moves_that_are_tiny_or_fast(moves):
     """All quantities are finite and not negative at any rate; a warning is an error."""

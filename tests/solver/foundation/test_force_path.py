@@ -1,10 +1,7 @@
 """Creep under a force in time, against the equations of a Kelvin–Voigt foundation."""
 
-import math
-
 import numpy as np
 import pytest
-from scipy.integrate import trapezoid
 
 import mdr_core as mdr
 from mdr_core.solver.foundation.force_path import chain_creep
@@ -14,29 +11,6 @@ from ...approx import approx
 MEDIUM = mdr.Medium(E_star=1e9, q_c=1.0, eta=0.25)
 DRY = mdr.Medium(E_star=1e9, q_c=1.0)
 D_C, TAU = MEDIUM.critical_depth, MEDIUM.relaxation_time
-
-
-def test_flat_punch_creeps_exponentially():
-    """Ramped in t₁ and held: d = (F/2E*b)(1 − (τ/t₁)(e^(t₁/τ) − 1) e^(−t/τ))."""
-    radius, depth, ramp = 1e-6, 0.8 * D_C, 0.2
-    force = 2 * MEDIUM.E_star * radius * depth * np.array([0, 1, 1, 1])
-    time = np.array([0, ramp, 1.0, 5.0])
-    result = mdr.creep(mdr.FlatPunch(radius), MEDIUM, np.array([0, 1, 1, 1]) * force, time * TAU)
-    expected = depth * (1 - (math.exp(ramp) - 1) / ramp * np.exp(-time[1:]))
-    # The default tolerance.
-    np.testing.assert_allclose(result.depth[1:], expected, rtol=0, atol=1e-4 * depth)
-    assert result.error <= 1e-4
-    np.testing.assert_array_equal(result.force, force)
-
-
-def test_after_yield_a_flat_punch_flows_at_a_constant_rate():
-    """The springs carry at most π q_c b, the dashpots the remainder: 8ηb ḋ."""
-    radius, capacity = 1e-6, math.pi * MEDIUM.q_c * 1e-6
-    force = np.array([0, 1.5, 1.5, 1.5]) * capacity
-    time = np.array([0, 0.1, 20.0, 22.0]) * TAU
-    result = mdr.creep(mdr.FlatPunch(radius), MEDIUM, force, time)
-    rate = (result.depth[3] - result.depth[2]) / (time[3] - time[2])
-    assert rate == approx(0.5 * capacity / (8 * MEDIUM.eta * radius), rel=1e-3)
 
 
 @pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Sphere(1e-5)])
@@ -55,21 +29,6 @@ def test_creep_ends_at_the_depth_of_the_slow_path_and_recovery_at_the_imprint(sh
     # Springs have the error of the depth, 10⁻³ of 3 d_c, and dashpots compensate for it.
     atol = 6e-3 * MEDIUM.yield_line_load
     np.testing.assert_allclose(result[2].line_load(x), slow.line_load(x), rtol=0, atol=atol)
-
-
-def test_states_of_creep_agree_in_themselves():
-    """At increasing depth the contact ends at the contact radius, and the line load carries the force."""
-    cone, soft = mdr.Cone(0.3), mdr.Medium(1e6, q_c=1.0, eta=2.5e5)
-    path = mdr.creep(cone, soft, [0.0, 0.1, 0.1, 0.01, 0.01], [0.0, 0.1, 5.0, 5.5, 9.0])
-    sinking = slice(1, 5)
-    np.testing.assert_allclose(
-        path.contact_radius[sinking], cone.contact_radius(path.depth[sinking]), rtol=1e-12
-    )
-    assert np.all(path.plastic_radius < path.contact_radius + 1e-15)
-    for i in range(1, 5):
-        # Trapezia on kinked loads: the square of a four thousandth.
-        x = np.linspace(0, path.contact_radius[i] * (1 - 1e-9), 4001)
-        assert 2 * trapezoid(path[i].line_load(x), x) == approx(path.force[i], rel=1e-5)
 
 
 @pytest.mark.slow
@@ -97,26 +56,6 @@ def test_a_force_has_a_contact_also_where_unloading_is_steep():
     slow = mdr.indent_to_force(shape, medium, force)
     pressed = np.array(force) > 0
     np.testing.assert_allclose(path.contact_radius[pressed], slow.contact_radius[pressed], rtol=1e-4)
-
-
-def test_depths_of_creep_reproduce_the_forces():
-    """Along the computed depths the chain carries the prescribed force in the mean."""
-    slow = mdr.indent(mdr.Paraboloid(1e-5), DRY, 3 * D_C)
-    time = np.linspace(0, 2, 21) * TAU
-    force = slow.force * np.linspace(0, 1, 21)
-    result = mdr.creep(mdr.Paraboloid(1e-5), MEDIUM, force, time, tolerance=1e-3)
-    back = mdr.indent_in_time(mdr.Paraboloid(1e-5), MEDIUM, result.depth, time, tolerance=1e-4)
-    # Force at the end of a straight piece with its mean rate: half a step late, in first order.
-    late = (force[1:] + force[:-1]) / 2
-    np.testing.assert_allclose(back.force[5:], late[4:], rtol=0, atol=0.03 * slow.force)
-
-
-def test_without_viscosity_times_do_not_matter():
-    force = np.array([0.0, 1e-6, 2e-6])
-    timed = mdr.creep(mdr.Cone(0.3), DRY, force, [0, 1, 2])
-    slow = mdr.indent_to_force(mdr.Cone(0.3), DRY, force)
-    # The default tolerance.
-    np.testing.assert_allclose(timed.depth, slow.depth, rtol=0, atol=1e-4 * slow.depth[-1])
 
 
 def test_bad_arguments_are_refused():

@@ -5,8 +5,6 @@ import pytest
 
 from mdr_core.solver.foundation.refinement import extrapolate, refine
 
-from ...approx import approx
-
 
 @pytest.mark.parametrize("orders", [(), (2,), (1, 2)])
 def test_orders_are_extrapolated_away(orders):
@@ -34,13 +32,3 @@ def test_errors_are_relative_and_cover_the_error(size):
     assert errors[1] == 0.5e-6
     assert errors[2] > 1e-6
     assert levels == list(range(len(levels)))
-
-
-def test_floor_trust_and_number_of_runs():
-    def run(level):
-        return np.array([1e-3 + 0.25**level])
-
-    limit, errors = refine(run, 0.0, 3, controlled=1, orders=(2,), floor=1.0, trust=0.1)
-    assert limit[0] == approx(1e-3)
-    assert errors[0] == approx(0.1 * 0.25**2)
-    assert refine(run, 1.0, 1, controlled=1)[1] == np.inf

@@ -26,7 +26,7 @@ def covered(hit, expected):
 
 
 @pytest.mark.slow
-@pytest.mark.few(4)
+@pytest.mark.few(2)
 @pytest.mark.parametrize(
     "structure", [PLATE, mdr.Structure(60.0), SUPPORT], ids=["plate", "thin", "support"]
 )
@@ -43,6 +43,7 @@ def test_agrees_with_the_impact_that_it_knows_nothing_of(profile, medium, struct
     assert chain.max_deflection == approx(hit.max_deflection, rel=1e-4)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("structure", [PLATE, SUPPORT], ids=["plate", "support"])
 @pytest.mark.parametrize("eta", [0.0, 1e3])
 def test_its_ledger_closes_at_every_step(eta, structure):
@@ -131,6 +132,7 @@ def viscous_on_a_support(tau, structure):
     return {"restitution": -last.y[1, -1] / SPEED, "contact_time": last.t[-1] + 1e-9, "max_depth": state[2]}
 
 
+@pytest.mark.few(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("tau", [2e-6, 2e-5])
 @pytest.mark.parametrize(

@@ -17,27 +17,17 @@ ELASTIC = mdr.Medium(E_star=1e9)
 
 
 @pytest.mark.parametrize(
-    ("shape", "expected"),
-    [
-        (mdr.FlatPunch(1e-6), math.pi),
-        (mdr.Cone(0.3), 2.80436421065),
-        (mdr.Paraboloid(1e-3), 2.94327518432),
-        (mdr.PowerLaw(1e-4, 0.5), 2.62205755429),
-    ],
-    ids=["flat", "cone", "Hertz", "root"],
+    ("tip", "n"),
+    [(mdr.FlatPunch(1e-6), math.inf), (mdr.Cone(0.3), 1.0), (mdr.Paraboloid(1e-3), 2.0)]
+    + [(mdr.PowerLaw(1e-4, n), n) for n in (0.2, 0.5, 1.5, 3.0, 10.0, 50.0)],
+    ids=str,
 )
-def test_elastic_contact_time(shape, expected):
-    """T v/d_max = 2√π Γ(1 + 1/(p+1))/Γ(1/2 + 1/(p+1)) for F ∝ dᵖ; Hertz: 2.943."""
-    hit = mdr.impact(shape, ELASTIC, 1e-3, [1e-6, 1e-3, 1.0])
-    np.testing.assert_allclose(hit.contact_time * hit.speed / hit.max_depth, expected, rtol=1e-11)
-    np.testing.assert_array_equal(hit.restitution, 1.0)
-
-
-@pytest.mark.parametrize("n", [0.2, 1.5, 3.0, 10.0, 50.0])
-def test_elastic_contact_time_of_power_laws(n):
+def test_elastic_contact_time_of_power_laws(tip, n):
+    """T v/d_max = 2√π Γ(1 + q)/Γ(1/2 + q) with q = 1/(p + 1) for F ∝ dᵖ, p = 1 + 1/n."""
     q = 1 / (2 + 1 / n)
     expected = 2 * math.sqrt(math.pi) * math.gamma(1 + q) / math.gamma(0.5 + q)
-    hit = mdr.impact(mdr.PowerLaw(1e-4, n), ELASTIC, 1.0, 1.0)
+    hit = mdr.impact(tip, ELASTIC, 1.0, 1.0)
+    assert hit.restitution == 1.0
     # Few roundings times 40 nodes; for small n the largest depth to a high power.
     assert hit.contact_time * hit.speed / hit.max_depth == approx(expected, rel=1e-12)
 
@@ -135,6 +125,7 @@ def many_digits(integrals, d, d_c):
     return time
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("depth", [1e-4, 0.97, 1.5])
 @pytest.mark.parametrize(
     ("shape", "integrals"),

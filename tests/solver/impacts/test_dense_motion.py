@@ -6,9 +6,8 @@ import pytest
 import mdr_core as mdr
 from mdr_core.solver.impacts.motion import dense_motion
 
-from ...approx import approx
 from ...shapes import SHAPES, name
-from .test_equation_of_motion import E_STAR, MASS, SPEED, medium
+from .test_equation_of_motion import MASS, SPEED, medium
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)
@@ -20,28 +19,6 @@ def test_times_and_depths_are_inverse(shape):
         np.testing.assert_allclose(state.time, time, rtol=1e-11)
         # Near the turning point a depth fixes the time to the root of its rounding only.
         np.testing.assert_allclose(branch.when(state.depth), time, rtol=1e-7)
-
-
-@pytest.mark.parametrize("shape", SHAPES, ids=name)
-def test_rates_are_those_of_the_equation_of_motion(shape):
-    """The derivative of the depth is the velocity, to the square of the difference's step."""
-    motion = mdr.impact(shape, medium(0.3, shape, 10.0), MASS, SPEED).motion(2001)
-    turn = int(np.argmax(motion.depth))
-    for branch in (slice(0, turn + 1), slice(turn, None)):
-        time, depth, velocity = (getattr(motion, each)[branch] for each in ("time", "depth", "velocity"))
-        rate = (depth[2:] - depth[:-2]) / (time[2:] - time[:-2])
-        np.testing.assert_allclose(rate, velocity[1:-1], atol=1e-4 * SPEED)
-
-
-def test_ends_are_exact():
-    hit = mdr.impact(mdr.RoundedCone(1e-6, 0.3), mdr.Medium(E_STAR, q_c=10.0, eta=20.0), MASS, SPEED)
-    motion = hit.motion(20)
-    assert (motion.time[0], motion.depth[0], motion.velocity[0]) == (0.0, 0.0, SPEED)
-    turn = int(np.argmax(motion.depth))
-    assert motion.velocity[turn] == 0.0
-    assert motion.depth[turn] == approx(hit.max_depth, rel=1e-15)
-    assert motion.contact_radius[-1] == 0.0
-    assert motion.time[-1] == approx(hit.contact_time, rel=1e-9)
 
 
 @pytest.mark.parametrize("shape", SHAPES, ids=name)

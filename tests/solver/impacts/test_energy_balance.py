@@ -31,17 +31,17 @@ def test_largest_depth_from_energy_balance(shape, times):
     assert hit.rebound_speed**2 / 2 == approx(hit.stored_energy, rel=1e-13)
 
 
-@pytest.mark.parametrize(
-    ("shape", "expected"),
-    [
-        (mdr.Cone(0.3), (0.755928946, 0.461643536, 0.321435893)),
-        (mdr.Paraboloid(1e-3), (0.680556328, 0.404028978, 0.279675705)),
-    ],
-    ids=name,
-)
-def test_restitution_at_given_depth(shape, expected):
-    for times, e in zip((2, 5, 10), expected, strict=True):
-        assert hit_to_depth(shape, MEDIUM, times * D_C).restitution == approx(e, abs=5e-10)
+@pytest.mark.parametrize("t", [2, 5, 10])
+def test_restitution_at_given_depth(t):
+    """Stored and plastic work of the springs in units of E*, d_c and the shape's length, t = d_max/d_c."""
+    c, a = np.sqrt([t - 1, t])
+    ring = t**2 * (a - c) - 2 / 3 * t * (a**3 - c**3) + (a**5 - c**5) / 5
+    for shape, stored, plastic in (
+        (mdr.Cone(0.3), t - 2 / 3, (t - 1) ** 2),
+        (mdr.Paraboloid(1e-3), c + ring, 4 / 3 * c**3),
+    ):
+        e = np.sqrt(stored / (stored + plastic))
+        assert hit_to_depth(shape, MEDIUM, t * D_C).restitution == approx(e, rel=1e-12)
 
 
 def test_slow_impact_damages_nothing():

@@ -77,6 +77,7 @@ CURVES = {
 }
 
 
+@pytest.mark.few(8)
 @pytest.mark.parametrize("q_c", [math.inf, 10.0])
 @pytest.mark.parametrize("share", [1e-4, 0.1, 1.0, 30.0])
 @pytest.mark.parametrize("curve", CURVES)
@@ -189,6 +190,7 @@ def test_punch_that_turns_between_two_nodes():
     assert hit.motion(31).kinetic_energy[-1] == approx(hit.mass * hit.rebound_speed**2 / 2, rel=1e-8)
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize("q_c", [np.inf, 100.0])
 @pytest.mark.parametrize("share", [0.1, 10.0])
 @pytest.mark.parametrize("exponent", [1.0, 2.0, 4.0, 50.0])
@@ -268,6 +270,7 @@ def test_turning_a_hundred_thousandth_beyond_the_critical_depth(shape):
     assert found == approx(scalar_impact(shape, material, MASS, hit.speed), rel=2e-8)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("q_c", [1e4, 10.0])
 @pytest.mark.parametrize("shape", KINKED, ids=name)
 def test_turning_exactly_on_a_kink(shape, q_c):

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
-from mdr_core.solver.impacts.equation_of_motion import Bodies
 
 from ...approx import approx
 from .test_energy_balance import D_C, MEDIUM, hit_to_depth
@@ -37,47 +36,12 @@ def test_eq_23_24_work_and_damaged_area_of_a_fast_cone():
     assert np.all(np.abs(hit.damaged_area / (4 * energy / (math.pi * MEDIUM.q_c * slope)) - 1) < tolerance)
 
 
-def test_arguments_broadcast_and_order_does_not_matter():
-    mass, speed = np.array([[1e-6], [1e-3]]), np.array([1e-4, 1e-2, 1.0])
-    grid = mdr.impact(mdr.Paraboloid(1e-3), MEDIUM, mass, speed)
-    flipped = mdr.impact(mdr.Paraboloid(1e-3), MEDIUM, mass[::-1], speed[::-1])
-    assert grid.restitution.shape == grid.contact_time.shape == grid.mass.shape == (2, 3)
-    np.testing.assert_allclose(flipped.contact_time[::-1, ::-1], grid.contact_time, rtol=1e-14)
-    one = mdr.impact(mdr.Paraboloid(1e-3), MEDIUM, 1e-3, 1e-2)
-    assert isinstance(one.contact_time, float)
-    assert one.contact_time == approx(grid.contact_time[1, 1], rel=1e-14)
-
-
 @pytest.mark.parametrize("eta", [0.0, 1e-3])
 def test_indices_are_those_of_arrays(eta):
     """A permutation, a mask, a repeated entry and a slice pick what they pick of the speeds."""
     speed = np.array([0.1, 1.0, 10.0])
     hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, q_c=10.0, eta=eta), 1e-12, speed)
-    bodies = Bodies.of(hit.profile, hit.medium, hit.mass, hit.speed, 0.0, hit.max_depth)
     for index in (np.array([2, 0, 1]), speed > 0.5, np.array([1, 1, 1]), slice(None, None, -1)):
         for name in ("speed", "restitution", "contact_time", "plastic_work", "viscous_work"):
             # Dry ones are solved again, as arrays of another length.
             np.testing.assert_allclose(getattr(hit[index], name), getattr(hit, name)[index], rtol=1e-14)
-        np.testing.assert_array_equal(bodies[index].speed[:, 0], speed[index])
-        np.testing.assert_array_equal(bodies[index].dry_penetration[:, 0], hit.max_depth[index])
-
-
-def test_one_of_many():
-    grid = mdr.impact(mdr.Cone(0.3), MEDIUM, 1e-3, [[0.01, 0.1], [1.0, 10.0]])
-    # Few roundings, of an array of another length.
-    assert grid[1, 0].restitution == approx(grid.restitution[1, 0], rel=1e-14)
-    assert grid[1].contact_time.shape == (2,)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        ((0.0, 1.0), "mass = 0 kg must be finite and positive"),
-        ((1.0, [1.0, -2.0]), r"speed\[1\] = -2 m/s must be finite and positive"),
-        ((1.0, math.nan), "speed = nan m/s must be finite and positive"),
-        ((1e-300, 1e-100), "mass = 1e-300 kg must lie between 1e-60 and 1e.60"),
-    ],
-)
-def test_bad_arguments_are_refused(arguments, says):
-    with pytest.raises(ValueError, match=says):
-        mdr.impact(mdr.Cone(0.3), MEDIUM, *arguments)

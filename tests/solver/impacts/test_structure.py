@@ -12,11 +12,13 @@ import mdr_core as mdr
 from ...approx import approx
 from ...events import until
 from ...laws import NixGao
+from ...said import limit_of
 from ...shapes import name
 
 E, R, MASS, SPEED = 10e9, 5e-3, 4.1e-3, 5.0
 ENERGY = MASS * SPEED**2 / 2
 BALL = mdr.Paraboloid(R)
+POLYGON = mdr.Sampled([0, 1e-4, 3e-4, 2e-3], [0, 5e-6, 4e-5, 8e-4])
 ELASTIC, YIELDING = mdr.Medium(E), mdr.Medium(E, q_c=2e5)
 SHAPES = (
     BALL,
@@ -31,7 +33,7 @@ SHAPES = (
     mdr.ParabolicPunch(R, 4e-4),
     mdr.Hyperboloid(0.3, 1e-3),
     mdr.RoundedCone(1e-3, 0.3),
-    mdr.Sampled([0, 1e-4, 3e-4, 2e-3], [0, 5e-6, 4e-5, 8e-4]),
+    POLYGON,
 )
 #: Media of every class of hardness, and a law of one's own.
 MEDIA = {
@@ -99,9 +101,9 @@ def by_integration(profile, medium, structure):
     return -state[1] / SPEED, time, largest
 
 
-# Twelve by default, of a second or two each; those of a law of one's own take up to twenty.
+# Six by default, of a second or two each; a law of one's own takes up to twenty, a polygon up to fifty.
 @pytest.mark.slow
-@pytest.mark.few(12)
+@pytest.mark.few(6)
 @pytest.mark.parametrize("structure", STRUCTURES.values(), ids=STRUCTURES)
 @pytest.mark.parametrize(
     "medium",
@@ -110,7 +112,13 @@ def by_integration(profile, medium, structure):
         for key, medium in MEDIA.items()
     ],
 )
-@pytest.mark.parametrize("profile", SHAPES, ids=name)
+@pytest.mark.parametrize(
+    "profile",
+    [
+        pytest.param(shape, id=name(shape), marks=[pytest.mark.full] * (shape is POLYGON))
+        for shape in SHAPES
+    ],
+)
 def test_every_combination_by_another_integrator(profile, medium, structure):
     if isinstance(profile, mdr.PowerLaw) and profile.exponent < 1 and not medium.inverse_to_radius:
         pytest.skip("a hardness H needs a convex shape")
@@ -193,7 +201,7 @@ class TestABodyThatNeverLeaves:
 
     def test_is_decided_by_the_radius_that_is_left(self):
         """Of a yielding contact by c, of a sharp elastic one never: there it leaves, however slowly."""
-        for impedance in np.geomspace(20, 400, 30):
+        for impedance in np.geomspace(20, 400, 10):
             hit = mdr.impact(BALL, YIELDING, MASS, SPEED, structure=mdr.Structure(impedance))
             held = (MASS / impedance) ** 2 * hit.plastic_radius * 2 * E >= 4 * MASS
             assert hit.captured == held
@@ -208,7 +216,7 @@ class TestABodyThatNeverLeaves:
 
     def test_its_limits_say_that_plates_have_edges(self):
         hit = mdr.impact(BALL, YIELDING, MASS, SPEED, structure=mdr.Structure(60.0))
-        (edges,) = (limit for limit in hit.limits if limit.what == "edges")
+        edges = limit_of(hit, "edges")
         assert edges.exceeded
         assert edges.value == np.inf
 
@@ -287,6 +295,7 @@ def test_arrays_of_all_structures_at_once():
     assert again.restitution.tolist() == hit.restitution.tolist()
 
 
+@pytest.mark.few(6)
 @pytest.mark.parametrize("structure", STRUCTURES.values(), ids=STRUCTURES)
 @pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
 def test_the_ledger_closes_at_every_instant(medium, structure):
@@ -395,8 +404,6 @@ class TestStructures:
         [
             (lambda: mdr.Structure(346.0, 1e7), r"stiffness = 1e\+07 N/m .* Structure\.modal"),
             (lambda: mdr.Structure(0.0), "impedance = 0 N·s/m must be positive"),
-            (lambda: mdr.Structure(stiffness=np.nan), "stiffness = nan"),
-            (lambda: mdr.Structure("346"), "impedance must be one real number"),
             (lambda: mdr.Structure(346.0, edge=-1.0), "edge = -1 m"),
             (lambda: mdr.Structure.plate(-4e-3, 50e9, 0.3, 1600.0), "thickness = -0.004 m"),
             (lambda: mdr.Structure.plate(4e-3, 50e9, 0.5, 1600.0), "nu = 0.5 must lie"),
@@ -495,7 +502,7 @@ class TestLimits:
         ball = mdr.Paraboloid(radius), mdr.Medium(206e9 / 0.91 / 2), 4 / 3 * np.pi * radius**3 * 7850, 1.0
         support = mdr.Structure(stiffness=beam.stiffness, mass=line_mass * length / 2)
         hit = mdr.impact(*ball, structure=support)
-        (limit,) = (limit for limit in hit.limits if limit.what == "support")
+        limit = limit_of(hit, "support")
         by_modes = mdr.impact(*ball, structure=beam)
         assert by_modes.max_force > 7 * hit.max_force
         assert limit.exceeded
@@ -503,7 +510,7 @@ class TestLimits:
         assert 0.5 < limit.value / (by_modes.max_force / hit.max_force - 1) < 2
         drop = mdr.Paraboloid(8e-3), mdr.Medium(10e9, q_c=4e5), 5.5, 1.0
         support = mdr.Structure(stiffness=2.332e6, mass=0.075 * 0.125 * 4.5e-3 * 1600 / 4)
-        (limit,) = (each for each in mdr.impact(*drop, structure=support).limits if each.what == "support")
+        limit = limit_of(mdr.impact(*drop, structure=support), "support")
         assert not limit.exceeded
         assert limit.value < 0.01
 
@@ -519,7 +526,7 @@ class TestLimits:
         assert limits["dent"].value == 0
         assert "weight" not in limits
         dented = mdr.impact(BALL, mdr.Medium(E, hardness=1e8), MASS, SPEED, structure=plate)
-        (dent,) = (each for each in dented.limits if each.what == "dent")
+        dent = limit_of(dented, "dent")
         assert dent.value == approx(dented.plastic_depth / 0.5e-3, rel=1e-12)
         slow, limits = self.limits(mdr.Structure(stiffness=100.0), 0.1)
         assert limits["weight"].value == approx(9.81 * slow.contact_time / 0.1, rel=1e-12)
@@ -584,17 +591,10 @@ class TestHardCases:
             assert hit.restitution**2 + lost(hit) == approx(1.0, rel=bound)
 
 
-def test_a_scene_keeps_its_structure():
-    for structure in (
-        None,
-        mdr.Structure.plate(4e-3, 50e9, 0.3, 1600.0, edge=0.1),
-        mdr.Structure(stiffness=1e7),
-    ):
+def test_a_scene_on_a_structure_is_solved_by_its_script():
+    for structure in (mdr.Structure.plate(4e-3, 50e9, 0.3, 1600.0), mdr.Structure(stiffness=1e7)):
         scene = mdr.Scene(BALL, YIELDING, mdr.scene.FreeImpact(MASS, SPEED, structure=structure))
-        again = mdr.Scene.from_json(scene.to_json())
-        assert again == scene
-        assert again.drive.structure == structure
-        hit = again.solve()
+        hit = scene.solve()
         assert hit.restitution == mdr.impact(BALL, YIELDING, MASS, SPEED, structure=structure).restitution
         names = {}
         exec(scene.to_python(), names)
@@ -616,19 +616,6 @@ def test_models_of_a_scene():
     assert in_time.contact_time == approx(exact.contact_time, rel=1e-9)
 
 
-def test_a_sweep_over_impedances():
-    xarray = pytest.importorskip("xarray")
-    Z = xarray.DataArray([60.0, 346.0, np.inf], dims="Z")
-    given = {"E_star": E, "mass": MASS, "speed": SPEED, "quantities": ("restitution", "max_deflection")}
-    table = mdr.sweep.impacts(mdr.Paraboloid, radius=R, impedance=Z, **given)
-    hit = mdr.impact(BALL, ELASTIC, MASS, SPEED, structure=mdr.Structure(Z.values))
-    assert table.restitution.values == approx(hit.restitution, rel=1e-12)
-    assert table.max_deflection.values == approx(hit.max_deflection, rel=1e-12)
-    K = xarray.DataArray([-1.0, 1e7], dims="K")
-    table = mdr.sweep.impacts(mdr.Paraboloid, radius=R, stiffness=K, invalid="nan", **given)
-    assert np.isnan(table.restitution.values).tolist() == [True, False]
-
-
 def test_the_mass_of_a_support_is_estimated_for_the_worst_of_many_impacts():
     """Where the contact yields the mass hides: the excess of an elastic impact among others is told."""
     support = mdr.Structure(stiffness=5e6, mass=0.02, thickness=4e-3)
@@ -636,7 +623,7 @@ def test_the_mass_of_a_support_is_estimated_for_the_worst_of_many_impacts():
     speed = np.array([0.6, 1.0, 2.0, 2.6])
 
     def told(hit):
-        (limit,) = (each for each in hit.limits if each.what == "support")
+        limit = limit_of(hit, "support")
         return limit
 
     many = mdr.impact(*given, speed, structure=support)
@@ -648,6 +635,6 @@ def test_the_mass_of_a_support_is_estimated_for_the_worst_of_many_impacts():
 def test_a_wide_contact_on_a_support_of_known_thickness_is_told():
     support = mdr.Structure(stiffness=5e6, thickness=2e-3)
     hit = mdr.impact(mdr.Paraboloid(8e-3), mdr.Medium(10e9, q_c=1.6e6), 5.5, 2.0, structure=support)
-    (thin,) = (each for each in hit.limits if each.what == "thin")
+    thin = limit_of(hit, "thin")
     assert thin.exceeded
     assert thin.value == approx(2 * float(hit.contact_radius) / 2e-3)

@@ -20,6 +20,7 @@ MEDIA = {
 OF_ALL = pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
 
 
+@pytest.mark.few(2)
 @OF_ALL
 def test_a_punch_without_slip(medium):
     """Width and stiffness along the surface stay the same, yield or not: W = W₀ cos ωt until contact ends.
@@ -35,6 +36,7 @@ def test_a_punch_without_slip(medium):
     assert hit.max_tangential_force == approx(BALL * omega * 0.05, rel=1e-5)
 
 
+@pytest.mark.few(2)
 @pytest.mark.parametrize("eta", [0.0, 5.0])
 @pytest.mark.parametrize("psi", [0.3, 1.3])
 def test_a_cone_of_constant_hardness_has_no_length_of_its_own(psi, eta):
@@ -82,30 +84,6 @@ def test_no_hardness_that_is_reached_is_as_elastic():
         # The levels are the same but for that of the onset, which is not reached.
         assert hit.tangential_restitution == approx(expected.tangential_restitution, abs=2e-5)
         assert hit.max_tangential_force == approx(expected.max_tangential_force, rel=2e-5)
-
-
-@pytest.mark.parametrize("shape", [mdr.Cone, mdr.Sphere, mdr.TruncatedCone], ids=lambda x: x.__name__)
-def test_many_are_as_one_by_one(shape):
-    """Indenters, media and speeds side by side; to rounding, as steps are those of each impact."""
-    lengths = np.array([1e-5, 2e-5, 3e-5])
-    given = {
-        mdr.Cone: {"slope": 1e4 * lengths},
-        mdr.Sphere: {"radius": lengths},
-        mdr.TruncatedCone: {"flat_radius": lengths / 20, "slope": 0.3},
-    }[shape]
-    hardness, f_c = np.array([2e7, 1e7, 5e6]), np.array([0.0, 1e-6, 1e-5])
-    speed = np.array([0.1, 0.3, 0.2])
-    hits = mdr.oblique_impact(
-        shape(**given), mdr.Medium(1e9, hardness=hardness, f_c=f_c), MASS, speed, 0.1, MU, tolerance=1e-3
-    )
-    assert (hits.plastic_work > 0).all()
-    for i in range(3):
-        own = shape(**{name: np.broadcast_to(value, 3)[i] for name, value in given.items()})
-        one = mdr.oblique_impact(
-            own, mdr.Medium(1e9, hardness=hardness[i], f_c=f_c[i]), MASS, speed[i], 0.1, MU, tolerance=1e-3
-        )
-        assert hits.tangential_velocity[i] == approx(one.tangential_velocity, rel=1e-8)
-        assert hits.max_tangential_force[i] == approx(one.max_tangential_force, rel=1e-8)
 
 
 def test_slip_inside_ends_with_the_rate_of_the_bound():

@@ -14,6 +14,7 @@ from mdr_core.solver.oblique.viscous_friction import levels, slide
 
 from ...approx import approx
 from ...benchmarks.oblique import Case, compression, limits
+from ...said import limit_of
 from ...shapes import SHAPES, name
 
 MASS, SPEED, MU = 1e-9, 0.1, 0.3
@@ -25,7 +26,6 @@ SUM = mdr.Medium(1e9, q_c=4.0, hardness=5e6, f_c=2e-6)
 MEDIA = {"elastic": ELASTIC, "(b)": DRY, "(a)": GLASS, "(c)": LINE, "sum": SUM}
 MEDIA |= {"viscous, " + name: replace(medium, eta=20.0) for name, medium in list(MEDIA.items())[1:]}
 OF_ALL = pytest.mark.parametrize("medium", MEDIA.values(), ids=MEDIA)
-OF_DRY = pytest.mark.parametrize("medium", list(MEDIA.values())[:5], ids=list(MEDIA)[:5])
 PARABOLOID = mdr.Paraboloid(1e-5)
 #: κ for ν = 1/2, and χ = κm/(2m_t) of a solid ball.
 KAPPA, CHI = 2 / 3, 7 / 6
@@ -87,6 +87,7 @@ def test_against_small_steps(shape, medium):
 
 
 class TestMaw:
+    @pytest.mark.few(4)
     @OF_ALL
     def test_slip_throughout(self, medium):
         """ΔW = −μ (m/m_t)(1 + e) v, whatever the shape: ψ₂ = ψ₁ − 4χ where e = 1."""
@@ -261,20 +262,20 @@ OTHERS = (pair for pair in itertools.product((0.5, 1.3), MEDIA) if pair not in U
 def test_limit_of_vanishing_viscosity(psi, medium):
     """Viscous impacts are solved by other equations; what they tend to is linear in the viscosity."""
     dry, *viscous = (
-        hit_at(psi, medium=replace(medium, eta=eta), tolerance=1e-6) for eta in (0.0, 2e-4, 4e-4)
+        hit_at(psi, medium=replace(medium, eta=eta), tolerance=1e-5) for eta in (0.0, 2e-4, 4e-4)
     )
-    # Velocities are relative to W₀, of which the finest steps leave more than 10⁻⁶.
+    # Three solutions with the tolerance; velocities are relative to W₀.
     scales = {"tangential_velocity": dry.tangential_speed}
     for quantity in ("tangential_velocity", "max_tangential_force", "friction_work"):
         near, far = (getattr(hit, quantity) for hit in viscous)
         value = getattr(dry, quantity)
-        assert abs(value - (2 * near - far)) <= 2e-5 * scales.get(quantity, value), quantity
+        assert abs(value - (2 * near - far)) <= 4e-5 * scales.get(quantity, value), quantity
 
 
 @pytest.fixture(scope="module")
 def ensemble():
     """Impacts at random d/d_c up to some 100, ψ₁ and μ, by the tolerance of their solution."""
-    rng, count = np.random.default_rng(5), 80
+    rng, count = np.random.default_rng(5), 30
     radius = 10 ** rng.uniform(-6, -4, count)
     psi = rng.uniform(0.1, 4, count)
     mu = rng.uniform(0.1, 0.5, count)
@@ -295,7 +296,7 @@ def deviations(hits, fine):
 
 @pytest.mark.slow
 def test_ensembles(ensemble):
-    """Many at a time: within 10⁻³ of what finer steps give at all, 99 % within the errors or nearly so."""
+    """Many at a time: within 10⁻³ of what finer steps give, and within four times the errors."""
     hits = ensemble[2e-4]
     depth = hits.max_depth / hits.medium.critical_depth
     assert depth.min() < 1
@@ -303,7 +304,7 @@ def test_ensembles(ensemble):
     miss, errors = deviations(hits, ensemble[1e-6]), hits.errors.tangential_velocity
     assert np.all(errors <= 2e-4)
     assert np.all(miss <= 1e-3)
-    assert np.quantile(miss / errors, 0.99) < 4
+    assert np.max(miss / errors) < 4
 
 
 @pytest.mark.slow
@@ -319,6 +320,7 @@ def test_errors_of_ensembles(ensemble):
         assert share.max() < 5
 
 
+@pytest.mark.slow
 def test_coarse_runs_that_agree_by_chance():
     """The first two runs agree to 2·10⁻⁵ and are off by 5·10⁻⁴; the chain's own error is 10⁻⁶."""
     shape, medium = mdr.Cone(0.84645), mdr.Medium(2.697e8, q_c=1398.4, poisson=0.0267)
@@ -398,19 +400,6 @@ def solvable(shape, medium):
         pytest.skip("not convex")
 
 
-@OF_DRY
-@pytest.mark.parametrize("shape", SHAPES, ids=name)
-def test_levels_beside_the_turning_point(shape, medium):
-    """Stick may begin one unit of rounding before it; the steps still sum to the contact time."""
-    solvable(shape, medium)
-    hit = mdr.impact(shape, medium, MASS, SPEED)
-    motions = NormalMotions.of(hit, np.array([0]))
-    for units in (1, 2, 8, 1e4):
-        found = motions.levels(32, 32, [hit.max_depth * (1 - units * 2.0**-53)])
-        # Of fourth order in the levels.
-        assert found.step.sum() == approx(hit.contact_time, rel=1e-6)
-
-
 @pytest.mark.parametrize(
     "shape", [mdr.TruncatedCone(1e-6, 10.0), mdr.TruncatedParaboloid(1e-6, 1e-12)], ids=name
 )
@@ -467,6 +456,7 @@ class TestExtremes:
         hit = mdr.oblique_impact(PARABOLOID, DRY, MASS, 1e-6, 1.0, MU)
         assert hit.velocity_change == approx(-MU * (1 + hit.restitution) * 1e-6, rel=1e-9)
 
+    @pytest.mark.few(4)
     @pytest.mark.parametrize("medium", [ELASTIC, DRY, VISCOUS], ids=["elastic", "yielding", "viscous"])
     @pytest.mark.parametrize(("speed", "mu"), [(0.06, 0.0), (0.06, 1e-60), (1e3, MU), (1e60, MU)])
     def test_motion_in_full_slip(self, medium, speed, mu):
@@ -499,7 +489,6 @@ class TestExtremes:
         ("change", "says"),
         [
             ({"friction": -0.1}, "friction = -0.1 must be not negative"),
-            ({"tangential_speed": np.nan}, "tangential_speed = nan m/s must be finite"),
             ({"tangential_speed": 1e-90}, "must be 0 or at least"),
             ({"tangential_mass": 0.0}, "tangential_mass = 0 kg must be finite and positive"),
             ({"tolerance": 0.0}, "tolerance = 0"),
@@ -551,30 +540,26 @@ def test_limits():
     assert {"slope", "coupling", "slip direction"} <= limits.keys()
 
 
-def limit_of(what, hit):
-    return next(limit for limit in hit.limits if limit.what == what)
-
-
 class TestLimitsOfStick:
     """Impacts beyond what the steps resolve, or errors were measured for, say so."""
 
     def test_light_bodies(self):
         hit = hit_at(0.5, medium=DRY, mass=1e-4 * MASS, tolerance=1e-5)
-        assert limit_of("tolerance", hit).level == "beyond"
-        assert limit_of("tolerance", hit).value == max(
+        assert limit_of(hit, "tolerance").level == "beyond"
+        assert limit_of(hit, "tolerance").value == max(
             hit.errors.tangential_velocity, hit.errors.max_tangential_force
         )
-        assert limit_of("mass", hit).exceeded
-        assert limit_of("depth", hit).holds
+        assert limit_of(hit, "mass").exceeded
+        assert limit_of(hit, "depth").holds
         assert "tolerance" in repr(hit)
         # Just as far as errors were measured.
-        assert limit_of("mass", hit_at(0.5, mass=0.1 * MASS)).holds
+        assert limit_of(hit_at(0.5, mass=0.1 * MASS), "mass").holds
 
     def test_deep_ones(self):
         hit = hit_at(0.5, medium=mdr.Medium(1e9, q_c=0.1), tolerance=1e-2)
-        assert limit_of("depth", hit).exceeded
-        assert limit_of("depth", hit).value == hit.max_depth / hit.medium.critical_depth
-        assert limit_of("mass", hit).holds
+        assert limit_of(hit, "depth").exceeded
+        assert limit_of(hit, "depth").value == hit.max_depth / hit.medium.critical_depth
+        assert limit_of(hit, "mass").holds
 
     def test_depth_is_that_over_the_elastic_compression(self):
         """Of f_c/a² under a cone that is (d/d_y)², so that 50 d_y are deep; H alone has no d_y there."""
@@ -586,24 +571,24 @@ class TestLimitsOfStick:
         hit = hit_at(0.5, cone, line, tolerance=1e-3)
         depth = hit.max_depth / onset
         assert depth > 32
-        assert limit_of("depth", hit).value == approx(depth**2, rel=1e-9)
-        assert limit_of("depth", hit).exceeded
+        assert limit_of(hit, "depth").value == approx(depth**2, rel=1e-9)
+        assert limit_of(hit, "depth").exceeded
         hit = hit_at(0.5, cone, mdr.Medium(1e9, hardness=0.1 * 0.3e9), tolerance=1e-3)
-        assert limit_of("depth", hit).value == approx(10.0, rel=1e-9)
-        assert limit_of("depth", hit).holds
+        assert limit_of(hit, "depth").value == approx(10.0, rel=1e-9)
+        assert limit_of(hit, "depth").holds
 
     def test_of_many_the_worst_that_sticks(self):
         """Closed forms have no such limits."""
         hits = hit_at(np.array([0.5, 5000.0]), medium=DRY, mass=np.array([BALL, 1e-3 * MASS]))
         assert hits.slips_throughout.tolist() == [False, True]
-        assert limit_of("mass", hits).value == approx(MASS / BALL)
+        assert limit_of(hits, "mass").value == approx(MASS / BALL)
         assert not {"tolerance", "depth", "mass"} & {limit.what for limit in hits[1].limits}
 
     @pytest.mark.parametrize("eta", [0.0, 20.0])
     def test_a_tolerance_that_is_met(self, eta):
         hit = hit_at(0.5, medium=mdr.Medium(1e9, q_c=10.0, eta=eta), tolerance=1e-3)
-        assert limit_of("tolerance", hit).holds
-        assert limit_of("tolerance", hit).bound == 1e-3
+        assert limit_of(hit, "tolerance").holds
+        assert limit_of(hit, "tolerance").bound == 1e-3
 
     def test_the_error_of_the_work_follows_from_that_of_the_velocity_that_is_left(self):
         """W_f = W₀ (1 − e²), so that an error ε of e makes up to (|e| + ε)² − e²."""
@@ -618,7 +603,7 @@ class TestLimitsOfStick:
     def test_errors_are_possible_ones(self, psi):
         """|W′| ≤ W₀ by energy, and |F_x| ≤ μF: the estimate alone was up to 6·10⁴."""
         hit = hit_at(psi, medium=mdr.Medium(1e9, q_c=1e-4), mass=1e-4 * MASS, tolerance=1e-5)
-        assert limit_of("tolerance", hit).exceeded
+        assert limit_of(hit, "tolerance").exceeded
         assert hit.errors.tangential_velocity <= 1 + abs(hit.tangential_restitution)
         assert hit.errors.friction_work <= 1
         most = max(1.0, MU * hit.max_force / hit.max_tangential_force)

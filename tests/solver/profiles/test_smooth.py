@@ -19,6 +19,7 @@ PAIRS = {
 }
 
 
+@pytest.mark.few(5)
 @pytest.mark.parametrize("history", [(0.4,), (3.0,), (100.0,), (1000.0, 999.5)])
 @pytest.mark.parametrize("pair", PAIRS)
 def test_same_as_the_closed_form(pair, history):
@@ -154,6 +155,7 @@ def test_tables_reach_down_to_shallow_impacts():
     np.testing.assert_allclose(hits.max_depth, depth, rtol=1e-12)
 
 
+@pytest.mark.few(1)
 @pytest.mark.parametrize("radius", [1e-9, 1e-6, 1e-2])
 def test_pressure_on_the_axis_of_a_rounded_tip(radius):
     """Hertz: p₀ = (2/π) E* √(d/R), with Huber's −p₀ and 0.31 p₀; g′ is from polynomials to 10⁻¹²."""
@@ -168,7 +170,8 @@ def test_pressure_on_the_axis_of_a_rounded_tip(radius):
     assert sharp.reduced_slope(0.0) == approx(np.pi / 2 * 0.3, rel=1e-8)
 
 
-@pytest.mark.few(2)
+@pytest.mark.slow
+@pytest.mark.few(1)
 @pytest.mark.parametrize("given", [{}, {"radius": 1e-6}, {"radius": 0.9e-6}, {"radius": 0.3e-6}], ids=str)
 def test_a_slope_that_ends_has_every_class_of_hardness(given):
     """A sphere by its slope, which is infinite at its radius: the forces of the sphere, to rounding."""
