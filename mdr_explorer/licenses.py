@@ -103,7 +103,7 @@ def of_script(name: str, version: str) -> Licensed:
     return Licensed(name, version, licence, _text(licence, holder))
 
 
-def written(parts: Iterable[Licensed]) -> str:
+def as_text(parts: Iterable[Licensed]) -> str:
     """Return all parts as one text."""
     line = "\n" + 80 * "-" + "\n"
     return line.join([_HEAD, *map(str, sorted(parts, key=lambda part: part.name.lower()))])

@@ -143,4 +143,4 @@ def write(folder: Path, pyodide: str = "") -> None:
     address = address.rstrip("/") + "/"
     digests = INTEGRITY if address == PUBLISHED else {}
     parts += pages.write(folder, address, {address + name: digest for name, digest in digests.items()})
-    (folder / "LICENSES.txt").write_text(licenses.written(parts), encoding="utf-8")
+    (folder / "LICENSES.txt").write_text(licenses.as_text(parts), encoding="utf-8")

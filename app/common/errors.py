@@ -4,7 +4,7 @@ import re
 from typing import Any
 
 from mdr_core.base.errors import InvalidArgument, MDRError
-from mdr_core.show.units import KINDS, written
+from mdr_core.show.units import KINDS, format_quantity
 
 from .quantities import QUANTITIES, unicode_subscripts
 
@@ -43,11 +43,11 @@ def error_text(error: ValueError) -> str:
         return in_fitting_units(text) if isinstance(error, MDRError) else text
     known = QUANTITIES.get(error.argument)
     name = f"{unicode_subscripts(known.symbol)}, {known.label}," if known else error.quantity
-    value = written(float(error.value), KINDS.get(error.unit, "number"))
+    value = format_quantity(float(error.value), KINDS.get(error.unit, "number"))
     advice = f"; {error.advice}" if error.advice and "SI units" not in error.advice else ""
     return f"{name} = {value} {in_fitting_units(error.bound)}{advice}"
 
 
 def in_fitting_units(text: str) -> str:
     """Convert each number of a message of the core from SI to the unit that fits it."""
-    return _IN_SI.sub(lambda found: written(float(found[1]), KINDS[found[2]]), text)
+    return _IN_SI.sub(lambda found: format_quantity(float(found[1]), KINDS[found[2]]), text)

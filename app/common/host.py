@@ -40,7 +40,7 @@ class Host:
         """Whether a browser shows the page; slow updates then wait until the input rests."""
         return False
 
-    def once_shown(self, act: Callable[[], None]) -> None:
+    def on_load(self, act: Callable[[], None]) -> None:
         """Do something once a browser shows the page."""
         act()
 
@@ -106,7 +106,7 @@ class Server(Sliced):
     def shows(self) -> bool:
         return bool(pn.state.loaded)
 
-    def once_shown(self, act: Callable[[], None]) -> None:
+    def on_load(self, act: Callable[[], None]) -> None:
         pn.state.onload(act)
 
     def call_later(self, act: Callable[[], None], milliseconds: int) -> Callable[[], None]:

@@ -206,7 +206,7 @@ class Worker:
         return process
 
 
-class Here:
+class SynchronousWorker:
     """Worker without a process, which runs each job at once: in a browser, and in tests."""
 
     async def run(

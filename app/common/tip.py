@@ -7,7 +7,7 @@ import numpy as np
 
 from mdr_core.measurements.files.table import decoded
 from mdr_core.measurements.files.tips import samples_of
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 from mdr_core.solver.profiles.sampled import tip_through
 
 from .upload import MAX_SAMPLES, in_line
@@ -38,7 +38,7 @@ def read_tip(text: str, name: str = "the file") -> tuple[tuple[Any, Any], str]:
     note = f"{len(r)} rows reduced to {count} samples" if len(r) > count else f"{count} samples"
     # The fit sums terms as large as the heights: the deviation may be rounding alone.
     if scatter is not None and scatter > _ROUNDING * float(np.ptp(z)):
-        note += f"; rms deviation {written(scatter, 'length', 2)}"
+        note += f"; rms deviation {format_quantity(scatter, 'length', 2)}"
     elif len(r) == count:
         note += ", as in the file"
     return (tip.r, tip.z), note

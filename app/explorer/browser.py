@@ -36,7 +36,7 @@ class Browser(Sliced):
     def shows(self) -> bool:
         return self._shows
 
-    def once_shown(self, act: Callable[[], None]) -> None:
+    def on_load(self, act: Callable[[], None]) -> None:
         if self._shows:
             act()
         else:

@@ -48,11 +48,11 @@ def choose(state: State, name: str, wanted: str) -> State:
     convert = _CONVERT.get(name)
     numbers = convert(state, wanted) if convert else DRIVES[state.drive].converted(state, name, wanted)
     for number, value in numbers.items():
-        changed = put(changed, number, value)
+        changed = set_value(changed, number, value)
     return changed
 
 
-def put(state: State, name: str, value: float) -> State:
+def set_value(state: State, name: str, value: float) -> State:
     """Set a number: E* of two bodies by their moduli, q_c of a hardness at a radius by the hardness."""
     given = {name: checked(name, value)}
     if name == "E_star" and state.elasticity == "bodies":
@@ -83,12 +83,12 @@ def take_tip(state: State, samples: tuple[Any, Any], note: str) -> State:
     return state.replace(samples=(tip.r, tip.z), tip_note=note, shape="sampled", max_depth=depth)
 
 
-def hit_again(state: State) -> State:
+def repeat_impact(state: State) -> State:
     """Let the body hit its own imprint."""
     hit = follow(state).hit
     if hit is None or not hit.plastic_depth_increase > 0:
         raise ValueError("nothing has yielded further: the next impact equals this impact")
-    return put(state, "plastic_depth", float(hit.plastic_depth))
+    return set_value(state, "plastic_depth", float(hit.plastic_depth))
 
 
 # Numbers that keep their meaning under another option of a choice.

@@ -9,7 +9,7 @@ from urllib.parse import parse_qsl, urlencode
 from ..common.quantities import CHOICES, QUANTITIES
 from ..common.units import in_full
 from ..common.upload import MAX_SAMPLES
-from .changes import equivalent, put
+from .changes import equivalent, set_value
 from .courses import LAST_PROGRESS
 from .state import (
     LISTS,
@@ -17,7 +17,7 @@ from .state import (
     OPENING,
     PRESETS,
     State,
-    altered,
+    changed_from_preset,
     checked,
     form_choices,
     numbers_of,
@@ -111,7 +111,7 @@ def read(query: str) -> State:
         before = state.replace(drive=preset_state(state.preset).drive)
         for name, number in equivalent(before, state.drive).items():
             if name not in values:
-                state = put(state, name, number)
+                state = set_value(state, name, number)
     return state
 
 
@@ -174,7 +174,7 @@ def file_name(state: State, what: str) -> str:
     >>> file_name(preset_state("berkovich-gold").replace(max_depth=5e-9), "curves.csv")
     'berkovich-gold_d_max=5nm_curves.csv'
     """
-    known, preset = altered(state), PRESETS[state.preset].values
+    known, preset = changed_from_preset(state), PRESETS[state.preset].values
     parts = [state.preset, *(state[name] for name in known if name in CHOICES)]
     changed = (name for name in used(state) if name in known or name not in preset)
     parts += [with_symbol(name, state[name]).replace("/", "-") for name in changed]

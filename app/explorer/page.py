@@ -31,7 +31,7 @@ from .extra import EXTRAS
 from .layout import LANDMARKS, Layout, frames_in_steps
 from .plot import AxisSpec, View
 from .plots import NAMED, PLOTS
-from .state import VIEW, State, as_shown, preset_state
+from .state import VIEW, State, preset_state, rounded_to_display
 from .widgets import Field, Part, choice
 
 _LOG = logging.getLogger(__name__)
@@ -148,7 +148,7 @@ class Page:
     def query(self) -> tuple[str, str]:
         """Return the page as a query, or an empty query and the reason."""
         try:
-            query, dark = link.write(as_shown(self.view.state)), self.view.state.dark
+            query, dark = link.write(rounded_to_display(self.view.state)), self.view.state.dark
             theme = [f"dark={int(dark)}"] * (dark == self._asked_dark)
             return "&".join(filter(None, [query, *theme])), ""
         except ValueError as error:
@@ -216,7 +216,7 @@ class Page:
         """Show a notice, once the browser is ready; its text may contain user input."""
         if pn.state.notifications is not None:
             tell = partial(pn.state.notifications.error, notice(text), duration=7000)
-            self.host.once_shown(tell)
+            self.host.on_load(tell)
 
     def refusal(self, error: Exception, state: State | None = None) -> str:
         """Return the message for an error; log an internal error with its state."""

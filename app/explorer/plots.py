@@ -12,7 +12,7 @@ from mdr_core.show import figures
 from mdr_core.show import springs as drawn
 from mdr_core.show.figures import label, line, mark, split
 from mdr_core.show.quantities import QUANTITIES
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 
 from ..common.ui import call
 from .courses import Course, onset_depth
@@ -96,7 +96,7 @@ def _out_of_range(view: View, states: Any, axes: dict[AxisSpec, tuple[str, str]]
         low = axis.start if along in (D, F) else -np.inf
         for value in (float(np.min(values)), float(np.max(values))):
             if not low - 1e-9 * high <= value <= (1 + 1e-9) * high:
-                yield f"{symbol} = {written(value, along.kind, 3)}"
+                yield f"{symbol} = {format_quantity(value, along.kind, 3)}"
 
 
 # Springs.
@@ -122,11 +122,11 @@ def _cap(course: Course) -> str:
     if medium.q_c == np.inf:
         return "∞"
     if medium.inverse_to_radius:
-        return f"d_c = π q_c/(2E*) = {written(float(medium.critical_depth), 'length')}"
+        return f"d_c = π q_c/(2E*) = {format_quantity(float(medium.critical_depth), 'length')}"
     a = float(course.turning_point.contact_radius)
     if a == 0:
         return "u_c = π a σ_c/(2E*)  § 20"
-    return f"u_c = π a σ_c/(2E*) = {written(_cap_at(medium, a), 'length')}  § 20"
+    return f"u_c = π a σ_c/(2E*) = {format_quantity(_cap_at(medium, a), 'length')}  § 20"
 
 
 def _cap_at(medium: Any, a: float) -> float:
@@ -141,11 +141,11 @@ def _yields_at(view: View) -> str:
     if course.adhesive or medium.q_c == np.inf or onset_depth(course.scene) == np.inf:
         return ""
     if medium.inverse_to_radius:
-        return f"a spring yields at u = d_c = {written(float(medium.critical_depth), 'length')}"
+        return f"a spring yields at u = d_c = {format_quantity(float(medium.critical_depth), 'length')}"
     if a == 0:
         return ""
-    cap = written(_cap_at(medium, a), "length")
-    return f"a spring yields at u = u_c = {cap} for a = {written(a, 'length')}"
+    cap = format_quantity(_cap_at(medium, a), "length")
+    return f"a spring yields at u = u_c = {cap} for a = {format_quantity(a, 'length')}"
 
 
 SPRINGS = Plot(
@@ -185,7 +185,7 @@ def force(view: View, i: int) -> dict:
     if onset is not None and not course.dashpots:
         rows["onset of yield"] = np.array([onset.depth]), np.array([onset.force])
     if (lower := float(states.plastic_depth[i])) > 0:
-        text = f"dₚ = {written(lower, 'length', 3)}"
+        text = f"dₚ = {format_quantity(lower, 'length', 3)}"
         # The text ends at its point, and begins inside the plot.
         room = width(text) / WIDTH * view.end(D)
         rows["dₚ"] = max(lower - 0.4 * right, room), 0.17 * view.end(F), text
@@ -256,7 +256,7 @@ def drag_path(view: View) -> dict[str, Any]:
     return found | {"unit": d / view.axis(Z).factor, "pressing": pressing}
 
 
-def let_drag(figure: Any) -> None:
+def enable_drag(figure: Any) -> None:
     """Make a figure draggable."""
     for event in (PanStart, Pan, PanEnd):
         figure.js_on_event(event, CustomJS(code=call("drag", "cb_obj")))

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
-from mdr_core.show.units import KINDS, written
+from mdr_core.show.units import KINDS, format_quantity
 
 from ..common.quantities import CHOICES, READOUTS, Readout, unicode_subscripts
 from ..common.ui import linked, symbol
@@ -47,7 +47,7 @@ def text(readout: Readout, values: Any, i: int, count: int = 4) -> str:
     value = float(values if np.ndim(values) == 0 else values[i])
     if readout.name == "restitution" and 0 < value < _LEAST:
         return f"< {_LEAST:g}"
-    return written(value, KINDS[readout.unit], count)
+    return format_quantity(value, KINDS[readout.unit], count)
 
 
 _STRIP = Markup('<div class="strip">{}</div>')

@@ -24,7 +24,7 @@ _KEPT = 64
 
 
 @dataclass(frozen=True)
-class Found:
+class SearchResult:
     """Result of a search for a plot: rows (SI) with their axes, and a note (text or HTML)."""
 
     rows: dict[str, Any]
@@ -33,8 +33,8 @@ class Found:
 
 
 #: Results before a search ends, and after a failed search.
-COMPUTING = Found({}, [], "computing …")
-FAULT = Found({}, [], "A fault of the explorer prevents this result.")
+COMPUTING = SearchResult({}, [], "computing …")
+FAULT = SearchResult({}, [], "A fault of the explorer prevents this result.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +46,7 @@ class AsyncPlot(Plot):
     `image` has the numbers of rows and columns of pixels.
     """
 
-    find: Callable[..., Found | Iterator[Found | None]] = lambda course, asked: COMPUTING
+    find: Callable[..., SearchResult | Iterator[SearchResult | None]] = lambda course, asked: COMPUTING
     asks: Callable[[State], Any] | None = None
     quick: Callable[[Any], bool] = lambda asked: False
     of_state: bool = False
@@ -60,7 +60,7 @@ class AsyncPlot(Plot):
         """Return the key that identifies a search."""
         return course.scene, asked, course.progress[course.now] if self.of_state else None
 
-    def found(self, view: View) -> Found:
+    def found(self, view: View) -> SearchResult:
         return view.computed.get(self.name) or COMPUTING
 
     def axes_of(self, view: View) -> list[Axis]:
@@ -140,7 +140,7 @@ class Searching(Service):
 class IdleSearch(Searching):
     """Searches for the plots of a view and for its exact course."""
 
-    def compute(self, state: State, course: Course) -> dict[str, Found]:
+    def compute(self, state: State, course: Course) -> dict[str, SearchResult]:
         """Return results for the plots of a state; compute quick results."""
         results = {}
         for plot in (PLOTS[name] for name in state.tiles if isinstance(PLOTS[name], AsyncPlot)):

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 import mdr_core as mdr
-from mdr_core.show.units import fitting, written
+from mdr_core.show.units import fitting, format_quantity
 
 from ..common.quantities import ASSETS, CHOICES, QUANTITIES, Option, read_data, unicode_subscripts
 from ..common.units import entry, read
@@ -184,7 +184,7 @@ def preset_state(key: str = OPENING, **view: Any) -> State:
     return State(preset=key).replace(**preset_values(key) | view)
 
 
-def altered(state: State) -> list[str]:
+def changed_from_preset(state: State) -> list[str]:
     """Return the names of choices and numbers that differ from the preset by more than rounding."""
     values = preset_values(state.preset)
     changed = [name for name in values if state[name] != values[name]]
@@ -239,12 +239,12 @@ def checked(name: str, value: float) -> float:
     """Return the value (SI) of a number. Raises ValueError if it is out of bounds."""
     known = QUANTITIES[name]
     if not isclose(known.bounded(value), value, rel_tol=1e-12):
-        shown, low, high = (written(v, known.kind) for v in (value, *known.bounds))
+        shown, low, high = (format_quantity(v, known.kind) for v in (value, *known.bounds))
         raise ValueError(f"{unicode_subscripts(known.symbol)} = {shown} is out of bounds: {low} to {high}")
     return float(known.bounded(value))
 
 
-def as_shown(state: State) -> State:
+def rounded_to_display(state: State) -> State:
     """Round the numbers of a state to the digits of their fields, except angles: their SI digits differ."""
     preset = PRESETS[state.preset].values
     changed = [name for name in used(state) if state[name] is not None and state[name] != preset.get(name)]

@@ -10,10 +10,10 @@ import panel as pn
 import param
 from markupsafe import Markup
 
-from mdr_core.show.units import UNITS, Unit, fitting, written
+from mdr_core.show.units import UNITS, Unit, fitting, format_quantity
 
 from ..common.folders import Files
-from ..common.process import Here, Refused, Replaced, Worker, queue_text
+from ..common.process import Refused, Replaced, SynchronousWorker, Worker, queue_text
 from ..common.quantities import CHOICES, QUANTITIES, Quantity
 from ..common.ui import JS, LAYOUT, WIDE, as_html, html_subscripts, linked, show, symbol
 from ..common.units import entry, read
@@ -21,7 +21,7 @@ from ..common.upload import TIP_BYTES, Uploaded, in_line
 from . import changes
 from .changes import option, options
 from .plot import View
-from .state import FOLDED_CHOICES, PRESETS, State, altered, checked, folded, numbers_of, regions
+from .state import FOLDED_CHOICES, PRESETS, State, changed_from_preset, checked, folded, numbers_of, regions
 
 #: Number of letters in all options below which a choice has radio buttons instead of a list.
 _SHORT = 48
@@ -74,7 +74,7 @@ def choice(name: str, state: State, choose: Callable[[str], None]) -> Part:
     """
     chosen = option(state, name)
     pairs = [[each, CHOICES[name].options[each].label] for each in options(state, name)]
-    if name == "preset" and altered(state):
+    if name == "preset" and changed_from_preset(state):
         chosen = _ALTERED
         pairs.append([_ALTERED, f"{PRESETS[state.preset].label}, altered"])
     look = _about(name) | {"options": pairs, "value": chosen}
@@ -173,7 +173,7 @@ class Field:
         low, self._middle, high = slider_range(self._known, self._middle, value)
         look = {"text": entry(value, self._unit), "refused": self.refused, "value": value}
         look |= {"low": low, "middle": self._middle, "high": high}
-        look["ends"] = [written(end, self._known.kind, 3) for end in (low, high)]
+        look["ends"] = [format_quantity(end, self._known.kind, 3) for end in (low, high)]
         return Part("number", self._name, self._static_look | look, self._take)
 
     def _take(self, message: Any) -> None:
@@ -185,7 +185,7 @@ class Field:
                 self._page.apply(partial(self._read, entered), self._refuse)
             case {"value": int() | float() as value} if abs(value) < 1e300:
                 dragged = "dragged" in message
-                change = partial(changes.put, name=self._name, value=value)
+                change = partial(changes.set_value, name=self._name, value=value)
                 self._page.apply(change, self._refuse, self._name * dragged)
         if not (self.refused or dragged):
             # The typed unit replaces the unit that fits the number, which the field shows meanwhile.
@@ -194,7 +194,7 @@ class Field:
 
     def _read(self, entered: str, state: State) -> State:
         value, self._typed = read(entered, self._known.kind, self._unit)
-        return changes.put(state, self._name, value)
+        return changes.set_value(state, self._name, value)
 
     def _refuse(self, text: str) -> None:
         self.refused = text
@@ -207,7 +207,7 @@ def _reads_well(value: float, unit: Unit) -> bool:
 
 def _static_look(known: Quantity) -> dict[str, Any]:
     """Return the fixed part of a number's look: label, explanation and span."""
-    low, high = (written(bound, known.kind, 2) for bound in known.bounds)
+    low, high = (format_quantity(bound, known.kind, 2) for bound in known.bounds)
     units = ", ".join(unit.name for unit in UNITS[known.kind] if unit.name)
     rows = [linked(known.help)]
     rows.append(Markup("<em>{}</em>").format(linked(known.equation)) if known.equation else "")
@@ -234,7 +234,7 @@ class Form:
         self._altered: set[str] = set()
         # Error of the last file of a tip, or its progress.
         self._tip_refused = self._tip_busy = ""
-        self._files, self._worker = Files(), Worker() if page.host.processes else Here()
+        self._files, self._worker = Files(), Worker() if page.host.processes else SynchronousWorker()
         page.host.on_close(self._end_reading)
         self.view = Parts("form", stylesheets=LAYOUT)
 
@@ -251,9 +251,9 @@ class Form:
             found = (each.get(place, "") for each in notes)
             return text(f"note {place}", Markup("").join((before, *found)))
 
-        again = button("Hit again", partial(page.apply, changes.hit_again))
+        again = button("Hit again", partial(page.apply, changes.repeat_impact))
         # Unfold values that begin to differ from the preset, except moduli that follow a typed E*.
-        now = {*FOLDED_CHOICES, *in_fold}.intersection(altered(state)) - {"E_1", "E_2"}
+        now = {*FOLDED_CHOICES, *in_fold}.intersection(changed_from_preset(state)) - {"E_1", "E_2"}
         opened = self._open["more"] = self._open["more"] or bool(now - self._altered)
         self._altered = now
         modulus, *constant = numbers["medium"]

@@ -10,7 +10,7 @@ from bokeh.document import Document
 
 from ..common.errors import Refused, text_and_remedy
 from ..common.host import host_of
-from ..common.process import Here, Replaced, Worker, queue_text
+from ..common.process import Replaced, SynchronousWorker, Worker, queue_text
 
 Act = Callable[..., Coroutine[Any, Any, None]]
 
@@ -18,7 +18,7 @@ Act = Callable[..., Coroutine[Any, Any, None]]
 class Actions(pn.viewable.Viewer):
     """Page with coroutines as actions. A new job ends the action that waits for the last job."""
 
-    def __init__(self, worker: Worker | Here | None):
+    def __init__(self, worker: Worker | SynchronousWorker | None):
         super().__init__()
         self.document = pn.state.curdoc or Document()
         self.host = host_of(self.document)

@@ -18,7 +18,7 @@ from mdr_core.measurements.fit.noise import depth_noise_of
 from mdr_core.measurements.fit.remarks import remark_on_tension
 from mdr_core.measurements.reading import UnknownColumns
 from mdr_core.measurements.unloading.first_contact import LEAST_SAMPLES, first_seen
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 
 from ..common.errors import text_and_remedy
 from .choices import IN_TIME, MEDIA
@@ -247,16 +247,17 @@ def _check_range(taken: Any, used: np.ndarray, arguments: dict[str, Any]) -> Non
     largest, within = float(depth[: first + 1].max()), float(depth[used].max())
     # A thousandth of the range hardly matters, as for noise of the depth.
     if arguments.get("q_c") != np.inf and largest - within > 1e-3 * np.ptp(depth[used]):
+        depths = f"{format_quantity(largest, 'length')} instead of {format_quantity(within, 'length')}"
         raise ValueError(
-            f"the samples before the range reach deeper than the range, {written(largest, 'length')} "
-            f"instead of {written(within, 'length')}, and the fit would miss their yield: begin the range "
-            "at the largest depth or before"
+            f"the samples before the range reach deeper than the range, {depths}, and the fit would miss "
+            "their yield: begin the range at the largest depth or before"
         )
     origin = arguments.get("contact_point")
     if origin is not None and origin >= within:
         raise ValueError(
-            f"first contact z₀ = {written(origin, 'length')} must be less than the largest depth of the "
-            f"samples, {written(within, 'length')}: let the fit find z₀, or type a smaller z₀"
+            f"first contact z₀ = {format_quantity(origin, 'length')} must be less than "
+            f"{format_quantity(within, 'length')}, the largest depth of the samples: "
+            "let the fit find z₀, or type a smaller z₀"
         )
 
 
@@ -302,7 +303,7 @@ def _plausible(
     if other and ratio >= _DIFFERS:
         rest = {"loading": "unloading", "unloading": "loading"}[part]
         text = (
-            f"E* is from the {part}; the {rest} alone gives {written(other, 'pressure', 2)}, "
+            f"E* is from the {part}; the {rest} alone gives {format_quantity(other, 'pressure', 2)}, "
             f"a ratio of {ratio:.2g}"
         )
         below = (Remark(f"{text}: the sample yields, sticks or loses energy", "unloading"),)

@@ -9,11 +9,11 @@ import panel as pn
 from markupsafe import Markup
 
 from mdr_core.measurements.reading import SIZES
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 
 from ..common.errors import Refused
 from ..common.folders import Files
-from ..common.process import Here, Worker
+from ..common.process import SynchronousWorker, Worker
 from ..common.ui import WIDE, button, html, show
 from ..common.upload import CURVE_BYTES, TIP_BYTES, Uploads, in_line
 from . import texts
@@ -42,7 +42,10 @@ class Form:
 
     def __init__(self, page: Any):
         uploads, self._page = Uploads(), page
-        self._tip_files, self._tip_worker = Files(), Worker() if page.host.processes else Here()
+        self._tip_files, self._tip_worker = (
+            Files(),
+            Worker() if page.host.processes else SynchronousWorker(),
+        )
         self.drop = FileField(
             uploads, CURVE_BYTES, partial(page.do, page.take_file), page.refuse,
             label=f"Drop files of depth and force, or a zip (up to {CURVE_BYTES / 1e6:g} MB)",
@@ -158,7 +161,7 @@ class Form:
         shown = {"tip": TIPS[self.tip.value].label, "kind of sample": MEDIA[self.medium.value].label}
         for name, value in self.unusual_numbers().items():
             known = (NUMBERS | FITTED)[name]
-            shown[known.label] = "fitted" if value is None else written(value, known.kind)
+            shown[known.label] = "fitted" if value is None else format_quantity(value, known.kind)
         return shown
 
     def unusual_numbers(self) -> dict[str, float | None]:
@@ -231,7 +234,7 @@ class Form:
             )
             self.numbers[name].hint(text)
         noise = page.found.fit.depth_noise if page.found else 0.0
-        found = {"depth_noise": written(float(noise), "length", 2)} if noise else {}
+        found = {"depth_noise": format_quantity(float(noise), "length", 2)} if noise else {}
         for name, text in (_NO_CORRECTION | found).items():
             self.numbers[name].hint(text)
         show(self.model, visible=bool(medium))

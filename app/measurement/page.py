@@ -16,7 +16,7 @@ from mdr_core.base.remark import Remark
 
 from ..common.errors import Refused
 from ..common.folders import Files
-from ..common.process import Here, Worker
+from ..common.process import SynchronousWorker, Worker
 from ..common.ui import BOTH, WIDE, button, call, html, landmarks, show
 from ..common.upload import in_line
 from . import analysis, query
@@ -44,7 +44,7 @@ class Measurement(Actions):
     Its main actions are `take_file`, `read` and `fit`; each continues with the next action.
     """
 
-    def __init__(self, link: str = "", worker: Worker | Here | None = None):
+    def __init__(self, link: str = "", worker: Worker | SynchronousWorker | None = None):
         super().__init__(worker)
         # Name of the file or set, its path or paths on the server, name of the example, and time of the
         # last file (s).

@@ -5,7 +5,7 @@ from typing import Any
 
 from mdr_core.base.remark import Remedy
 from mdr_core.measurements.reading import SIZES
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 
 from ..common.ui import button, call
 from . import texts
@@ -39,14 +39,14 @@ def remedy_button(remedy: Remedy, page: Any) -> Any:
                 page, f"Hold the {name}", what, *([partial(set_number, si=found)] if found else [])
             )
         case "hold" if is_fitted:
-            at = written(value, FITTED[what].kind) if value else "0"
+            at = format_quantity(value, FITTED[what].kind) if value else "0"
             return button(f"Hold the {name} at {at}", partial(set_number, si=value))
         case "give" if what in NUMBERS and value is not None:
             return button(f"Give the {NUMBERS[what].label}", partial(set_number, si=value))
         case "give" if what in NUMBERS:
             return _leading(page, f"Give the {NUMBERS[what].label}", what)
         case "subtract" if page.curve is not None and page.curve.time is not None:
-            drift = written(value, "speed", 3)
+            drift = format_quantity(value, "speed", 3)
             return button(f"Subtract a drift of {drift}", partial(set_number, si=value))
         case "give" if what == "profile":
             return _leading(page, "Choose another tip", "profile")

@@ -13,7 +13,7 @@ from mdr_core.measurements.fit.parameters import PARAMETERS
 from mdr_core.measurements.unloading.oliver_pharr_result import OLIVER_PHARR, texts_of
 from mdr_core.show.quantities import unit_of
 from mdr_core.show.report import with_error
-from mdr_core.show.units import KINDS, digits, fitting, with_unit, written
+from mdr_core.show.units import KINDS, digits, fitting, format_quantity, with_unit
 
 from ..common.ui import html_subscripts, own_html
 from .choices import CLASS_NAMES, FITTED, MEDIA, NUMBERS
@@ -74,7 +74,7 @@ def short(value: float, error: float | None, unit: str) -> tuple[str, str]:
 
 def near(value: float, kind: str, like: float = 0.0) -> str:
     """Return a value with its unit; 0 has the unit of the value `like`."""
-    return written(value, kind) if value else with_unit("0", fitting(0.0, kind, like).name)
+    return format_quantity(value, kind) if value else with_unit("0", fitting(0.0, kind, like).name)
 
 
 def value_of(fit: Any, name: str) -> str:
@@ -265,7 +265,9 @@ def report(
         held = "" if name in found.fit.standard_errors else " (held)"
         lines.append(f"{FITTED[name].label} {FITTED[name].symbol}\t{value_of(found.fit, name)}{held}")
     for name, value in corrections.items():
-        lines.append(f"{NUMBERS[name].label} {NUMBERS[name].symbol}\t{written(value, NUMBERS[name].kind)}")
+        lines.append(
+            f"{NUMBERS[name].label} {NUMBERS[name].symbol}\t{format_quantity(value, NUMBERS[name].kind)}"
+        )
     for name, text in texts_of(found.unloading).items() if found.unloading is not None else ():
         lines.append(f"{OLIVER_PHARR[name].long_name} {OLIVER_PHARR[name].symbol}\t{text}")
     if known := misfits(found):

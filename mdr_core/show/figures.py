@@ -12,7 +12,7 @@ import numpy as np
 
 from ..solver.contact.unloading import unloading_curve
 from .quantities import unit_of
-from .units import written
+from .units import format_quantity
 
 #: Colours of the roles on a light and on a dark background (Okabe–Ito), the same in every plot.
 ROLES = {
@@ -268,8 +268,8 @@ def exceeds(r, p, top):
         return f"{sign} at the " + ("axis" if r[at] == 0 else "rim")
     if p[k] <= top:
         return ""
-    where = "on the axis" if r[k] == 0 else f"at r = {written(float(r[k]), 'length', 3)}"
-    return f"↑ p = {written(float(p[k]), 'pressure', 3)} {where}"
+    where = "on the axis" if r[k] == 0 else f"at r = {format_quantity(float(r[k]), 'length', 3)}"
+    return f"↑ p = {format_quantity(float(p[k]), 'pressure', 3)} {where}"
 
 
 def work(path, i):

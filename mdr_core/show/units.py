@@ -96,7 +96,7 @@ def digits(value: float, count: int = 4) -> str:
     return f"{mantissa} × 10{power}".replace("-", "−")
 
 
-def written(value: float, kind: str, count: int = 4) -> str:
+def format_quantity(value: float, kind: str, count: int = 4) -> str:
     """Return a value (SI) as text with its unit.
 
     Examples

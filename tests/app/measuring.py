@@ -9,7 +9,7 @@ import panel as pn
 import pytest
 
 import mdr_core as mdr
-from app.common.process import Here
+from app.common.process import SynchronousWorker
 from app.measurement import query
 from app.measurement.page import Measurement
 
@@ -24,7 +24,7 @@ DEPTH = 1e-6 * np.append(np.linspace(-0.05, 1, 240), np.linspace(1, 0.7, 160))
 
 
 def page_of(link="", worker=None):
-    return Measurement(link, worker or Here())
+    return Measurement(link, worker or SynchronousWorker())
 
 
 def take_file(page, name, data):

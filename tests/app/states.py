@@ -134,11 +134,11 @@ def oblique_state(key=ELASTIC, **numbers) -> State:
 def adhesive(drive="depth", **more) -> State:
     """A glass ball on rubber, w = 50 mJ/m², pressed to many times the critical depth."""
     state = state_with(PDMS, drive, adhesion="work")
-    return changes.put(state, "work_of_adhesion", 0.05).replace(**more)
+    return changes.set_value(state, "work_of_adhesion", 0.05).replace(**more)
 
 
 def put(page, name: str, value) -> None:
-    page.apply(lambda state: changes.put(state, name, value))
+    page.apply(lambda state: changes.set_value(state, name, value))
 
 
 def rested(page):

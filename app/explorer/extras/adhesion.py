@@ -7,7 +7,7 @@ from scipy.integrate import trapezoid
 
 from mdr_core.scene import ForcePath
 from mdr_core.show.figures import NOTHING, area, label, line, mark
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 from mdr_core.solver.contact.unloading import AdhesiveLoop, adhesive_loop, unloading_curve
 
 from ..courses import Course
@@ -39,7 +39,7 @@ def _ends(view: View) -> dict:
     """Return the point of first contact, and the largest tension of unloading with its value."""
     depth, force = view.course.states.depth, view.course.states.force
     last = view.course.peak + int(np.argmin(force[view.course.peak :]))
-    text = f"Fₐ = {written(view.course.states.pull_off_force[last], 'force', 3)}"
+    text = f"Fₐ = {format_quantity(view.course.states.pull_off_force[last], 'force', 3)}"
     beside = 0.02 * (view.end(D) - view.axis(D).start)
     above = 0.05 * (view.end(F) - view.axis(F).start)
     return {
@@ -80,15 +80,22 @@ def _energies(view: View, i: int) -> dict:
     # An early loop may reach below the axis, which covers the whole course.
     if closed and loop.depth[0] > left - 1e-6 * width:
         net = loop.lost - loop.gained
-        said = f"dissipated {written(loop.lost, 'energy', 3)}"
-        said += f" − {written(loop.gained, 'energy', 3)} gained = {written(net, 'energy', 3)}" * gains
+        said = f"dissipated {format_quantity(loop.lost, 'energy', 3)}"
+        said += (
+            f" − {format_quantity(loop.gained, 'energy', 3)} gained = {format_quantity(net, 'energy', 3)}"
+            * gains
+        )
     left += 0.02 * width
     return {
         "dissipated": (around, np.concatenate(lost)) if closed else NOTHING,
         "gained": (around, np.concatenate(gained)) if gains else NOTHING,
         "given back": returned,
         "W_a": (left, top - 0.02 * height, said),
-        "W_U": (left, top - 0.14 * height, f"given back {written(-back, 'energy', 3)}" if back < 0 else ""),
+        "W_U": (
+            left,
+            top - 0.14 * height,
+            f"given back {format_quantity(-back, 'energy', 3)}" if back < 0 else "",
+        ),
     }
 
 

@@ -25,7 +25,7 @@ from ..plots import PLOTS, D, F, P, R, X
 from ..readouts import line as readout_line
 from ..readouts import text
 from ..search import Searching
-from ..state import MEDIUM_CHOICES, OPENING, PRESETS, State, altered, form_choices, used
+from ..state import MEDIUM_CHOICES, OPENING, PRESETS, State, changed_from_preset, form_choices, used
 from ..widgets import Part, button
 
 #: Dashes of the held scenes.
@@ -92,7 +92,7 @@ def difference(state: State, now: State | None = None) -> str:
 
     For the same scene, or another preset, they are from its preset; another preset is part of the name.
     """
-    preset, known = PRESETS[state.preset], altered(state)
+    preset, known = PRESETS[state.preset], changed_from_preset(state)
     choices = ("shape", *MEDIUM_CHOICES, "drive", *form_choices(state))
     other = now is not None and now.preset != state.preset
     if now is not None and not other and scene_of(now) != scene_of(state):

@@ -5,14 +5,14 @@ from dataclasses import replace
 import numpy as np
 
 from mdr_core.show.figures import line, mark, parts, split
-from mdr_core.show.units import digits, written
+from mdr_core.show.units import digits, format_quantity
 
 from ...common.ui import html_subscripts
 from ..courses import Course
 from ..extra import Extra
 from ..figures import Logarithmic
 from ..plot import View, axis
-from ..search import AsyncPlot, Found, IdleSearch
+from ..search import AsyncPlot, IdleSearch, SearchResult
 
 #: Decades of logarithmic axes of radii and of pressures.
 _RADII, _PRESSURES = 2, 3
@@ -21,7 +21,7 @@ _RADII, _PRESSURES = 2, 3
 _MOST = 4
 
 
-def found(course: Course, asked: tuple[str]) -> Found:
+def found(course: Course, asked: tuple[str]) -> SearchResult:
     """Return the mean pressure along the path, the hardness at each contact radius, and the axes."""
     (scale,), states, made = asked, course.states, course.scene.medium
     # Without contact there is no pressure.
@@ -46,8 +46,8 @@ def found(course: Course, asked: tuple[str]) -> Found:
         y = replace(y, start=10.0**-_PRESSURES * end, end=end, log=True)
     elif course.adhesive:
         y = replace(y, start=max(1.1 * float(np.nanmin(p)), -y.end))
-    beyond = f" Beyond the axis: p_m = {written(highest, 'pressure')}." * (highest > most)
-    return Found(rows, [x, y], _note(course, largest, yields) + html_subscripts(beyond))
+    beyond = f" Beyond the axis: p_m = {format_quantity(highest, 'pressure')}." * (highest > most)
+    return SearchResult(rows, [x, y], _note(course, largest, yields) + html_subscripts(beyond))
 
 
 def _unbounded(course: Course, p: np.ndarray) -> bool:
@@ -58,12 +58,12 @@ def _unbounded(course: Course, p: np.ndarray) -> bool:
 
 def _note(course: Course, mean: float, yields: bool) -> str:
     """Return a note on mean pressure and hardness at the largest depth."""
-    text = f"At the largest depth p_m = {written(mean, 'pressure')}"
+    text = f"At the largest depth p_m = {format_quantity(mean, 'pressure')}"
     if not yields:
         return html_subscripts(f"{text}; nothing yields.")
     hardness = float(course.scene.medium.hardness_at(course.turning_point.contact_radius))
     return html_subscripts(
-        f"{text} is {digits(mean / hardness, 3)} of σ_c = {written(hardness, 'pressure')}."
+        f"{text} is {digits(mean / hardness, 3)} of σ_c = {format_quantity(hardness, 'pressure')}."
     )
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from mdr_core.show.figures import NOTHING, label, line, word
 from mdr_core.show.springs import reduced
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 from mdr_core.solver.contact.unloading import unloading_curve
 
 from ..courses import Course, onset_depth
@@ -19,11 +19,11 @@ def sentence(course: Course, i: int) -> str:
     """Return the radius of yield and the width of the elastic ring, or place and depth of first yield."""
     a, c = (float(radii[i]) for radii in (course.states.contact_radius, course.states.plastic_radius))
     if a == 0:
-        return f"no contact; imprint of radius c = {written(c, 'length', 3)}" if c else "no contact"
+        return f"no contact; imprint of radius c = {format_quantity(c, 'length', 3)}" if c else "no contact"
     if c == 0:
         return f"elastic; {_first(course)}"
-    inside = f"yielded inside c = {written(c, 'length', 3)}"
-    return inside if a <= c else f"{inside}; elastic ring {written(a - c, 'length', 3)} wide"
+    inside = f"yielded inside c = {format_quantity(c, 'length', 3)}"
+    return inside if a <= c else f"{inside}; elastic ring {format_quantity(a - c, 'length', 3)} wide"
 
 
 def _first(course: Course) -> str:
@@ -33,7 +33,9 @@ def _first(course: Course) -> str:
         return "nothing yields" if depth == np.inf else "yield begins deeper than the known tip"
     where = "the whole flat face" if course.scene.profile.face_radius else "the axis"
     # With adhesion the depth is smaller by the stretch of the rim.
-    return f"{where} yields first" + f", at d = {written(depth, 'length', 3)}" * (not course.adhesive)
+    return f"{where} yields first" + f", at d = {format_quantity(depth, 'length', 3)}" * (
+        not course.adhesive
+    )
 
 
 def words(view: View, i: int) -> dict:

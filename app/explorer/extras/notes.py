@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from markupsafe import Markup
 
-from mdr_core.show.units import digits, written
+from mdr_core.show.units import digits, format_quantity
 
 from ...common.quantities import CHOICES
 from ...common.ui import html_subscripts, linked
@@ -18,7 +18,7 @@ from ..extra import Extra
 from ..link import with_symbol
 from ..plot import Plot, View
 from ..plots import NAMED, PLOTS, visible
-from ..state import PRESETS, State, altered
+from ..state import PRESETS, State, changed_from_preset
 
 #: Standard acceleration of free fall (m/s²).
 _GRAVITY = 9.80665
@@ -28,14 +28,14 @@ def form_notes(view: View) -> dict[str, str]:
     """Return notes (HTML) by the places of the form."""
     state, course = view.state, view.course
     shape, made = state.chosen("shape"), course.scene.medium
-    head = "Altered. " * bool(altered(state)) + "Sources of the preset's numbers, "
+    head = "Altered. " * bool(changed_from_preset(state)) + "Sources of the preset's numbers, "
     head += "including illustrative numbers:"
-    energy = written(state.mass * state.speed**2 / 2, "energy")
-    height = written(state.speed**2 / (2 * _GRAVITY), "length")
+    energy = format_quantity(state.mass * state.speed**2 / 2, "energy")
+    height = format_quantity(state.speed**2 / (2 * _GRAVITY), "length")
     slope = getattr(course.scene.profile, "slope", None)
     angle = f"Half-angle {digits(degrees(atan(1 / slope)))}°" if slope else ""
     of_tip = state.tip_note if state.shape == "sampled" else angle
-    eta, tau = written(made.eta, "viscosity"), written(made.relaxation_time, "time")
+    eta, tau = format_quantity(made.eta, "viscosity"), format_quantity(made.relaxation_time, "time")
     idle = "" if course.dashpots else "; no effect here, because pressing is quasi-static"
     return {
         "drive": f"Energy {energy}; equivalent drop height {height}" * (state.drive == "impact"),
@@ -64,13 +64,12 @@ def law_of_hardness(course: Course) -> str:
     if made.q_c == np.inf:
         return "Nothing yields: q_c = ∞"
     law = "q_c/a" if made.q_c else "f_c/a²" if made.f_c else "H"
-    hardness = written(float(made.hardness_at(a)), "pressure")
-    place = " at every a" if law == "H" else f" at a = {written(a, 'length')}"
-    starts = f"Yield starts at d_y = {written(onset, 'length')}"
+    hardness = format_quantity(float(made.hardness_at(a)), "pressure")
+    place = " at every a" if law == "H" else f" at a = {format_quantity(a, 'length')}"
+    starts = f"Yield starts at d_y = {format_quantity(onset, 'length')}"
     if imprint := course.initial_plastic_depth:
-        starts = (
-            f"Over the imprint yield goes on at d = {written(onset_depth(course.scene, imprint), 'length')}"
-        )
+        depth = format_quantity(onset_depth(course.scene, imprint), "length")
+        starts = f"Over the imprint yield goes on at d = {depth}"
     elif onset == np.inf:
         starts = "Nothing yields under this shape: H is too large"
     elif onset == 0:
@@ -109,7 +108,7 @@ def _own_words(limit: Any, state: State) -> str:
     """Return the page's sentence on a limit if it replaces the core's sentence, else an empty text."""
     if limit.what == "viscosity":
         remedy = " and in ".join(each.in_time for each in CHOICES["drive"].options.values() if each.in_time)
-        tau = written(limit.value, "time")
+        tau = format_quantity(limit.value, "time")
         return f"Pressing is quasi-static here. Dashpots (τ = {tau}) act in {remedy}."
     return _OF_INCOMPRESSIBLE.get(limit.what, "") if state.elasticity == "modulus" else ""
 

@@ -12,7 +12,7 @@ import mdr_core as mdr
 from mdr_core.show import springs as drawn
 from mdr_core.show.figures import label, line, mark
 from mdr_core.show.limits import friction_limits
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 from mdr_core.solver.impacts.motion import motion as motion_of
 from mdr_core.solver.oblique.oblique_motion import along_surface, oblique_motion
 
@@ -163,7 +163,7 @@ def _regime(course) -> str:
     sticking = np.flatnonzero(motion.stick_radius > 0)
     if not sticking.size:
         return "slips throughout"
-    begins, ends = (written(float(motion.time[k]), "time", 3) for k in sticking[[0, -1]])
+    begins, ends = (format_quantity(float(motion.time[k]), "time", 3) for k in sticking[[0, -1]])
     first = (
         "sticks in part from first contact"
         if sticking[0] <= 1

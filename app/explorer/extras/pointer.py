@@ -23,7 +23,7 @@ from ..courses import Course, onset_depth
 from ..drives import DRIVES, scene_of
 from ..extra import Extra, Service
 from ..plot import Overlay, View
-from ..plots import DRAGGED, Z, drag_path, let_drag
+from ..plots import DRAGGED, Z, drag_path, enable_drag
 from ..state import State, checked, medium
 
 #: Script of the tooltip of a spring; its arguments are the `figure` and the `SpringModel` `pointed`.
@@ -51,7 +51,7 @@ class Pointer(Service):
         super().__init__(page)
         figures = {name: page.layout.cards[name].picture.figure for name in DRAGGED}
         for figure in figures.values():
-            let_drag(figure)
+            enable_drag(figure)
         self.drag, self.springs = DragModel(name="dragging"), SpringModel(name="pointed")
         self.drag.on_change("depth", self._dragged)
         scripts = (

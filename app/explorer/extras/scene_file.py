@@ -17,7 +17,7 @@ from bokeh.resources import Resources
 from markupsafe import Markup
 
 import mdr_core as mdr
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 
 from ...common.quantities import CHOICES, QUANTITIES
 from ...common.ui import CSS, HERE, JS, Messages, as_html, html_subscripts, symbol
@@ -27,8 +27,16 @@ from ..figures import PLACES, Picture, drawn, legend, picture_of
 from ..layout import frames, look
 from ..link import summary
 from ..plot import Plot, View
-from ..plots import DRAGGED, NAMED, PLOTS, drag_path, let_drag
-from ..state import MEDIUM_CHOICES, PRESETS, State, altered, as_shown, used, yield_constant
+from ..plots import DRAGGED, NAMED, PLOTS, drag_path, enable_drag
+from ..state import (
+    MEDIUM_CHOICES,
+    PRESETS,
+    State,
+    changed_from_preset,
+    rounded_to_display,
+    used,
+    yield_constant,
+)
 
 _HERE = Path(__file__)
 _TEMPLATE = _HERE.with_suffix(".html").read_text(encoding="utf-8")
@@ -44,7 +52,7 @@ def address(state: State) -> str:
     if pn.state.location is None:
         return ""
     try:
-        query = link.write(as_shown(state))
+        query = link.write(rounded_to_display(state))
     except ValueError:
         return ""
     return pn.state.location.href.split("?")[0] + f"?{query}" * bool(query)
@@ -56,7 +64,7 @@ def scene_file(view: View, bokeh: str = "") -> str:
     `bokeh` is the address of Bokeh's script; by default the file contains the script.
     """
     state, course = view.state, view.course
-    title = PRESETS[state.preset].label + ", altered" * bool(altered(state))
+    title = PRESETS[state.preset].label + ", altered" * bool(changed_from_preset(state))
     numbers = readouts.line(course)
     pictures = [picture_of(PLOTS[name]) for name in NAMED]
     document = Document()
@@ -112,7 +120,7 @@ def _connect(document: Document, view: View, pictures: list[Picture], messages: 
     document.js_on_event(DocumentReady, CustomJS(args=told, code=_CODE))
     for picture in pictures:
         if picture.plot.name in DRAGGED:
-            let_drag(picture.figure)
+            enable_drag(picture.figure)
 
 
 def _folded(view: View) -> Iterator[tuple[str, str]]:
@@ -136,7 +144,7 @@ def _inputs(state: State) -> Iterator[tuple[str, str, str, str]]:
         source = "set on the page" if name in given else "from the numbers above"
         if name in preset.sources and isclose(value, preset.values[name]):
             source = preset.sources[name]
-        yield symbol(known.symbol), known.label, written(value, known.kind, 5), source
+        yield symbol(known.symbol), known.label, format_quantity(value, known.kind, 5), source
 
 
 EXTRA = Extra("scene_file", order=19, files=(("Scene as a file", "scene.html", scene_file),))

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 
 from mdr_core.show.figures import NOTHING, line, mark
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 
 from ..courses import Course
 from ..extra import Extra
 from ..figures import Map
 from ..plot import axis
-from ..search import AsyncPlot, Found, IdleSearch
+from ..search import AsyncPlot, IdleSearch, SearchResult
 
 #: Pixels down and along the radius.
 _PIXELS = (72, 96)
@@ -33,7 +33,7 @@ def section(course: Course, asked):
     if course.chained:
         reason = "Stresses below the surface are not available along a viscous path."
     if reason:
-        return Found({}, [r, z, axis(title, "pressure", 1.0)], reason)
+        return SearchResult({}, [r, z, axis(title, "pressure", 1.0)], reason)
     down, along = ((np.arange(count) + 0.5) / count for count in _PIXELS)
     across, deep = r.end * along, -z.start * (1 - down)
     image = of_stress(state.stress(across, deep[:, None]))
@@ -44,8 +44,8 @@ def section(course: Course, asked):
         place = np.array([peak.r]), np.array([-peak.z])
         most = float(peak.value) if np.isfinite(peak.value) else most
         # The place is accurate to about 10⁻⁴ of the radius.
-        at = (written(float(x) if x > 1e-4 * reach else 0.0, "length", 3) for x in (peak.r, peak.z))
-        bound = written(float(peak.value), "pressure", 3) if np.isfinite(peak.value) else "infinite"
+        at = (format_quantity(float(x) if x > 1e-4 * reach else 0.0, "length", 3) for x in (peak.r, peak.z))
+        bound = format_quantity(float(peak.value), "pressure", 3) if np.isfinite(peak.value) else "infinite"
         note = "{} is largest at r = {}, {} below the surface: {}.".format(title.split(",")[0], *at, bound)
     colours, ends = axis(title, "pressure", most), np.array([z.start, z.end])
     rows = {
@@ -54,7 +54,7 @@ def section(course: Course, asked):
         "plastic zone c": (np.full(2, state.plastic_radius), ends) if state.plastic_radius else NOTHING,
         "largest": place,
     }
-    return Found(rows, [r, z, colours], note)
+    return SearchResult(rows, [r, z, colours], note)
 
 
 SECTION = AsyncPlot(

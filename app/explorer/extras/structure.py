@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 import mdr_core as mdr
 from mdr_core.show.structure_limits import BACK
-from mdr_core.show.units import digits, written
+from mdr_core.show.units import digits, format_quantity
 from mdr_core.solver.impacts.modal import contact_instants, motion_at
 from mdr_core.solver.medium.modes import Modes
 
@@ -261,8 +261,8 @@ def notes(view: View) -> dict[str, str]:
     if _has_edges(plate):
         mass = 4 * plate.modes.mass[0]
         parts = [
-            f"mass of the plate M = {written(mass, 'mass')}, m/M = {course.hit.mass / mass:.3g}",
-            f"K = {written(float(plate.stiffness), 'yield constant')}",
+            f"mass of the plate M = {format_quantity(mass, 'mass')}, m/M = {course.hit.mass / mass:.3g}",
+            f"K = {format_quantity(float(plate.stiffness), 'yield constant')}",
             f"f_1 = {plate.modes.frequency[0]:.4g} Hz",
         ]
         return {"form": html_subscripts(", ".join(parts))}
@@ -271,13 +271,15 @@ def notes(view: View) -> dict[str, str]:
     # Z is 8√(D ρh).
     stiffness, mass = plate.impedance * plate.wave_spread / 8, plate.impedance / plate.wave_spread / 8
     parts = [
-        f"D = {written(float(stiffness), 'bending stiffness')}",
-        f"ρh = {written(float(mass), 'mass per area')}",
-        f"Z = 8√(D ρh) = {written(float(plate.impedance), 'drag')}",
+        f"D = {format_quantity(float(stiffness), 'bending stiffness')}",
+        f"ρh = {format_quantity(float(mass), 'mass per area')}",
+        f"Z = 8√(D ρh) = {format_quantity(float(plate.impedance), 'drag')}",
     ]
     lines = [html_subscripts(", ".join(parts))]
     if (far := _far(course)) < inf:
-        lines.append(html_subscripts(f"Edges farther than {written(far, 'length', 2)} have no effect"))
+        lines.append(
+            html_subscripts(f"Edges farther than {format_quantity(far, 'length', 2)} have no effect")
+        )
     return {"form": Markup("<br>").join(lines)}
 
 

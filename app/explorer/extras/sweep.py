@@ -25,7 +25,7 @@ from ..drives import DRIVES
 from ..extra import Extra
 from ..figures import Logarithmic
 from ..plot import OF_AXIS, Plot, View, axis, words_along
-from ..search import AsyncPlot, Found, IdleSearch
+from ..search import AsyncPlot, IdleSearch, SearchResult
 from ..state import PRESETS, State, medium, numbers_of, profile, used, yield_constant
 from ..widgets import Part, button, slider_range
 
@@ -238,10 +238,10 @@ def quick(sweep: Sweep) -> bool:
     return not (one_by_one or sweep.in_time) and sweep.state.shape in _SHAPES
 
 
-def found(course, sweep: Sweep) -> Iterator[Found | None]:
+def found(course, sweep: Sweep) -> Iterator[SearchResult | None]:
     """Yield the curve of the sweep, the present value and limiting cases, after a step for each line."""
     if not sweep.solver:
-        yield Found({}, [], "This drive has no sweep: press to a depth or a force, or let a body hit.")
+        yield SearchResult({}, [], "This drive has no sweep: press to a depth or a force, or drop a body.")
         return
     result = course.turning_point if course.hit is None else course.hit
     numbers, present = sweep.numbers, getattr(result, sweep.against)
@@ -263,7 +263,7 @@ def found(course, sweep: Sweep) -> Iterator[Found | None]:
     visible = inside and (present > 0 or not y.log)
     rows["present value"] = (np.array([sweep.present]), np.array([present])) if visible else NOTHING
     rows |= words_along(rows, [x, y], {"this scene": "this scene"} | _WORDS)
-    yield Found(rows, [x, y], Markup(" ").join(_notes(sweep, numbers, values, classes, inside)))
+    yield SearchResult(rows, [x, y], Markup(" ").join(_notes(sweep, numbers, values, classes, inside)))
 
 
 def _axes(sweep, values, present):

@@ -48,7 +48,7 @@ _FACTOR, _SHARE = 1.3, 0.75
 _FEWEST, _STEP = 4, 0.01
 
 
-class SoundRange(NamedTuple):
+class ValidRange(NamedTuple):
     """Largest radius and depth (m) at which one profile is valid, infinite without an end, and the fault.
 
     `values` are the `_values` at ascending radii x (m) up to this radius. `right` has the numbers of these
@@ -64,7 +64,7 @@ class SoundRange(NamedTuple):
 
 
 def sound_range(profile, end):
-    """Return the `SoundRange` of a user's profile, evaluated up to the radius `end` (m).
+    """Return the `ValidRange` of a user's profile, evaluated up to the radius `end` (m).
 
     It ends before the first radius at which a function fails, g or z is not finite, or g′ is NaN. It also
     ends at the largest g, if g is smaller at all larger radii. An error is raised if the profile is invalid
@@ -94,7 +94,7 @@ def sound_range(profile, end):
     off, wrong, judged = _wrong_slopes(x, *values[:2])
     if np.any(wrong) and np.all(wrong == judged):
         raise refused(profile, _said_of_slope(profile, x[1:][off][0]), _SLOPE)
-    return SoundRange(radius, depth, fault, x, values, set())
+    return ValidRange(radius, depth, fault, x, values, set())
 
 
 def check_tips(profile):

@@ -131,7 +131,7 @@ class Profile(check.Parameters, ABC):
 
     @cached_property
     def sound(self):
-        """The `SoundRange` of a user's profile."""
+        """The `ValidRange` of a user's profile."""
         given = type(self).known_radius is not Profile.known_radius
         return lazy.shape.sound_range(self, min(self.wall, self.known_radius if given else np.inf))
 

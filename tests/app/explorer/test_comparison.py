@@ -7,7 +7,7 @@ import pytest
 from markupsafe import Markup
 
 from app.explorer import changes, link
-from app.explorer.changes import put
+from app.explorer.changes import set_value
 from app.explorer.drives import follow
 from app.explorer.extras.comparison import (
     DASHES,
@@ -23,7 +23,7 @@ from app.explorer.page import Page
 from app.explorer.plot import rows_of
 from app.explorer.plots import PLOTS, D, F, X, Z
 from app.explorer.state import PRESETS, medium, preset_state
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 
 from ...approx import approx
 from ..conftest import DROP, GOLD, Explorer
@@ -65,8 +65,8 @@ def test_a_fifth_is_refused():
 def test_the_numbers_are_those_of_the_deepest_state_and_of_the_impact():
     course = follow(preset_state(DROP).replace(at=0.3))
     found = numbers(course)
-    assert found["e"] == written(float(course.hit.restitution), "number", 3)
-    assert found["d"] == written(float(course.hit.max_depth), "length", 3)
+    assert found["e"] == format_quantity(float(course.hit.restitution), "number", 3)
+    assert found["d"] == format_quantity(float(course.hit.max_depth), "length", 3)
     assert "e" not in numbers(follow(preset_state()))
 
 
@@ -179,7 +179,7 @@ def test_compare_says_what_it_has_done_where_one_looks_and_until_something_chang
 
     assert kept()
     assert page.layout.parts["comparison"].view[-1].object
-    page.apply(lambda state: put(state, "max_depth", 5e-9))
+    page.apply(lambda state: set_value(state, "max_depth", 5e-9))
     assert kept() == ""
 
 

@@ -161,7 +161,7 @@ def test_without_an_extra_the_page_builds_and_has_no_word_of_it(folder, whole, n
         assert page.state.max_depth == (preset_state().max_depth if "drive" in query else 5e-9)
     # And it is in use.
     before = page.state
-    page.apply(lambda state: changes.put(state, "mass", 2 * state.mass))
+    page.apply(lambda state: changes.set_value(state, "mass", 2 * state.mass))
     page.undo()
     assert page.state == before
 
@@ -241,7 +241,7 @@ NUMBER = {
     "default": 0.5, "span": -1.0, "help": "", "equation": "",
 }  # fmt: skip
 MISTAKES = {
-    "nothing to load": ("", {}, "it ends with EXTRA = Extra"),
+    "nothing to load": ("", {}, "it must end with EXTRA = Extra"),
     "no bounds": ({}, {"numbers": [{"name": "wrong.share"}]}, "wrong.json does not describe"),
     "an unknown field": ({}, {"numbers": [NUMBER | {"colour": "red"}]}, "wrong.json does not describe"),
 }
@@ -277,7 +277,7 @@ def test_a_row_that_a_plot_has_not_is_no_empty_curve(folder):
     (extras / "wrong.py").write_text(code, encoding="utf-8")
     page = importlib.import_module("wrong_row.explorer.page").Page()
     plot = sys.modules["wrong_row.explorer.plots"].PLOTS["wrong"]
-    with pytest.raises(KeyError, match=r"places of rows that it has not: \['y'\]"):
+    with pytest.raises(KeyError, match=r"places of unknown rows: \['y'\]"):
         page.view.places(plot, 0)
 
 

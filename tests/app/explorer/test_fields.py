@@ -220,7 +220,7 @@ def test_a_refused_number_stays_until_it_is_another_or_all_is_set_anew(page):
     assert all(unit.name in refused for unit in UNITS["yield constant"])
     page.undo()
     assert part(page, "q_c").look["refused"] == refused
-    page.apply(lambda state: changes.put(state, "q_c", 50.0))
+    page.apply(lambda state: changes.set_value(state, "q_c", 50.0))
     assert seen(page, "q_c") == ("50 N/m", "")
     part(page, "q_c").act({"text": "abc"})
     page.choose("preset", DROP)
@@ -241,8 +241,8 @@ def test_a_message_that_names_no_part_is_answered_and_changes_nothing(page):
 @pytest.mark.parametrize(
     ("query", "change"),
     [
-        ("", lambda state: changes.put(state, "E_star", 9e13)),
-        ("", lambda state: changes.put(state, "cone_slope", 0.0)),
+        ("", lambda state: changes.set_value(state, "E_star", 9e13)),
+        ("", lambda state: changes.set_value(state, "cone_slope", 0.0)),
         ("drive=force&max_force=1e5", lambda state: changes.choose(state, "drive", "depth")),
         ("max_depth=1e-12", lambda state: changes.choose(state, "drive", "impact")),
     ],
@@ -267,9 +267,13 @@ def shown_in_field(state, name):
     [
         ("elasticity=modulus&E_star=86806041176.72249", lambda state: state, "E_star"),
         ("q_c=98.76543210123", lambda state: state, "q_c"),
-        ("", lambda state: changes.put(state, "E_star", 80e9), "E_1"),
-        ("", lambda state: changes.put(state, "cone_slope", 1 / np.tan(np.radians(68))), "cone_slope"),
-        (f"preset={DROP}", changes.hit_again, "plastic_depth"),
+        ("", lambda state: changes.set_value(state, "E_star", 80e9), "E_1"),
+        (
+            "",
+            lambda state: changes.set_value(state, "cone_slope", 1 / np.tan(np.radians(68))),
+            "cone_slope",
+        ),
+        (f"preset={DROP}", changes.repeat_impact, "plastic_depth"),
         ("", lambda state: changes.choose(state, "plasticity", "constant"), "volume_hardness"),
         ("max_depth=1.23456789e-9", lambda state: state, "max_depth"),
     ],

@@ -10,7 +10,7 @@ from app.explorer.page import Page
 from app.explorer.plot import box, rows_of
 from app.explorer.plots import PLOTS, D, P, force, pressure
 from app.explorer.state import medium, preset_state, profile
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 
 from ...approx import approx
 from ..conftest import DROP, ELASTIC
@@ -93,7 +93,7 @@ def test_the_plastic_depth_is_written_at_its_point_and_within_the_plot(ratio):
     view = view_of(state.replace(max_depth=ratio * float(view_of(state).course.onset.depth)))
     depth, plot = float(view.course.state.plastic_depth), PLOTS["force"]
     x, y, text = view.places(plot, view.course.now)["dₚ"]
-    assert text == f"dₚ = {written(depth, 'length', 3)}"
+    assert text == f"dₚ = {format_quantity(depth, 'length', 3)}"
     (row,) = (each for each in rows_of(plot) if each.name == "dₚ")
     place = box(row, x, y, text, plot.axes_of(view))
     assert place.inside

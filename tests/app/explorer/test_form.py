@@ -6,10 +6,10 @@ from html import unescape
 import pytest
 
 from app.explorer import changes
-from app.explorer.changes import choose, put
+from app.explorer.changes import choose, set_value
 from app.explorer.drives import follow
 from app.explorer.page import Page
-from app.explorer.state import PRESETS, altered, medium, preset_state
+from app.explorer.state import PRESETS, changed_from_preset, medium, preset_state
 
 from ...approx import approx
 from ..conftest import DROP, GOLD, PUNCH
@@ -39,7 +39,7 @@ def test_the_form_begins_with_the_drive_and_has_what_is_used():
 
 def test_typing_the_modulus_of_two_bodies_unfolds_nothing_and_what_is_unfolded_is_folded_again():
     page = Page()
-    page.apply(lambda state: put(state, "E_star", 60e9))
+    page.apply(lambda state: set_value(state, "E_star", 60e9))
     assert PRESETS[GOLD].values["E_1"] != page.state.E_1
     more = "More about the medium"
     assert part(page, more).look["pressed"] is False
@@ -49,7 +49,7 @@ def test_typing_the_modulus_of_two_bodies_unfolds_nothing_and_what_is_unfolded_i
     assert not part(page, more).look["disabled"]
     press(page, more)
     assert part(page, more).look["pressed"] is False
-    page.apply(lambda state: put(state, "q_c", 50.0))
+    page.apply(lambda state: set_value(state, "q_c", 50.0))
     assert part(page, more).look["pressed"] is False
 
 
@@ -57,7 +57,7 @@ def test_typing_the_modulus_of_two_bodies_unfolds_nothing_and_what_is_unfolded_i
 def test_a_shape_that_was_looked_at_keeps_its_values(shape):
     state = changes.choose(state_with(shape=shape), "shape", "sphere" if shape == "cone" else "cone")
     assert state.cone_slope == 0.358
-    assert not altered(changes.choose(state, "shape", "cone"))
+    assert not changed_from_preset(changes.choose(state, "shape", "cone"))
 
 
 def test_a_sphere_has_the_radius_of_the_paraboloid_before_it():
@@ -66,21 +66,21 @@ def test_a_sphere_has_the_radius_of_the_paraboloid_before_it():
 
 
 def test_E_star_of_two_bodies_and_q_c_of_a_hardness_can_be_set():
-    state = changes.put(preset_state(), "E_star", 5e10)
+    state = changes.set_value(preset_state(), "E_star", 5e10)
     assert state.elasticity == "bodies"
     assert medium(state).E_star == approx(5e10, rel=1e-12)
     assert medium(state).poisson == 0.42
-    state = changes.put(state_with(plasticity="hardness"), "q_c", 50.0)
+    state = changes.set_value(state_with(plasticity="hardness"), "q_c", 50.0)
     assert medium(state).q_c == approx(50.0, rel=1e-12)
 
 
 def test_a_number_out_of_bounds_is_refused_with_its_symbol_and_bounds():
     with pytest.raises(ValueError, match=r"dₘₐₓ = 1000 m .* 10\.00 m"):
-        changes.put(preset_state(), "max_depth", 1000.0)
+        changes.set_value(preset_state(), "max_depth", 1000.0)
 
 
 def test_the_viscosity_stays_where_damping_is_turned_off_and_on():
-    state = changes.put(changes.choose(preset_state(DROP), "damping", "eta"), "eta", 123.0)
+    state = changes.set_value(changes.choose(preset_state(DROP), "damping", "eta"), "eta", 123.0)
     assert changes.choose(state, "damping", "none").eta == 123.0
 
 
@@ -94,7 +94,7 @@ def test_hit_again_pressed_while_the_drive_changes_is_refused(page):
 
 
 def test_an_impact_after_pressing_is_as_deep_and_on_a_virgin_surface():
-    state = changes.hit_again(preset_state("ball-steel"))
+    state = changes.repeat_impact(preset_state("ball-steel"))
     pressed = changes.choose(state, "drive", "depth")
     hit = changes.choose(pressed, "drive", "impact")
     assert hit.plastic_depth == 0

@@ -32,7 +32,7 @@ def test_guided_scenes_say_what_is_so():
     assert lifted.states.force[lifted.now] == 0
     left = float(deep.state.depth) - elastic.onset.depth
     assert float(lifted.state.depth) == approx(left, rel=1e-9)
-    courses = stepped("A fast impact, and what it destroys")
+    courses = stepped("Damage by a fast impact")
     slow, onset, fast, one, twice, _ = (course.hit for course in courses)
     assert slow.restitution == 1
     assert slow.damaged_area == 0
@@ -64,14 +64,14 @@ def test_a_guided_scene_is_stepped_through_and_undone():
     assert side(page, "guide").next.disabled
     told = []
     side(page, "guide").words.param.watch(lambda event: told.append(event.new), "object")
-    side(page, "guide").title.value = "A fast impact, and what it destroys"
+    side(page, "guide").title.value = "Damage by a fast impact"
     # Its text is the only one: it is not taken for a scene that was changed by hand.
     assert len(told) == 1
     assert "e = 1.00" in re.sub("<[^>]+>", "", side(page, "guide").words.object)
     # A scene has its own plots.
     assert page.state.tiles == ()
     # What it says is gone while the page shows something else.
-    page.apply(lambda state: changes.put(state, "speed", 2 * state.speed))
+    page.apply(lambda state: changes.set_value(state, "speed", 2 * state.speed))
     assert "1 of 6" in side(page, "guide").words.object
     assert "e = 1.00" not in re.sub("<[^>]+>", "", side(page, "guide").words.object)
     page.undo()

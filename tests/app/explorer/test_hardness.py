@@ -14,8 +14,8 @@ from app.explorer.extras import hardness, sweep
 from app.explorer.extras.hardness import found
 from app.explorer.page import Page
 from app.explorer.plots import PLOTS
-from app.explorer.state import PRESETS, altered, medium, preset_state, profile
-from mdr_core.show.units import written
+from app.explorer.state import PRESETS, changed_from_preset, medium, preset_state, profile
+from mdr_core.show.units import format_quantity
 
 from ...approx import approx
 from ..conftest import DROP, ELASTIC, GOLD, PUNCH
@@ -64,8 +64,8 @@ def test_each_class_draws_its_law_with_its_numbers(option):
         "constant": ("H", "volume_hardness", "u ≤ u_c = π a σ_c/(2E*)"),
         "line": ("f_c/a²", "f_c", "u ≤ u_c = π a σ_c/(2E*)"),
     }[option]
-    place = "every a" if option == "constant" else f"a = {written(a, 'length')}"
-    assert f"σ_c = {law} = {written(hardness, 'pressure')} at {place}.".replace("_", "") in said
+    place = "every a" if option == "constant" else f"a = {format_quantity(a, 'length')}"
+    assert f"σ_c = {law} = {format_quantity(hardness, 'pressure')} at {place}.".replace("_", "") in said
     shown = fields_of(page.layout.form.view)
     first = shown.index("E_star")
     assert shown[first : first + 2] == ["E_star", constant]
@@ -87,7 +87,7 @@ def test_another_class_keeps_the_hardness_at_the_present_contact_radius():
 
 
 def test_a_link_with_a_class_opens():
-    state = changes.put(state_with(GOLD, plasticity="constant"), "volume_hardness", 2.5e9)
+    state = changes.set_value(state_with(GOLD, plasticity="constant"), "volume_hardness", 2.5e9)
     query = link.write(state)
     assert query == "plasticity=constant&volume_hardness=2500000000.0"
     assert linked_state(state) == state
@@ -103,7 +103,7 @@ def test_a_link_of_0_6_with_a_hardness_is_class_b_to_the_digit():
     assert (made.hardness, made.q_c, made.f_c) == (0.0, expected.q_c, 0.0)
     force = mdr.indent(profile(state), expected, state.max_depth).force
     assert follow(state).turning_point.force == force
-    assert altered(state) == ["plasticity"]
+    assert changed_from_preset(state) == ["plasticity"]
 
 
 @pytest.mark.parametrize("pattern", ["reload", "cycles"])
@@ -216,7 +216,7 @@ def test_the_preset_of_steel_yields_at_the_speed_of_its_hardness():
     speed = sqrt(16 / 15 * state.E_star * sqrt(R) * onset**2.5 / state.mass)
     # A sphere is a paraboloid up to a²/R², 4·10⁻⁴ here.
     for factor, yields in ((0.99, False), (1.01, True)):
-        hit = follow(changes.put(state, "speed", factor * speed)).hit
+        hit = follow(changes.set_value(state, "speed", factor * speed)).hit
         assert bool(hit.plastic_depth_increase > 0) is yields
     assert 0.6 < numbers(follow(state))["restitution"] < 0.8
     # 2.8 times 690 MPa, with the three digits that its source has.

@@ -10,7 +10,7 @@ from app.common.quantities import CHOICES, QUANTITIES
 from app.common.tip import read_tip
 from app.common.ui import html_subscripts, linked
 from app.explorer import changes, theory
-from app.explorer.changes import hit_again, put
+from app.explorer.changes import repeat_impact, set_value
 from app.explorer.drives import follow
 from app.explorer.extras import notes
 from app.explorer.page import Page
@@ -90,10 +90,10 @@ def test_over_an_imprint_yield_goes_on_below_it():
     """Class (b): at the imprint and d_c = π q_c/(2E*), which is where a virgin surface begins to yield."""
     page = Page(f"preset={DROP}")
     assert "dy = 59.90 µm" in note(page, "medium")
-    page.apply(lambda state: put(state, "plastic_depth", 3e-4))
+    page.apply(lambda state: set_value(state, "plastic_depth", 3e-4))
     # 0.3 mm and 59.90 µm.
     assert "d = 359.9 µm" in note(page, "medium")
-    page.apply(hit_again)
+    page.apply(repeat_impact)
     assert "59.90" not in note(page, "medium")
 
 
@@ -152,7 +152,7 @@ def test_python_and_raw_indices_are_not_on_the_page():
     for shape in CHOICES["shape"].options.values():
         assert "_" not in html_subscripts(shape.height + shape.reduced)
     with pytest.raises(ValueError, match=r"E₁ = 1\.000 mPa is out of bounds"):
-        changes.put(preset_state(), "E_1", 1e-3)
+        changes.set_value(preset_state(), "E_1", 1e-3)
     with pytest.raises(ValueError, match="header must name") as refused:
         read_tip("0, 0\n1, 1\n")
     assert "m, mm, µm, nm, pm, Å" in str(refused.value)

@@ -8,7 +8,7 @@ from app.explorer import changes
 from app.explorer.extras.pointer import Pointer
 from app.explorer.layout import marked_states
 from app.explorer.state import PRESETS, preset_state
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 
 from ...approx import approx
 from ..conftest import DROP, GOLD
@@ -201,7 +201,7 @@ def test_a_slider_that_is_moved_while_the_player_runs_is_as_quick_as_at_rest(exp
     assert depth > before
     # What is told before the new frames is of the scenes that are set, at their largest depth.
     told = [text for kind, text in heard if kind == "depth"]
-    assert told[-1] == written(depth, "length")
+    assert told[-1] == format_quantity(depth, "length")
     value = page.evaluate("player.value")
     explorer.wait("(old) => player.value !== old", value)
     explorer.press("❚❚ Pause")

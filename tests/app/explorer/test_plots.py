@@ -18,7 +18,7 @@ from app.explorer.plot import View, rows_of
 from app.explorer.plots import NAMED, PLOTS, visible
 from app.explorer.search import AsyncPlot, as_steps
 from app.explorer.state import PRESETS, preset_state
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 
 from ...approx import approx
 from ..conftest import DROP, ELASTIC
@@ -86,7 +86,7 @@ def test_numbers_along_a_logarithmic_axis_have_room_and_one_form():
     assert not hasattr(many, "ticks")
     assert written_short.code == ticks(0.01, 1e3)[1].code
     # Units of areas are a million apart.
-    assert [written(area, "area") for area in (9.99e-9, 4.98e-7)] == ["9990 µm²", "0.4980 mm²"]
+    assert [format_quantity(area, "area") for area in (9.99e-9, 4.98e-7)] == ["9990 µm²", "0.4980 mm²"]
 
 
 @pytest.fixture(scope="module")

@@ -119,7 +119,7 @@ def test_numbers_of_the_rebound_are_those_of_the_ball():
 
 def test_after_another_hit_depth_and_force_of_yield_belong_together():
     hit = scene_of(preset_state(DROP)).solve()
-    state = changes.hit_again(preset_state(DROP))
+    state = changes.repeat_impact(preset_state(DROP))
     course = follow(state)
     again = float(hit.plastic_depth) + medium(state).critical_depth
     assert numbers(course)["yield_force"] == approx(float(course.onset.force))
@@ -133,7 +133,7 @@ def test_the_onset_of_yield_at_constant_hardness_is_that_of_the_shape():
     assert numbers(follow(state))["critical_depth"] == approx(k**2 * R, rel=1e-9)
     for imprint in (0.0, 2e-5):
         root = (k * sqrt(R) + sqrt(k**2 * R + 4 * imprint)) / 2
-        again = follow(changes.put(state, "plastic_depth", imprint))
+        again = follow(changes.set_value(state, "plastic_depth", imprint))
         assert numbers(again)["critical_depth"] == approx(root**2, rel=1e-9)
     pressed = follow(changes.choose(state, "drive", "depth"))
     shown = numbers(pressed)
@@ -141,6 +141,6 @@ def test_the_onset_of_yield_at_constant_hardness_is_that_of_the_shape():
     # H < E* s, and above.
     cone = preset_state(SILICA)
     for hardness, says in ((cone.volume_hardness, "at first contact"), (3e10, "Nothing yields")):
-        page = Page(link.write(changes.put(cone, "volume_hardness", hardness)))
+        page = Page(link.write(changes.set_value(cone, "volume_hardness", hardness)))
         assert says in note(page, "medium")
         assert "relative_depth" not in numbers(page.view.course)

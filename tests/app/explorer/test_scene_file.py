@@ -17,7 +17,7 @@ from ..states import HOSTILE, amounts, now, plain, state_with, unit, view_of
 
 
 def test_it_says_what_the_page_says():
-    state = changes.put(preset_state(DROP), "speed", 2.0)
+    state = changes.set_value(preset_state(DROP), "speed", 2.0)
     view = view_of(state, 1.5)
     course = view.course
     view.computed["held"] = [Held("<b>stiff</b>", course)]

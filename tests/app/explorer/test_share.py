@@ -46,7 +46,7 @@ def test_numbers_link_and_python_follow_a_change_and_its_undoing():
         return field, str(page.messages.words), shared.link.value, shared.python.value
 
     opening = seen()
-    page.apply(lambda state: changes.put(state, "max_depth", 5e-9))
+    page.apply(lambda state: changes.set_value(state, "max_depth", 5e-9))
     field, words, address, python = seen()
     assert field == "5 nm"
     assert '<output data-name="depth">5.000 nm</output>' in words

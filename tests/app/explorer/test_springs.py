@@ -15,7 +15,7 @@ from app.explorer.plot import View
 from app.explorer.plots import PLOTS, X
 from app.explorer.state import medium, preset_state
 from mdr_core.show.springs import SPRINGS
-from mdr_core.show.units import written
+from mdr_core.show.units import format_quantity
 
 from ...approx import approx
 from ..conftest import DROP, PUNCH
@@ -100,7 +100,7 @@ def test_the_yield_limit_is_beside_the_springs():
     for at in (0.5, 1.0):
         now = view_of(state, at).course.state
         caps.append(np.pi * float(now.contact_radius) * state.volume_hardness / (2 * state.E_star))
-        assert f"u_c = {written(caps[-1], 'length')}" in aside(state, at)
+        assert f"u_c = {format_quantity(caps[-1], 'length')}" in aside(state, at)
     assert caps[0] < caps[1]
     for nothing in (state_with(plasticity="none"), state_with(PDMS, adhesion="work")):
         assert aside(nothing) == ""

@@ -101,7 +101,9 @@ def test_a_drag_that_returns_to_its_start_is_undone_with_what_was_before(page):
     """The depth is as before the drag; one more step back is the mass."""
     put(page, "mass", 2.0)
     for value in (7e-9, preset_state().max_depth):
-        page.apply(lambda state, value=value: changes.put(state, "max_depth", value), mark="max_depth")
+        page.apply(
+            lambda state, value=value: changes.set_value(state, "max_depth", value), mark="max_depth"
+        )
     page.undo()
     page.undo()
     assert page.state.mass == preset_state().mass

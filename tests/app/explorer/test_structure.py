@@ -17,7 +17,7 @@ from app.explorer.extras.guide import step_state
 from app.explorer.page import Page
 from app.explorer.readouts import line
 from app.explorer.search import exact
-from app.explorer.state import PRESETS, altered, medium, preset_state, profile
+from app.explorer.state import PRESETS, changed_from_preset, medium, preset_state, profile
 
 from ...approx import approx
 from ..conftest import DROP, GOLD, PUNCH
@@ -45,7 +45,7 @@ def test_the_presets_are_what_they_name():
     both = 1 / (1 / laminate.E_star + (1 - 0.3**2) / 210e9)
     assert float(preset_state(PLATE).E_star) == approx(float(both), rel=1e-3)
     for key in (PLATE, SUPPORT, EDGES):
-        assert altered(preset_state(key)) == []
+        assert changed_from_preset(preset_state(key)) == []
 
 
 def test_the_laminate_of_sun_and_chen_is_what_it_names():

@@ -15,7 +15,7 @@ def test_axes_are_kept_while_something_is_dragged():
     page = Page()
     before = page.view
     page.messages.dragged = True
-    page.apply(lambda state: changes.put(state, "max_depth", 2 * state.max_depth))
+    page.apply(lambda state: changes.set_value(state, "max_depth", 2 * state.max_depth))
     view, i = page.view, page.view.course.now
     assert [view.axis(each) for each in (X, Z, R, D, F)] == [before.axis(each) for each in (X, Z, R, D, F)]
     state = view.course.state
@@ -31,7 +31,7 @@ def test_axes_are_kept_while_something_is_dragged():
     page.apply(lambda state: changes.choose(state, "drive", "impact"))
     assert page.view.kept == {}
     page.undo()
-    page.apply(lambda state: changes.put(state, "max_depth", 2 * state.max_depth))
+    page.apply(lambda state: changes.set_value(state, "max_depth", 2 * state.max_depth))
     assert page.view.kept
     page.messages.dragged = False
     assert page.view.kept == {}

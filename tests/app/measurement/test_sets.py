@@ -11,7 +11,7 @@ import pytest
 
 import mdr_core as mdr
 from app.common import folders
-from app.common.process import Here, Replaced
+from app.common.process import Replaced, SynchronousWorker
 
 from ...approx import approx
 from ..conftest import READY
@@ -113,7 +113,7 @@ def test_a_set_has_bounds(monkeypatch):
     assert page.curve is not None
 
 
-class Watched(Here):
+class Watched(SynchronousWorker):
     """Jobs that are done at once; after each part of an answer `then` is called, which may stop the job."""
 
     stopped = False

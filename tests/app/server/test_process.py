@@ -16,7 +16,7 @@ import mdr_core as mdr
 from app.common import process
 from app.common.errors import Refused
 from app.common.folders import Files
-from app.common.process import Here, Places, Replaced, Worker, queue_text
+from app.common.process import Places, Replaced, SynchronousWorker, Worker, queue_text
 
 from ..conftest import ROOT
 
@@ -256,7 +256,7 @@ async def test_parts_of_an_answer_come_in_order_and_are_those_without_a_process(
     path.write_text("curve, h (nm), F (mN)\n" + "".join(rows), encoding="utf-8")
     asked = {"medium": "gel", "arguments": {}, "corrections": {}, "samples": (1, 1)}
     parts, others = [], []
-    for worker, part in ((sessions.workers[0], parts.append), (Here(), others.append)):
+    for worker, part in ((sessions.workers[0], parts.append), (SynchronousWorker(), others.append)):
         await worker.run("measurement.analysis.fit_all", str(path), {"by": "curve"}, asked, part=part)
     assert [row.name for row in parts] == ["1", "2", "3"]
     assert parts == others

@@ -104,7 +104,7 @@ def test_files_that_never_end_keep_no_more_than_a_session_may():
     # The bound has 50 parts without what lists them: two files of 20, and 9 of the third.
     ((name, k, text),) = [each for each in refused if each[0] == "c"]
     assert k == 10
-    assert text.startswith("the files on their way have more than 100 MB together; c is left out")
+    assert text.startswith("all incoming files together have more than 100 MB: drop c again")
     # Without that one there is room for the next, and those before go on.
     assert not [each for each in refused if each[0] == "d" and each[1] < 10]
     assert [len(data) for _, data in added(uploads, part("a", 21, 21, FULL))] == [21 * PART_BYTES]

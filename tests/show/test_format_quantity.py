@@ -2,7 +2,7 @@
 
 import pytest
 
-from mdr_core.show.units import KINDS, UNITS, written
+from mdr_core.show.units import KINDS, UNITS, format_quantity
 
 
 def test_units_ascend_and_every_kind_with_an_SI_unit_is_found_by_it():
@@ -20,5 +20,5 @@ def test_units_ascend_and_every_kind_with_an_SI_unit_is_found_by_it():
         (float("inf"), "length", "∞"),
     ],
 )  # fmt: skip
-def test_written(value, kind, text):
-    assert written(value, kind) == text
+def test_a_number_has_four_digits_and_a_fitting_unit(value, kind, text):
+    assert format_quantity(value, kind) == text
