@@ -145,7 +145,7 @@ def stress_from_line_load(x: ArrayLike, q: ArrayLike, r: ArrayLike) -> Array:
     >>> print(round(stress_from_line_load([0.0, 1.0], [1.0, 0.0], 0.5), 12))
     -0.419200718279
     """
-    x, q = _samples(x, q)
+    x, q = _samples(x, q, "line load q", "N/m")
     r = _lengths("radius r", np.abs(check.finite_array("radius r", r, unit="m")))
     if x[-1] == 0:
         # A load only on the axis has no width.
@@ -183,7 +183,7 @@ def surface_displacement(x: ArrayLike, u: ArrayLike, r: ArrayLike) -> Array:
     >>> print(round(float(surface_displacement([0.0, 1.0], [1.0, 1.0], 2.0)), 12))
     0.333333333333
     """
-    x, u = _samples(x, u)
+    x, u = _samples(x, u, "displacement u", "m")
     r = np.abs(check.finite_array("radius r", r, unit="m"))[..., None]
     inside, slope = np.minimum(x, r), np.diff(u) / np.diff(x)
     # On the axis the displacement is the compression of the spring there.
@@ -229,19 +229,21 @@ def _arcosh(x, r):
     return np.log1p((x - r + root(x, r)) / r)
 
 
-def _samples(x, q):
-    """Return coordinates (m) and line load (N/m) as arrays if they are valid samples."""
+def _samples(x, values, quantity, unit):
+    """Return coordinates (m) and values of a quantity as arrays if they are valid samples."""
     x = check.finite_array("coordinate", x, unit="m")
-    q = check.finite_array("line load q", q, unit="N/m", most=check.LARGEST)
-    if x.ndim != 1 or x.shape != q.shape or not x.size:
+    values = check.finite_array(quantity, values, unit=unit, most=check.LARGEST)
+    if x.ndim != 1 or x.shape != values.shape or not x.size:
         raise check.MDRError(
-            f"line load q of shape {q.shape} needs as many coordinates, got shape {x.shape}"
+            f"{quantity} of shape {values.shape} needs as many coordinates, got shape {x.shape}"
         )
-    check.raise_if("coordinate", x, x < 0, "is negative", unit="m", advice="give x ≥ 0; the load is even")
+    check.raise_if(
+        "coordinate", x, x < 0, "is negative", unit="m", advice="give x ≥ 0; the values at −x are the same"
+    )
     back = np.append(False, np.diff(_lengths("coordinate", x)) < 0)
     bound = "comes after a larger coordinate"
     check.raise_if("coordinate", x, back, bound, unit="m", advice="sort the samples")
-    return x, q
+    return x, values
 
 
 def _lengths(quantity, x):
