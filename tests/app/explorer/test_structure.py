@@ -114,7 +114,7 @@ def test_an_isotropic_plate_with_edges_by_its_thickness_and_by_its_stiffness(by)
 
 
 def test_the_sweep_over_the_mass_goes_from_the_plate_without_edges_to_the_support():
-    """And through what the library finds by all modes, to 0.005."""
+    """And through what the library finds by all modes, to the width of a line, at resonances as well."""
     page = Page(f"preset={EDGES}")
     press(page, "e over m")
     state = page.state
@@ -128,9 +128,9 @@ def test_the_sweep_over_the_mass_goes_from_the_plate_without_edges_to_the_suppor
     assert support == approx(np.ones(mass.size), abs=1e-9)
     # Resonances stay below it.
     assert 0.85 < restitution[-1] < 1
-    for k in range(0, mass.size, 18):
+    for k in range(0, mass.size, 3):
         hit = mdr.impact(profile(state), medium(state), mass[k], state.speed, structure=made)
-        assert restitution[k] == approx(float(hit.restitution), abs=5e-3)
+        assert restitution[k] == approx(float(hit.restitution), abs=2e-3)
     # Not where the plate itself is swept.
     swept = state.replace(**{"sweep.swept": "structure.length"})
     assert not {*sweep.LIMITING} & {*last(sweep.found(follow(swept), sweep.asked(swept))).rows}
