@@ -101,8 +101,8 @@ def format_quantity(value: float, kind: str, count: int = 4) -> str:
 
     Examples
     --------
-    >>> from mdr_core.show.units import written
-    >>> written(4.5136e-6, "force"), written(2e-30, "force")
+    >>> from mdr_core.show.units import format_quantity
+    >>> format_quantity(4.5136e-6, "force"), format_quantity(2e-30, "force")
     ('4.514 µN', '2.000 × 10⁻¹⁵ fN')
     """
     if value == 0 or not isfinite(value):

@@ -113,7 +113,7 @@ def test_names_that_are_gone_are_left_out_of_a_link_with_one_line(query, notices
         ("max_depth=deep", "max_depth = “deep”"), ("max_depth=nan", "max_depth = “nan”"),
         ("max_depth", "max_depth = “”"), ("max_depth=+", "max_depth = “ ”"), ("shape=", "shape = “”"),
         ("shape=ball", "shape = “ball”"), ("at=", "at = “”"), ("at=nan", "at = “nan”"),
-        ("at=7", "at = “7” .* 0 to 2.2"), ("preset=none", "preset = “none”"), ("shape=sampled", "shape"),
+        ("at=7", "at = “7” .* 2.2"), ("preset=none", "preset = “none”"), ("shape=sampled", "shape"),
         ("shape=sphere", "shape"), ("shape=sampled&samples=0,0 1", "samples"), ("cone_slope=1e9", "bounds"),
         ("shape=cone&shape=cone", "twice"), ("q_c=" + 9000 * "1", "too long"),
         ("held.scenes=a b c d e", "more than 4"), ("drive=path&path.pattern=own", "path.pattern|vertices"),
