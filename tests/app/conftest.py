@@ -269,6 +269,8 @@ class Explorer:
 
     def change(self, act, *arguments, **options):
         """Do something, and wait until a new scene is there and all is painted."""
+        # The address of an earlier change may still be on its way.
+        self.page.wait_for_function("explorer.idle()")
         self.page.evaluate("window.before = explorer.scene()")
         act(*arguments, **options)
         self.page.wait_for_function("explorer.scene() !== before && explorer.idle()")
