@@ -1,21 +1,31 @@
 """Guided scenes: their steps, what they say, and the powers of the classes."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from app.common import units
 from app.common.host import last
 from app.explorer import changes
 from app.explorer.drives import follow
-from app.explorer.extras import hardness, sweep
+from app.explorer.extras import guide, hardness, sweep
 from app.explorer.extras.guide import TOURS, step_state, step_text
 from app.explorer.extras.notes import limits
 from app.explorer.page import Page
 from app.explorer.state import medium, preset_state
+from mdr_core.show.units import Unit
 
 from ...approx import approx
 from ..states import press, side, stepped
+
+
+def test_the_help_reads_a_number_without_a_unit_as_the_fields_do():
+    help_text = Path(guide.__file__).with_suffix(".html").read_text(encoding="utf-8")
+    ((typed, meant),) = re.findall(r"(\S+) in a field of nanometres is (\d+) nm", help_text)
+    nm = Unit("nm", 1e-9)
+    assert units.read(typed, "length", nm) == (approx(float(meant) * 1e-9, rel=1e-12), nm)
 
 
 def test_guided_scenes_say_what_is_so():
