@@ -253,8 +253,7 @@ unloadings with and without times (`tests/data`, `silica.csv`).
 
 {}
 
-The kinds *refused*, *no unloading*, *medium* and *held* belong to errors and to results without a \
-number to quote.
+The kind *no unloading* belongs to errors and to results without a number to quote.
 
 Made by `python -m tests.benchmarks.fits`.
 """
