@@ -144,6 +144,11 @@ class TestYielding:
         ramp = self.fit(self.RAMP, 1e-10, noise, mdr.Medium(70e9, q_c=2e3))
         assert "creep" not in kinds(ramp)
 
+    def test_a_hold_of_a_thirtieth_of_the_contact_does_not_show_a_drift(self):
+        """4 s at 0.1 nm/s are 0.4 nm. A hold counts from a twentieth of the time in contact on."""
+        top = 1e-9 * np.interp(self.TIME, [0, 5, 85, 89, 140], [-20, 0, 600, 600, 500])
+        assert "creep" not in kinds(self.fit(top, 1e-10))
+
 
 class TestData:
     """A gel from approach and retract, and a metal pressed and unloaded."""
