@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.show.units import UNITS
 
 from .approx import approx
 
@@ -130,3 +131,10 @@ def test_lazy_arrays_are_refused():
     ):
         with pytest.raises(ValueError, match=r"is a lazy array, .* mdr_core.sweep, which keeps it lazy"):
             solve()
+
+
+def test_units_that_are_shown_have_the_factors_of_pint():
+    registry = pytest.importorskip("pint").UnitRegistry()
+    for unit in (unit for units in UNITS.values() for unit in units):
+        si = registry.Quantity(1.0, unit.name.replace("·", "*")).to_base_units()
+        assert si.magnitude == approx(unit.factor, rel=1e-12), unit.name

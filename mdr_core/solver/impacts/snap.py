@@ -38,10 +38,8 @@ def depth_before_snap(rule, imprint, interval, increase, energy, support_complia
     )
     if np.any(snaps):
         # The steepest fall on the way to the depth that the impact has without a support.
-        shares = np.linspace(0, 1, _PLACES)
-        fall = stiffness * np.reshape(
-            1 - displacement_slope(start + (end - start) * shares**3).min(axis=1), shape
-        )
+        _, smallest = _first_at_most(-np.inf, displacement_slope, start, end)
+        fall = stiffness * np.reshape(1 - smallest, shape)
         bound = (
             f"must exceed {fall[snaps].flat[0]:.6g} N/m, the slope at which the force falls after the "
             "onset of yield: below it the contact snaps, with an energy loss that is not computed"
@@ -59,23 +57,28 @@ def snap(rule, imprint, end, support_compliance):
         """Return S at penetrations (m)."""
         return 1 + support_compliance * rule.loading_stiffness_radius(*rule.loading(y, imprint))
 
+    y, value = _first_at_most(0.0, displacement_slope, start, end)
     # Just before the snap: at the snap itself the work has no slope.
-    return (1 - 1e-9) * _first_snap(displacement_slope, start, end), displacement_slope, start
+    return np.where(value <= 0, (1 - 1e-9) * y, np.inf), displacement_slope, start
 
 
-def _first_snap(displacement_slope, start, end):
-    """Return the first penetration (m) with S = 0 between `start` and `end` (N, 1); infinite if none."""
+def _first_at_most(bound, displacement_slope, start, end):
+    """Return the first penetration (m) with S ≤ bound between `start` and `end` (N, 1), and S there.
+
+    If there is none, return the penetration of the smallest S and this S.
+    """
     rows = np.arange(len(start))
     low, high = np.zeros_like(start), np.ones_like(start)
     share = np.linspace(0, 1, _PLACES)
     for _ in range(_GRIDS):
         # A third power, because S changes as a root of the distance next to the onset.
         places = low + (high - low) * share
-        value = displacement_slope(start + (end - start) * places**3)
-        negative = value <= 0
-        snapped = negative.any(axis=1)
-        first = np.where(snapped, negative.argmax(axis=1), value.argmin(axis=1))
+        y = start + (end - start) * places**3
+        value = displacement_slope(y)
+        reached = value <= bound
+        found = reached.any(axis=1)
+        first = np.where(found, reached.argmax(axis=1), value.argmin(axis=1))
         below = np.maximum(first - 1, 0)
-        above = np.where(snapped, first, np.minimum(first + 1, _PLACES - 1))
+        above = np.where(found, first, np.minimum(first + 1, _PLACES - 1))
         low, high = places[rows, below, None], places[rows, above, None]
-    return np.where(snapped[:, None], start + (end - start) * high**3, np.inf)
+    return y[rows, first, None], value[rows, first, None]

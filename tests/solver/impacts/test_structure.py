@@ -1,6 +1,7 @@
 """Impacts on a structure: a plate that carries waves away, a support that gives way."""
 
 import pickle
+import re
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ import mdr_core as mdr
 
 from ...approx import approx
 from ...events import until
-from ...laws import NixGao
+from ...laws import Layered, NixGao
 from ...said import limit_of
 from ...shapes import name
 
@@ -344,6 +345,24 @@ class TestAForceThatFalls:
         with pytest.raises(ValueError, match=r"stiffness = .* the contact snaps") as refused:
             self.hit(0.5 * self.FALL, 1.0)
         assert refused.value.argument == "stiffness"
+
+    @pytest.mark.parametrize("speed", [1.5, 3.0])
+    def test_the_error_gives_the_steepest_fall(self, speed):
+        """Here far below the onset: a hardness that falls at a radius. To the distance of the depths."""
+        tip, medium = mdr.Paraboloid(1.0), mdr.Medium(1.0, hardness=Layered(0.14, 0.6, 1.0, 0.1))
+        depth = float(mdr.yield_depth(tip, medium)) * np.geomspace(1.001, 100, 4000)
+        steepest = -mdr.indent(tip, medium, depth).stiffness.min()
+
+        def hit(stiffness):
+            return mdr.impact(tip, medium, 1.0, speed, structure=mdr.Structure(stiffness=stiffness))
+
+        with pytest.raises(ValueError, match="the contact snaps") as raised:
+            hit(0.5 * steepest)
+        bound = float(re.search(r"must exceed (\S+) N/m", str(raised.value))[1])
+        assert bound == approx(steepest, rel=1e-4)
+        assert hit(bound * (1 + 1e-4)).max_depth > 2
+        with pytest.raises(ValueError, match="the contact snaps"):
+            hit(bound * (1 - 1e-4))
 
     def test_does_not_before_it_yields(self):
         slow = 0.5 * np.sqrt(self.ONSET**2 * 2 * (1 + 2 / (0.5 * self.FALL)))
