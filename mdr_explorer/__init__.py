@@ -52,9 +52,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
         from panel.command import main as panel
     except ImportError:
         sys.exit('mdr-explorer needs Panel, which is not installed: pip install "mdr-core[app]"')
+    if others and (given.static is not None or given.scene is not None):
+        option = "--scene" if given.static is None else "--static"
+        sys.exit(f"mdr-explorer: {option} does not serve, and does not take {' '.join(others)}")
     if given.static is not None:
-        if others:
-            sys.exit(f"mdr-explorer: --static does not serve, and does not take {' '.join(others)}")
         _write(given)
         return
     if given.pyodide:

@@ -118,6 +118,8 @@ def test_the_command_names_its_options_and_another_port(capsys):
             mdr_explorer.main(["--port", str(port)])
     with pytest.raises(SystemExit, match="--static does not serve, and does not take --prefix lab"):
         mdr_explorer.main(["--static", "folder", "--prefix", "lab"])
+    with pytest.raises(SystemExit, match="--scene does not serve, and does not take there"):
+        mdr_explorer.main(["--scene", "?drive=impact", "scene.html", "there"])
 
 
 def test_the_command_says_how_to_install_what_it_needs(monkeypatch):

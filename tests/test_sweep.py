@@ -14,6 +14,7 @@ import pytest
 import mdr_core as mdr
 from mdr_core import sweep
 from mdr_core.show import progress
+from mdr_core.show.quantities import described
 
 from .approx import approx
 
@@ -57,6 +58,24 @@ def test_entries_with_adhesion_viscosity_and_plates_are_solved_apart():
         structure = mdr.Structure(own.pop("impedance"))
         hit = mdr.impact(mdr.Sphere(1e-5), mdr.Medium(1e9, **own), 1e-10, 1.0, structure=structure)
         assert found == approx(hit.restitution, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "structure",
+    [
+        mdr.Structure(stiffness=1e6),
+        mdr.Structure.plate(2e-3, 70e9, 0.3, 2700.0),
+        mdr.Structure.modal(800.0, 0.05),
+    ],
+)
+def test_a_structure_is_that_of_all_impacts_and_of_the_dataset(structure):
+    """Restitution of impacts on a structure against single ones; the attributes describe the structure."""
+    given = {"E_star": 1e9, "mass": 1e-3}
+    table = sweep.impacts(mdr.Sphere, radius=1e-3, **given, q_c=1e5, speed=SPEED, structure=structure)
+    for found, speed in zip(table.restitution.values, SPEED.values, strict=True):
+        hit = mdr.impact(mdr.Sphere(1e-3), mdr.Medium(1e9, q_c=1e5), 1e-3, speed, structure=structure)
+        assert found == approx(hit.restitution, rel=1e-9)
+    assert table.attrs["structure"] == described(structure)
 
 
 def test_dimensions_are_matched_by_name():

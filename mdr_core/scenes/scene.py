@@ -254,7 +254,9 @@ def _build(what, data, kind):
 def _keys(what, data, expected):
     if not isinstance(data, dict) or set(data) != expected:
         names = ", ".join(sorted(map(str, data)))[:200] if isinstance(data, dict) else type(data).__name__
-        raise MDRError(f"{what} must have exactly {', '.join(sorted(expected))}; got {names}")
+        raise MDRError(
+            f"{what} must have exactly {', '.join(sorted(expected))}; got {names or 'none of them'}"
+        )
 
 
 def _no_constant(name):

@@ -46,7 +46,8 @@ def plot_curve(result, quantity, over):
     quantities = quantities_of(result)
     for name in {quantity, over} - set(quantities):
         known = ", ".join(quantities)
-        raise MDRError(f"{type(result).__name__} has no {name!r} to plot; it has {known}")
+        remedy = "plot the motion() of one impact, or two" if hasattr(result, "motion") else "take two"
+        raise MDRError(f"{type(result).__name__} has no {name!r} to plot: {remedy} of {known}")
     if len(result.shape) != 1:
         raise MDRError(f"plot() needs a single path, but this result has shape {result.shape}: select one")
     x, y = (np.asarray(getattr(result, name)) for name in (over, quantity))

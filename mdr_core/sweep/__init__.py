@@ -162,16 +162,17 @@ def impacts(
     ({'radius': 2, 'speed': 3}, [1.0, 0.5426, 0.1184])
     """
     parameters = {"E_star": E_star, "eta": eta, "work_of_adhesion": work_of_adhesion}
-    constants, law = hardness_parameters(q_c, hardness, f_c)
+    constants, common = hardness_parameters(q_c, hardness, f_c)
     parameters |= constants | {"mass": mass, "speed": speed, "plastic_depth": plastic_depth}
     if structure_of(structure).rigid:
         parameters |= {"impedance": impedance, "stiffness": stiffness}
-    elif not (np.all(np.isinf(impedance)) and np.all(np.isinf(stiffness))):
+    elif np.all(np.isinf(impedance)) and np.all(np.isinf(stiffness)):
+        common |= {"structure": structure}
+    else:
         raise check.MDRError(
             "impedance and stiffness are parameters of a structure: give them, or a structure"
         )
-    hit = partial(_hit, structure=structure)
-    return _sweep(Impact, hit, law, shape, parameters, shape_parameters, quantities, invalid)
+    return _sweep(Impact, _hit, common, shape, parameters, shape_parameters, quantities, invalid)
 
 
 def oblique_impacts(
@@ -254,10 +255,10 @@ def indentations(
     return _sweep(Indentation, _press, law, shape, parameters, shape_parameters, quantities, invalid)
 
 
-def _sweep(kind, solve, law, shape, parameters, shape_parameters, quantities, invalid):
+def _sweep(kind, solve, common, shape, parameters, shape_parameters, quantities, invalid):
     """Return the dataset of quantities of a class of results, from `solve` for arrays of parameters.
 
-    `law` is {"hardness": law}, common to all entries, or empty.
+    `common` may have a law of hardness and a structure, which are those of all entries.
     """
     xarray = imported("xarray", "mdr_core.sweep")
     names = [quantities] if isinstance(quantities, str) else list(quantities)
@@ -275,14 +276,15 @@ def _sweep(kind, solve, law, shape, parameters, shape_parameters, quantities, in
     def block(*values):
         values, places = dict(zip(given, values, strict=False)), values[len(given) :]
         return _in_blocks(
-            partial(solve, **law), shape, values, shape_parameters, names, partial(refused.add, places)
+            partial(solve, **common), shape, values, shape_parameters, names, partial(refused.add, places)
         )
 
     lazily = {"dask": "parallelized", "output_dtypes": [float] * len(names)}
     dims, arrays = [[] for _ in names], (*given.values(), *indices(xarray, given))
     results = xarray.apply_ufunc(block, *arrays, output_core_dims=dims, keep_attrs=False, **lazily)
     results = results if len(names) > 1 else [results]
-    attributes = _attributes(kind, shape, given) | {name: described(each) for name, each in law.items()}
+    attributes = _attributes(kind, shape, given)
+    attributes |= {name: described(each) for name, each in common.items()}
     dataset = xarray.Dataset(dict(zip(names, results, strict=True)), attrs=attributes)
     if invalid == "nan" and not dataset.chunks:
         dataset.attrs |= {"invalid_count": refused.count, "invalid": refused.listed}
@@ -333,7 +335,7 @@ def _some(block, chosen):
 
 def _hit(
     profile, E_star, eta, work_of_adhesion, mass, speed, plastic_depth, impedance=np.inf, stiffness=np.inf,
-    *, structure, **hardness,
+    *, structure=None, **hardness,
 ):  # fmt: skip
     medium = Medium(E_star, eta=eta, work_of_adhesion=work_of_adhesion, **hardness)
     structure = Structure(impedance, stiffness) if structure_of(structure).rigid else structure

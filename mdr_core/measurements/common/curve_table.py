@@ -140,7 +140,10 @@ class CurveTable:
         return table.rename_axis("in Pa")
 
     def to_csv(self, file: str | PathLike[str] | TextIO) -> None:
-        """Write the table as CSV, after lines with settings and summary that begin with #."""
+        """Write the table as CSV, after lines with settings and summary that begin with #.
+
+        `pandas.read_csv(file, comment="#")` reads the table.
+        """
         head = [" ".join(f"{name}: {text}".split()) for name, text in self._head().items()]
         summary = self._summary()
         head += [",".join(("in Pa", *row)) for row in [*summary.values()][:1]]

@@ -123,8 +123,9 @@ def _stretches(area, ds):
     """Return the first and last indices of the times between which f is one straight line."""
     slope = np.diff(area) / ds
     bend = np.abs(np.diff(slope)) * np.minimum(ds[1:], ds[:-1])
-    ends = [0, *(1 + np.flatnonzero(bend > 1e-13 * np.max(area))).tolist(), len(ds)]
-    return list(pairwise(ends))
+    bends = (1 + np.flatnonzero(bend > 1e-13 * np.max(area))).tolist()
+    # A single time has no stretch.
+    return list(pairwise([0, *bends, len(ds)])) if len(ds) else []
 
 
 class _Point(NamedTuple):

@@ -60,8 +60,9 @@ def impact(
     ValueError
         If an argument is out of its range. If the indenter would go deeper than the known depth of its
         profile. If a `HardnessLaw` is invalid (negative, jumps) below the largest contact radius. On a
-        structure, if the medium is viscous (`chain_impact` solves this case) or adhesive, or if the contact
-        snaps on a support: its force falls with depth by more than the stiffness of the support.
+        structure, if the medium is viscous (`chain_impact` solves this case, but not with modes) or
+        adhesive, or if the contact snaps on a support: its force falls with depth by more than the
+        stiffness of the support.
 
     Examples
     --------

@@ -53,7 +53,7 @@ class Modes:
         shape = check.common_shape("modes", frequency=frequency, mass=mass, damping=damping)
         if len(shape) != 1 or not shape[0]:
             raise check.MDRError(
-                f"modes have shape {shape}, which must be one-dimensional: give a number, or one per mode"
+                f"modes have shape {shape}, not one dimension and at least one mode: give a number per mode"
             )
         values = {"frequency": frequency, "mass": mass, "damping": damping}
         each = {name: tuple(np.broadcast_to(value, shape).tolist()) for name, value in values.items()}

@@ -113,6 +113,16 @@ def test_what_is_held_stays_and_what_is_freed_is_found():
     assert page.found is None
 
 
+def test_the_table_of_classes_marks_the_class_of_the_fit_and_gives_the_misfit_of_each():
+    page = opened(curve_file())
+    for medium, letter in (("constant", "a"), ("composite", "b"), ("line", "c")):
+        choose(page, medium=medium)
+        cells = re.findall(r"<th>\((\w)\).*?<td>(.*?)</td><td>(.*?)</td>", page.results.classes.object)
+        assert [each for each, _, mark in cells if mark == "fitted"] == [letter]
+        misfits = {each: f"{100 * float(fit.misfit):.2g} %" for each, fit in page.found.fit.classes.items()}
+        assert {each: misfit for each, misfit, _ in cells} == misfits
+
+
 def test_a_drag_and_a_viscosity_are_fitted_where_there_are_times():
     """A viscous gel in a liquid, from before contact and back."""
     made, tip = mdr.Medium(20e3, eta=500.0), mdr.Paraboloid(10e-6)

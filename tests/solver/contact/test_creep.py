@@ -272,6 +272,17 @@ def test_without_dashpots_it_is_the_slow_path(given):
         np.testing.assert_allclose(path[i].line_load(x), slow[i].line_load(x), rtol=1e-12, atol=1e-12)
 
 
+@pytest.mark.parametrize("given", [{"q_c": np.inf}, *MEDIA.values()])
+@pytest.mark.parametrize("shape", [mdr.Cone(0.3), mdr.Sphere(1e-6), mdr.TruncatedCone(1e-7, 0.3)], ids=name)
+def test_a_single_time_is_the_state_of_a_slow_path(shape, given):
+    """The first force is carried by the springs alone. To rounding of the roots."""
+    force = [float(mdr.indent(shape, ELASTIC, 1e-8).force)]
+    slow = mdr.indent_to_force(shape, mdr.Medium(E, **given), force)
+    state = mdr.creep(shape, viscous(given), force, [0.0])
+    assert state.depth == approx(slow.depth, rel=1e-12)
+    assert state.plastic_work == approx(slow.plastic_work, rel=1e-9)
+
+
 def test_times_within_a_long_slow_fall_change_nothing():
     """Of a thousand times τ, in one piece or in many."""
     force, end = 1e-6 * np.array([0.0, 1.0, 0.2]), 1000 * TAU
