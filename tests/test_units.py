@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import mdr_core as mdr
+from mdr_core.measurements.files.units import COLUMN_UNITS
 from mdr_core.show.units import UNITS
 
 from .approx import approx
@@ -133,8 +134,12 @@ def test_lazy_arrays_are_refused():
             solve()
 
 
-def test_units_that_are_shown_have_the_factors_of_pint():
-    registry = pytest.importorskip("pint").UnitRegistry()
-    for unit in (unit for units in UNITS.values() for unit in units):
-        si = registry.Quantity(1.0, unit.name.replace("·", "*")).to_base_units()
-        assert si.magnitude == approx(unit.factor, rel=1e-12), unit.name
+def test_units_of_the_page_and_of_files_have_the_sizes_of_pint():
+    """Pounds of files have eight digits. Grams and pounds of a force are gf and lbf."""
+    registry, forces = pytest.importorskip("pint").UnitRegistry(), {"g": "gf", "lb": "lbf"}
+    sizes = {
+        unit.name: unit.factor for units in UNITS.values() for unit in units if unit.name not in forces
+    }
+    for name, size in [*sizes.items(), *(each for kind in COLUMN_UNITS.values() for each in kind.items())]:
+        known = registry.Quantity(1.0, forces.get(name, name).replace("·", "*"))
+        assert known.to_base_units().magnitude == approx(size, rel=1e-8), name

@@ -83,6 +83,8 @@ def test_each_has_its_own_row_and_colour_in_every_plot_on_common_axes():
         np.testing.assert_array_equal(rows[f"held {k}"][1], held.course.states.force)
         for name in ("pressure", "springs"):
             assert np.isfinite(view.places(PLOTS[name], view.course.now)[f"held {k}"][1]).all()
+        for name in ("force", "pressure", "springs"):
+            assert "beyond" not in view.places(PLOTS[name], view.course.now)[f"held {k}"][-1]
         # The springs under the tip are as deep as it.
         low = np.min(view.places(PLOTS["springs"], view.course.now)[f"held {k}"][1])
         assert low == approx(-float(held.course.state.depth), rel=1e-6)

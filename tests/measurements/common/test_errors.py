@@ -1,6 +1,7 @@
 """Standard errors of linear problems whose covariance is known in closed form."""
 
 import numpy as np
+import pytest
 
 from mdr_core.measurements.common.errors import block_factors, covariances
 
@@ -35,3 +36,20 @@ def test_errors_with_correlated_residuals_are_those_without_a_parameter_that_doe
     # Of 60 runs, whose variance is known to a fifth, by blocks of twice their length.
     assert factor == approx(np.sqrt(10), rel=0.2)
     assert block_factors(residual, np.insert(one, 1, 0.0, axis=1), 20)[0] == approx(factor, rel=1e-12)
+
+
+@pytest.mark.parametrize("length", [2, 7, 20])
+@pytest.mark.parametrize("place", [0, 3])
+def test_the_factor_is_that_of_the_sums_over_all_pairs_of_samples(length, place):
+    """Both estimates of the docstring as double sums; the influences are rows of the pseudo-inverse."""
+    t = np.arange(30.0)
+    residual = np.convolve(np.random.default_rng(place).standard_normal(34), np.ones(5), "valid")
+    jacobian = np.column_stack([np.ones(30), t, np.exp(-((t - place) ** 2) / 8)])
+    psi = np.linalg.pinv(jacobian)
+    apart = np.abs(np.subtract.outer(t, t)).astype(int)
+    weight = np.maximum(1 - apart / length, 0)
+    lagged = np.array([residual[k:] @ residual[: 30 - k] for k in range(30)])
+    pairs = np.outer(residual, residual) / np.mean(residual**2), lagged[apart] / lagged[0]
+    larger = np.max([np.einsum("pi,pj,ij->p", psi, psi, weight * each) for each in pairs], axis=0)
+    expected = np.sqrt(np.maximum(1.0, larger / np.sum(psi**2, axis=1)))
+    np.testing.assert_allclose(block_factors(residual, jacobian, length), expected, rtol=1e-10)
