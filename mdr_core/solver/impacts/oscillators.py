@@ -94,7 +94,7 @@ def _convolved(rate, i):
 
 
 #: ∫₀^c (c − τ) ℓ_j dτ and the derivative at the nodes c, and ∫₀¹ ℓ_j dτ.
-DISPLACEMENTS, SLOPE, WHOLE = integral_at(NODES, 2), slope_at(NODES), integral_at([1.0])[0]
+DISPLACEMENTS, SLOPE, WHOLE = integral_at(NODES, 2), slope_at(NODES), integral_at(np.ones(1))[0]
 
 
 class Oscillators:
