@@ -151,6 +151,16 @@ def test_a_rate_and_a_voltage_are_of_other_kinds(write):
     assert_curve(mdr.read_curve(write(table(*heads, columns=(NM, MN, 0 * NM + 1, NM, MN)))))
 
 
+@pytest.mark.parametrize(
+    ("head", "suggested"),
+    [("Z", "piezo"), ("Piezo Z", "piezo"), ("Height", "piezo"), ("MeasuredHeight", "piezo"), ("Zero", "depth")],
+)
+def test_a_position_under_a_small_force_is_suggested_as_a_piezos(asked, head, suggested):
+    """A short name counts as a whole word alone."""
+    error = asked(table(f"{head} (nm)", "Force (nN)", columns=(1e9 * PIEZO, 1e9 * SMALL)))
+    assert error.suggestion["columns"] == {suggested: (0, "nm"), "force": (1, "nN")}
+
+
 @pytest.mark.parametrize(("head", "suggested"), [("Displacement", "piezo"), ("h", "depth")])
 def test_a_displacement_of_a_small_force_may_be_a_piezos(asked, write, head, suggested):
     """Below 10 µN; a nanoindenter's displacement under 8 mN is a depth."""
