@@ -5,6 +5,7 @@ import io
 import numpy as np
 import pytest
 
+from app.explorer.extras.cards import of_all
 from app.explorer.figures import drawn, legend
 from app.explorer.plots import PLOTS
 from mdr_core.show.figures import ROLES
@@ -131,3 +132,17 @@ def test_all_plots_are_one_picture_of_twice_the_screen(projector):
     for part, colour in places:
         wanted = [int(colour[k : k + 2], 16) for k in (1, 3, 5)]
         assert (np.abs(part - wanted).max(axis=2) < 8).sum() > 500
+
+
+@pytest.mark.parametrize("tiles", [(), ("hardness",)])
+def test_plots_of_one_picture_fill_it_side_by_side(tiles):
+    """1280 pixels × 696 pixels above the caption, without a gap, each the same width."""
+    view = view_of(state_with().replace(tiles=tiles))
+    view.computed["save"] = {}
+    places = [plot["place"] for plot in of_all(None, view).look["plots"]]
+    assert len(places) == 3 + len(tiles)
+    filled = np.zeros((696, 1280), int)
+    for left, top, width, height in places:
+        filled[top : top + height, left : left + width] += 1
+    assert np.all(filled == 1)
+    assert {width for _, _, width, _ in places} == {640}

@@ -153,7 +153,13 @@ def test_a_rate_and_a_voltage_are_of_other_kinds(write):
 
 @pytest.mark.parametrize(
     ("head", "suggested"),
-    [("Z", "piezo"), ("Piezo Z", "piezo"), ("Height", "piezo"), ("MeasuredHeight", "piezo"), ("Zero", "depth")],
+    [
+        ("Z", "piezo"),
+        ("Piezo Z", "piezo"),
+        ("Height", "piezo"),
+        ("MeasuredHeight", "piezo"),
+        ("Zero", "depth"),
+    ],
 )
 def test_a_position_under_a_small_force_is_suggested_as_a_piezos(asked, head, suggested):
     """A short name counts as a whole word alone."""
