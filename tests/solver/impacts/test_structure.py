@@ -95,10 +95,14 @@ def by_integration(profile, medium, structure):
     largest = state[0]
     end = float(mdr.indent(profile, medium, largest).plastic_depth)
 
-    def free(_, state):
-        return state[0] - end
+    # An elastic contact has the kinks of its loading.
+    kinks = [float(k) for k in profile.kinks if end == 0 < k < largest]
+    for edge in [*sorted(kinks, reverse=True), end]:
 
-    _, time, state = until(rates(largest, end), (time, state), (free,), **options)
+        def at_edge(_, state, edge=edge):
+            return state[0] - edge
+
+        _, time, state = until(rates(largest, end), (time, state), (at_edge,), **options)
     return -state[1] / SPEED, time, largest
 
 
