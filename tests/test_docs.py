@@ -35,6 +35,8 @@ BLOCKS = [
 ROWS = [row for row in (DOCS / "equations.md").read_text("utf-8").splitlines() if re.match(r"\| \(\d", row)]
 #: Optional packages that a block needs besides those that it imports.
 NEEDED = {
+    "to_excel": "openpyxl",
+    ".plot()": "holoviews",
     "to_pandas": "pandas",
     "to_xarray": "xarray",
     "import app": "panel",
