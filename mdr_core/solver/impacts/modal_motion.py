@@ -265,8 +265,7 @@ class ModalMotion:
         for _ in range(3):
             overlap, rate = gap(rest)
             rest -= overlap / min(rate, -1e-300)
-        if 0 < rest <= h:
-            self._fly(rest, self.unit)
+        self._fly(min(max(rest, 0.0), h), self.unit)
         self.hits.append(Hit(start, self.time, float(largest.max()), float(impulse.sum())))
 
     def _halved(self, h, times=1):
