@@ -14,7 +14,7 @@ from warnings import warn
 
 from .base.check import no_attribute
 
-__version__ = "0.9.0.dev0"
+__version__ = "0.9.0"
 
 #: Modules of the public names, also read by type checkers and editors. A module is imported at the first
 #: access to one of its names.
