@@ -167,7 +167,7 @@ def motion_at(hit, time):
     y, p, yields = found["penetration"], found["imprint"], found["yields"]
     interval, increase = law.rule.loading(np.maximum(y, 0.0), p)
     increase = np.where(yields, increase, 0.0)
-    # In a flight, and at the end of contact, nothing is compressed, although y may be above 0 by rounding.
+    # Without a force nothing is compressed, although y may be above 0 at the end of a contact.
     live = np.where(found["force"] > 0, np.where(yields, interval.length, np.maximum(y, 0.0)), 0.0)
     stiffness = law.modulus * np.where(
         yields, law.rule.loading_stiffness_radius(interval, increase), law.rule.profile.radius_at(p + live)

@@ -261,11 +261,12 @@ class ModalMotion:
         impulse, largest = np.transpose(done)
         self.force = 0.0
         # The rest has no impulse, but up to 10⁻⁴ of the contact time: for F ∝ dⁿ the share 10⁻¹³ᐟ⁽ⁿ⁺¹⁾.
-        gap = self._gap()
+        gap, rest = self._gap(), min(rest, h)
         for _ in range(3):
             overlap, rate = gap(rest)
-            rest -= overlap / min(rate, -1e-300)
-        self._fly(min(max(rest, 0.0), h), self.unit)
+            # The contact is lost within the last step.
+            rest = min(max(rest - overlap / rate, 0.0), h) if rate < 0 else rest
+        self._fly(rest, self.unit)
         self.hits.append(Hit(start, self.time, float(largest.max()), float(impulse.sum())))
 
     def _halved(self, h, times=1):
@@ -316,10 +317,7 @@ class ModalMotion:
         return impulse, largest
 
     def _gap(self):
-        """Return the function that gives the overlap (m), negative in flight, and its rate (m/s).
-
-        Its argument is the time (s) from now on, without a force.
-        """
+        """Return a function of a free time (s): the overlap (m), below 0 in flight, and its rate (m/s)."""
         root, swing = self.system.root, self.z / self.system.root.imag
         drift, position = -np.sum(self.v), -np.sum(self.x) - self.law.plastic_depth
 
